@@ -1,0 +1,1 @@
+"""The link between a driver and its robots: in process, or over zenoh between processes."""

@@ -1,0 +1,154 @@
+"""The messages between a driver and a robot: typed, versioned, MessagePack on the wire.
+
+A driver sends a :class:`Question`, the robot answers it with a :class:`Decision`. Everything
+logical is ASP text as in the documents: an atom is ``"loc(book1,kitchen)"``, its negation
+``"-loc(book1,kitchen)"``. Steps are the environment's and the history's alike (spec 2): 0 is the
+selection of the goal, the first decision is the one of step 1.
+"""
+
+from typing import TypeVar
+
+import msgspec
+
+from testbed.link.errors import LinkError
+
+PROTOCOL_VERSION = 1
+
+
+class Part(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Something that travels inside a message."""
+
+
+class Message(Part, frozen=True, kw_only=True):
+    """Something that travels alone, and therefore carries the protocol's version."""
+
+    version: int = PROTOCOL_VERSION
+
+
+class Task(Part, frozen=True, kw_only=True):
+    """What a robot is told once, before its first percept of a trial.
+
+    ``domain`` and ``source`` are the name and the AL_d text of the domain, ``goal`` a list of
+    literals, ``initial`` every literal the robot knows to hold at step 0, ``plan_limit`` the
+    greatest number of actions in a plan.
+    """
+
+    trial: str
+    robot: str
+    domain: str
+    source: str
+    goal: list[str]
+    initial: list[str]
+    plan_limit: int
+    seed: int
+
+
+class Percept(Part, frozen=True, kw_only=True):
+    """What the robot is told at ``step``, before it decides what to attempt there.
+
+    ``visible`` are the literals it sees now; ``attempted`` and ``happened`` its attempt at the
+    previous step and whether it took effect (both None at step 1); ``events`` the exogenous
+    actions of the previous step it was told of; ``goal_holds`` is False after a ``finish`` that
+    the goal did not bear out, None when nothing is said about the goal.
+    """
+
+    trial: str
+    step: int
+    visible: list[str]
+    attempted: str | None = None
+    happened: bool | None = None
+    events: list[str] = []
+    goal_holds: bool | None = None
+
+
+class Question(Message, frozen=True, kw_only=True):
+    """What the driver asks: a percept, and with the first one of a trial its task."""
+
+    percept: Percept
+    task: Task | None = None
+
+
+class Event(Part, frozen=True, kw_only=True):
+    """An action at a step of the history."""
+
+    step: int
+    action: str
+
+
+class Explanation(Part, frozen=True, kw_only=True):
+    """What the robot adopted to make its history consistent (spec 2, phase one).
+
+    ``unobserved`` are exogenous actions, ``exceptions`` the literals that hold at step 0 against
+    a default.
+    """
+
+    step: int
+    unobserved: list[Event]
+    exceptions: list[str]
+
+
+class Trace(Part, frozen=True, kw_only=True):
+    """The mind behind a decision, for records and readers; the environment never acts on it.
+
+    ``mental`` is the mental action of the step (``"start(1)"``, ``"stop(1)"``), ``plan`` the
+    physical actions still ahead, ``belief`` the atoms believed true, ``explanation`` is given at
+    the step at which it is newly adopted, ``futile_at`` the step at which the activity was
+    declared futile, ``plans`` the number of activities so far. Times are seconds for this step.
+    """
+
+    mental: str | None = None
+    intention: str = ""
+    activity: int | None = None
+    plan: list[str] = []
+    belief: list[str] = []
+    explanation: Explanation | None = None
+    futile_at: int | None = None
+    reason: str = ""
+    plans: int = 0
+    planning_time_s: float = 0.0
+    diagnosis_time_s: float = 0.0
+
+
+class Decision(Message, frozen=True, kw_only=True):
+    """The robot's answer at a step: a ground physical action, ``"wait"`` or ``"finish"``."""
+
+    trial: str
+    step: int
+    action: str
+    believes_goal: bool
+    trace: Trace
+
+
+class _Envelope(msgspec.Struct):
+    """The one field that every version of every message has; here it has no default."""
+
+    version: int
+
+
+M = TypeVar("M", bound=Message)
+
+_encoder = msgspec.msgpack.Encoder()
+_envelope = msgspec.msgpack.Decoder(_Envelope)
+
+
+def encode(message: Message) -> bytes:
+    """Return the bytes of a message."""
+    return _encoder.encode(message)
+
+
+def decode(payload: bytes, kind: type[M]) -> M:
+    """Return the message of type ``kind`` in ``payload``.
+
+    Raises LinkError, with one line that says what is wrong, for another protocol version or for
+    anything that is not a message of this type.
+    """
+    try:
+        _check_version(_envelope.decode(payload).version)
+        return msgspec.msgpack.decode(payload, type=kind)
+    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+        raise LinkError(f"not a {kind.__name__}: {error}") from error
+
+
+def _check_version(version: int) -> None:
+    if version != PROTOCOL_VERSION:
+        raise LinkError(f"protocol version {version}, understood is {PROTOCOL_VERSION}")
