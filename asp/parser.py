@@ -1,0 +1,208 @@
+"""From AL_d text to its abstract syntax."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from lark import Lark, Token, Transformer, v_args
+from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
+from lark.tree import Meta
+
+from asp import syntax
+from asp.errors import SourceError
+
+_READABLE = {
+    "NAME": "a name",
+    "VARIABLE": "a variable",
+    "NUMBER": "a number",
+    "DECIMAL": "a number",
+    "DOT": "a full stop",
+    "LPAR": "'('",
+    "RPAR": "')'",
+    "COMMA": "','",
+    "EQUAL": "'='",
+    "UNEQUAL": "'!='",
+    "MINUS": "'-'",
+    "PLUS": "'+'",
+    "LBRACE": "'{'",
+    "RBRACE": "'}'",
+    "COLON": "':'",
+}
+_SECTIONS = (
+    "SORTS STATICS FLUENTS ACTIONS LAWS FACTS SEES SHOWS COSTS INITIALLY SCENARIOS".split()
+)
+
+
+def parse(text: str, file: str = "<text>") -> syntax.Source:
+    """Parses an AL_d text. `file` is the name used in errors. Raises SourceError."""
+    try:
+        tree = _grammar().parse(text)
+    except UnexpectedInput as error:
+        raise _syntax_error(error, text, file) from None
+    statements = _ToSyntax().transform(tree)
+    return syntax.Source(file, text, statements, _comments(text))
+
+
+@cache
+def _grammar() -> Lark:
+    grammar = files("asp").joinpath("al.lark").read_text(encoding="utf-8")
+    return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
+
+
+def _syntax_error(error: UnexpectedInput, text: str, file: str) -> SourceError:
+    if isinstance(error, UnexpectedToken) and error.token.type == "$END" or isinstance(
+        error, UnexpectedEOF
+    ):
+        lines = text.splitlines() or [""]
+        return SourceError(
+            file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement"
+        )
+    if isinstance(error, UnexpectedCharacters):
+        return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
+    assert isinstance(error, UnexpectedToken)
+    expected = _describe(set(error.accepts or error.expected))
+    message = f"unexpected {str(error.token)!r}; expected {expected}"
+    return SourceError(file, error.line, error.column, message)
+
+
+def _describe(expected: set[str]) -> str:
+    if expected.issuperset(_SECTIONS):
+        expected = expected.difference(_SECTIONS)
+        words = ["a section word such as sorts or laws"]
+    else:
+        words = []
+    words += sorted(_READABLE.get(name, repr(name.lower())) for name in expected - {"$END"})
+    return " or ".join(dict.fromkeys(words))
+
+
+def _comments(text: str) -> tuple[syntax.Comment, ...]:
+    found = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        match = re.search(r"%.*", line)
+        if match:
+            alone = not line[: match.start()].strip()
+            found.append(syntax.Comment(number, match.group().rstrip(), alone))
+    return tuple(found)
+
+
+def _place(meta: Meta | Token) -> syntax.Place:
+    assert meta.line is not None and meta.column is not None
+    return syntax.Place(meta.line, meta.column)
+
+
+@v_args(meta=True)
+class _ToSyntax(Transformer[Token, Any]):
+    """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules."""
+
+    def _section(self, _: Meta, children: list[Any]) -> list[syntax.Statement]:
+        return children[1:]
+
+    sorts = statics = fluents = actions = laws = facts = costs = scenarios = _section
+    sees_section = shows_section = initially_section = _section
+
+    def start(self, _: Meta, sections: list[list[syntax.Statement]]) -> Any:
+        return tuple(statement for section in sections for statement in section)
+
+    def sort(self, meta: Meta, children: list[Any]) -> syntax.SortDefinition:
+        return syntax.SortDefinition(
+            _place(meta), meta.end_line, str(children[0]), tuple(children[1:])
+        )
+
+    def members(self, _: Meta, constants: list[syntax.Term]) -> tuple[syntax.Term, ...]:
+        return tuple(constants)
+
+    def range(self, meta: Meta, bounds: list[Token]) -> tuple[syntax.Term, ...]:
+        low, high = map(int, bounds)
+        return tuple(syntax.Term(str(n), _place(meta)) for n in range(low, high + 1))
+
+    def signature(self, meta: Meta, children: list[Any]) -> tuple[str, tuple[syntax.Term, ...]]:
+        return str(children[0]), tuple(c for c in children[1:] if c is not None)
+
+    def static(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
+        return syntax.Declaration(_place(meta), meta.end_line, "static", *children[0])
+
+    def fluent(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
+        kind, (name, sorts) = children
+        return syntax.Declaration(_place(meta), meta.end_line, kind.value, name, sorts)
+
+    action = fluent
+
+    def causal_law(self, meta: Meta, children: list[Any]) -> syntax.CausalLaw:
+        action, head, body = children
+        return syntax.CausalLaw(_place(meta), meta.end_line, action, head, body or ())
+
+    def executability(self, meta: Meta, children: list[Any]) -> syntax.ExecutabilityCondition:
+        *actions, body = children
+        return syntax.ExecutabilityCondition(
+            _place(meta), meta.end_line, tuple(actions), body or ()
+        )
+
+    def state_constraint(self, meta: Meta, children: list[Any]) -> syntax.StateConstraint:
+        head, body = children
+        return syntax.StateConstraint(_place(meta), meta.end_line, head, body or ())
+
+    def fact(self, meta: Meta, children: list[Any]) -> syntax.Fact:
+        return syntax.Fact(_place(meta), meta.end_line, children[0])
+
+    def sees(self, meta: Meta, children: list[Any]) -> syntax.SeesStatement:
+        robot, fluent, body = children
+        return syntax.SeesStatement(_place(meta), meta.end_line, robot, fluent, body or ())
+
+    def shows(self, meta: Meta, children: list[Any]) -> syntax.ShowsStatement:
+        action, fluent, body = children
+        return syntax.ShowsStatement(_place(meta), meta.end_line, action, fluent, body or ())
+
+    def cost(self, meta: Meta, children: list[Any]) -> syntax.CostStatement:
+        action, units = children
+        return syntax.CostStatement(_place(meta), meta.end_line, action, int(units))
+
+    def initially(self, meta: Meta, children: list[Any]) -> syntax.InitiallyStatement:
+        return syntax.InitiallyStatement(_place(meta), meta.end_line, *children)
+
+    def trigger(self, meta: Meta, children: list[Any]) -> syntax.TriggerStatement:
+        scenario, event, upon, drawing, body, probability = children
+        drawn, pool = drawing or (None, ())
+        return syntax.TriggerStatement(
+            _place(meta),
+            meta.end_line,
+            scenario=str(scenario),
+            event=event,
+            upon=None if isinstance(upon, Token) else upon,
+            drawn=drawn,
+            pool=pool,
+            body=body or (),
+            probability=1.0 if probability is None else probability,
+        )
+
+    def drawing(self, _: Meta, children: list[Any]) -> tuple[syntax.Term, syntax.Body]:
+        variable, body = children
+        return variable, body or ()
+
+    def probability(self, _: Meta, children: list[Token]) -> float:
+        return float(children[0])
+
+    def if_body(self, _: Meta, children: list[syntax.Body]) -> syntax.Body:
+        return children[0]
+
+    def body(self, _: Meta, conditions: list[syntax.Condition]) -> syntax.Body:
+        return tuple(conditions)
+
+    def comparison(self, meta: Meta, children: list[Any]) -> syntax.Comparison:
+        left, sign, right = children
+        return syntax.Comparison(left, right, sign.type == "EQUAL", _place(meta))
+
+    def literal(self, _: Meta, children: list[Any]) -> syntax.Literal:
+        minus, atom = children
+        return syntax.Literal(atom, minus is None)
+
+    def atom(self, meta: Meta, children: list[Any]) -> syntax.Atom:
+        args = tuple(c for c in children[1:] if c is not None)
+        return syntax.Atom(str(children[0]), args, _place(meta))
+
+    def constant(self, _: Meta, children: list[Token]) -> syntax.Term:
+        return syntax.Term(str(children[0]), _place(children[0]))
+
+    variable = constant

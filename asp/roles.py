@@ -1,0 +1,107 @@
+"""Which symbols may stand where in a statement, and what a variable there ranges over."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import singledispatch
+
+from asp import syntax
+
+FLUENTS = frozenset({"inertial", "defined"})
+DOMAIN = FLUENTS | {"static"}
+AGENT = frozenset({"agent"})
+EXOGENOUS = frozenset({"exogenous"})
+ACTIONS = AGENT | EXOGENOUS
+SORT = "sort"
+
+
+@dataclass(frozen=True)
+class Use:
+    """An atom of a statement with the kinds of symbols that may stand there."""
+
+    atom: syntax.Atom
+    kinds: frozenset[str]
+    wanted: str
+
+
+@singledispatch
+def uses(statement: syntax.Statement) -> Iterator[Use]:
+    """Every atom of the statement with its role; none in sorts and declarations."""
+    yield from ()
+
+
+@uses.register
+def _(law: syntax.CausalLaw) -> Iterator[Use]:
+    yield Use(law.action, ACTIONS, "an action before 'causes'")
+    yield Use(law.head.atom, frozenset({"inertial"}), "an inertial fluent as the effect")
+    yield from _body(law.body)
+
+
+@uses.register
+def _(law: syntax.StateConstraint) -> Iterator[Use]:
+    yield Use(law.head.atom, DOMAIN, "a fluent or a static as the head")
+    yield from _body(law.body)
+
+
+@uses.register
+def _(law: syntax.ExecutabilityCondition) -> Iterator[Use]:
+    for action in law.actions:
+        yield Use(action, ACTIONS, "an action after 'impossible'")
+    yield from _body(law.body)
+
+
+@uses.register
+def _(fact: syntax.Fact) -> Iterator[Use]:
+    yield Use(fact.literal.atom, frozenset({"static"}), "a static as a fact")
+
+
+@uses.register
+def _(statement: syntax.SeesStatement) -> Iterator[Use]:
+    yield Use(statement.fluent, FLUENTS, "a fluent after 'sees'")
+    yield from _body(statement.body)
+
+
+@uses.register
+def _(statement: syntax.ShowsStatement) -> Iterator[Use]:
+    yield Use(statement.action, AGENT, "an agent action before 'shows'")
+    yield Use(statement.fluent, FLUENTS, "a fluent after 'shows'")
+    yield from _body(statement.body)
+
+
+@uses.register
+def _(statement: syntax.CostStatement) -> Iterator[Use]:
+    yield Use(statement.action, AGENT, "an agent action before 'costs'")
+
+
+@uses.register
+def _(statement: syntax.InitiallyStatement) -> Iterator[Use]:
+    yield Use(statement.fluent, FLUENTS, "a fluent before 'for some'")
+
+
+@uses.register
+def _(statement: syntax.TriggerStatement) -> Iterator[Use]:
+    yield Use(statement.event, EXOGENOUS, "an exogenous action as the event")
+    if statement.upon is not None:
+        yield Use(statement.upon, AGENT, "an agent action after 'upon'")
+    yield from _body(statement.pool)
+    yield from _body(statement.body)
+
+
+def _body(body: syntax.Body) -> Iterator[Use]:
+    for literal in literals(body):
+        yield Use(literal.atom, DOMAIN | {SORT}, "a fluent, a static or a sort in a body")
+
+
+def literals(body: Iterable[syntax.Condition]) -> Iterator[syntax.Literal]:
+    return (condition for condition in body if isinstance(condition, syntax.Literal))
+
+
+def comparisons(body: Iterable[syntax.Condition]) -> Iterator[syntax.Comparison]:
+    return (condition for condition in body if isinstance(condition, syntax.Comparison))
+
+
+def bodies(statement: syntax.Statement) -> Iterator[syntax.Condition]:
+    """The conditions of all the bodies of a statement."""
+    for field in ("body", "pool"):
+        yield from getattr(statement, field, ())

@@ -1,0 +1,101 @@
+"""The sorted signature of a description: its sorts with their members, its symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from asp import syntax
+from asp.errors import SourceError
+
+
+class Problems(list[SourceError]):
+    """The mistakes found so far in one text."""
+
+    def __init__(self, file: str) -> None:
+        super().__init__()
+        self.file = file
+
+    def report(self, place: syntax.Place, message: str) -> None:
+        self.append(SourceError(self.file, place.line, place.column, message))
+
+    def raise_first(self) -> None:
+        """Raises the first mistake in the order of the source, which then knows all of them."""
+        if self:
+            ordered = sorted(self, key=lambda error: (error.line, error.column))
+            ordered[0].all = tuple(ordered)
+            raise ordered[0]
+
+
+@dataclass(frozen=True)
+class Signature:
+    """Sorts (members in the order of declaration) and declared symbols, both by name."""
+
+    sorts: Mapping[str, tuple[str, ...]]
+    symbols: Mapping[str, syntax.Declaration]
+
+    @property
+    def constants(self) -> frozenset[str]:
+        return frozenset(member for members in self.sorts.values() for member in members)
+
+
+def signature_of(source: syntax.Source, problems: Problems) -> Signature:
+    """The signature that the sorts, statics, fluents and actions sections declare."""
+    sorts: dict[str, tuple[str, ...]] = {}
+    symbols: dict[str, syntax.Declaration] = {}
+    taken: dict[str, int] = {}
+    for statement in source.statements:
+        if isinstance(statement, syntax.SortDefinition):
+            _claim(statement.name, statement, taken, problems)
+            sorts[statement.name] = _members(statement, sorts, problems)
+        elif isinstance(statement, syntax.Declaration):
+            _claim(statement.name, statement, taken, problems)
+            _check_sorts(statement, sorts, problems)
+            symbols[statement.name] = statement
+    return Signature(sorts, symbols)
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """`; did you mean 'x'?` for the known name nearest to a misspelt one, else what is known."""
+    names = list(known)
+    near = get_close_matches(name, names, n=1)
+    if near:
+        return f"; did you mean '{near[0]}'?"
+    return f"; known are {', '.join(names)}" if names else ""
+
+
+def _claim(
+    name: str, statement: syntax.Statement, taken: dict[str, int], problems: Problems
+) -> None:
+    if name in taken:
+        problems.report(
+            statement.place, f"the name '{name}' is used twice; first in line {taken[name]}"
+        )
+    taken.setdefault(name, statement.place.line)
+
+
+def _members(
+    definition: syntax.SortDefinition, sorts: Mapping[str, tuple[str, ...]], problems: Problems
+) -> tuple[str, ...]:
+    members: list[str] = []
+    for part in definition.parts:
+        if isinstance(part, tuple):
+            members += (constant.name for constant in part)
+        elif part.name in sorts:
+            members += sorts[part.name]
+        else:
+            problems.report(
+                part.place, f"unknown sort '{part.name}'{suggestion(part.name, sorts)}"
+            )
+    return tuple(dict.fromkeys(members))
+
+
+def _check_sorts(
+    declaration: syntax.Declaration, sorts: Mapping[str, tuple[str, ...]], problems: Problems
+) -> None:
+    for sort in declaration.sorts:
+        if sort.name not in sorts:
+            problems.report(
+                sort.place, f"unknown sort '{sort.name}'{suggestion(sort.name, sorts)}"
+            )

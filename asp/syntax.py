@@ -1,0 +1,178 @@
+"""The abstract syntax of AL_d: what the parser makes of a text, before any sort is known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal as Choice
+from typing import TypeVar
+
+S = TypeVar("S", bound="Statement")
+
+FluentKind = Choice["inertial", "defined"]
+ActionKind = Choice["agent", "exogenous"]
+SymbolKind = Choice["static", "inertial", "defined", "agent", "exogenous"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Line and column, both counted from 1."""
+
+    line: int
+    column: int
+
+
+@dataclass(frozen=True)
+class Term:
+    """A constant or a variable."""
+
+    name: str
+    place: Place
+
+    @property
+    def is_variable(self) -> bool:
+        return self.name[0].isupper()
+
+
+@dataclass(frozen=True)
+class Atom:
+    name: str
+    args: tuple[Term, ...]
+    place: Place
+
+
+@dataclass(frozen=True)
+class Literal:
+    atom: Atom
+    positive: bool
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """`left = right` or, when not `equal`, `left != right`."""
+
+    left: Term
+    right: Term
+    equal: bool
+    place: Place
+
+
+Condition = Literal | Comparison
+Body = tuple[Condition, ...]
+
+
+@dataclass(frozen=True)
+class Statement:
+    """Anything that ends with a full stop; `last_line` is the line of that full stop."""
+
+    place: Place
+    last_line: int
+
+
+@dataclass(frozen=True)
+class SortDefinition(Statement):
+    """`name = part + part.` A part is the name of a sort or a tuple of constants."""
+
+    name: str
+    parts: tuple[Term | tuple[Term, ...], ...]
+
+
+@dataclass(frozen=True)
+class Declaration(Statement):
+    """A static, fluent or action with the sorts of its arguments."""
+
+    kind: SymbolKind
+    name: str
+    sorts: tuple[Term, ...]
+
+
+@dataclass(frozen=True)
+class CausalLaw(Statement):
+    action: Atom
+    head: Literal
+    body: Body
+
+
+@dataclass(frozen=True)
+class StateConstraint(Statement):
+    head: Literal
+    body: Body
+
+
+@dataclass(frozen=True)
+class ExecutabilityCondition(Statement):
+    actions: tuple[Atom, ...]
+    body: Body
+
+
+@dataclass(frozen=True)
+class Fact(Statement):
+    literal: Literal
+
+
+@dataclass(frozen=True)
+class SeesStatement(Statement):
+    """`robot sees fluent if body`: in which states the robot sees whether the fluent holds."""
+
+    robot: Term
+    fluent: Atom
+    body: Body
+
+
+@dataclass(frozen=True)
+class ShowsStatement(Statement):
+    """`action shows fluent if body`: what the outcome of an action lets its agent see."""
+
+    action: Atom
+    fluent: Atom
+    body: Body
+
+
+@dataclass(frozen=True)
+class CostStatement(Statement):
+    """`action costs n`, in execution units."""
+
+    action: Atom
+    units: int
+
+
+@dataclass(frozen=True)
+class InitiallyStatement(Statement):
+    """`fluent for some V`: in an initial state the fluent is true for at least one V."""
+
+    fluent: Atom
+    variable: Term
+
+
+@dataclass(frozen=True)
+class TriggerStatement(Statement):
+    """`scenario: event upon action drawing V with pool if body probability p`."""
+
+    scenario: str
+    event: Atom
+    upon: Atom | None
+    drawn: Term | None
+    pool: Body
+    body: Body
+    probability: float
+
+
+@dataclass(frozen=True)
+class Comment:
+    line: int
+    text: str
+    alone: bool
+
+
+@dataclass(frozen=True)
+class Source:
+    """A parsed AL_d text: its statements and comments in the order of the file."""
+
+    file: str
+    text: str
+    statements: tuple[Statement, ...]
+    comments: tuple[Comment, ...]
+
+    def each(self, kind: type[S]) -> Iterator[S]:
+        """The statements of one kind, in order."""
+        return (s for s in self.statements if isinstance(s, kind))

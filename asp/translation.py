@@ -1,0 +1,182 @@
+"""The translation of AL_d to answer set programs (D 2.2): one rule a law, in source order.
+
+The program speaks of steps `0..n`: `holds(F,I)`, `-holds(F,I)`, `occurs(A,I)`, `impossible(A,I)`.
+What a robot sees, what actions show and cost, and the scenarios are no part of the transition
+diagram; they stay out of it.
+"""
+
+from __future__ import annotations
+
+from asp import roles, syntax
+from asp.checker import variable_domains
+from asp.loading import analyse
+from asp.rules import condition, rule, term_text
+from asp.signature import Signature
+
+_HEADER = """\
+% Steps 0 to n; `-c n=K` on clingo's command line sets another horizon.
+#const n = 1.
+step(0..n)."""
+
+_GENERAL = """\
+% Inertia.
+holds(F,I+1)  :- inertial(F), holds(F,I),  not -holds(F,I+1), step(I), I < n.
+-holds(F,I+1) :- inertial(F), -holds(F,I), not holds(F,I+1),  step(I), I < n.
+
+% Closed world for defined fluents.
+-holds(F,I) :- defined(F), not holds(F,I), step(I).
+
+% An action that is impossible does not occur; neither does one of which nothing says that it does.
+-occurs(A,I) :- impossible(A,I).
+-occurs(A,I) :- action(A), not occurs(A,I), step(I).
+
+% Awareness: initially every inertial fluent is true or false.
+1 { holds(F,0); -holds(F,0) } 1 :- inertial(F)."""
+
+_ACTIONS = """\
+action(A) :- agent_action(A).
+action(A) :- exogenous_action(A)."""
+
+
+def translate(text: str, file: str = "<text>") -> str:
+    """The program of an AL_d text. Raises SourceError."""
+    source, signature = analyse(text, file)
+    writer = _Writer(source)
+    for statement in source.statements:
+        writer.write(statement, _rules(statement, signature))
+    sections = [_HEADER, writer.text(), _signature_rules(signature), _GENERAL]
+    return "\n\n".join(section for section in sections if section) + "\n"
+
+
+class _Writer:
+    """Puts the source's comments back where they stood: above a statement, or behind it."""
+
+    def __init__(self, source: syntax.Source) -> None:
+        self._pending = list(source.comments)
+        self._lines: list[str] = []
+        self._last = 0
+
+    def write(self, statement: syntax.Statement, rules: list[str]) -> None:
+        above = self._comments_until(statement.place.line - 1)
+        behind = self._comments_until(statement.last_line)
+        if not rules:
+            return
+        if self._lines and (above or statement.place.line > self._last + 1):
+            self._lines.append("")
+        self._lines += above + rules
+        if behind:
+            self._lines[-1] += "  " + " ".join(behind)
+        self._last = statement.last_line
+
+    def text(self) -> str:
+        return "\n".join(self._lines)
+
+    def _comments_until(self, line: int) -> list[str]:
+        taken = [c.text for c in self._pending if c.line <= line]
+        self._pending = [c for c in self._pending if c.line > line]
+        return taken
+
+
+def _rules(statement: syntax.Statement, signature: Signature) -> list[str]:
+    match statement:
+        case syntax.SortDefinition(name=name, parts=parts):
+            return [_sort_rule(name, part) for part in parts]
+        case syntax.Declaration():
+            return [] if statement.kind == "static" else [_declaration(statement)]
+        case syntax.Fact(literal=literal):
+            return [f"{term_text(literal.atom)}."]
+        case syntax.CausalLaw() | syntax.StateConstraint() | syntax.ExecutabilityCondition():
+            return [_law(statement, signature)]
+        case _:
+            return []
+
+
+def _sort_rule(name: str, part: syntax.Term | tuple[syntax.Term, ...]) -> str:
+    if isinstance(part, tuple):
+        return f"{name}({'; '.join(constant.name for constant in part)})."
+    return f"{name}(X) :- {part.name}(X)."
+
+
+def _declaration(declaration: syntax.Declaration) -> str:
+    predicate = declaration.kind + ("_action" if declaration.kind in roles.ACTIONS else "")
+    variables = [f"X{number}" for number, _ in enumerate(declaration.sorts, start=1)]
+    term = declaration.name + (f"({','.join(variables)})" if variables else "")
+    body = [f"{s.name}({v})" for s, v in zip(declaration.sorts, variables, strict=True)]
+    return rule(f"{predicate}({term})", body)
+
+
+def _law(law: syntax.Statement, signature: Signature) -> str:
+    sorts = [f"{sort}({v})" for v, sort in _narrowest_sorts(law, signature)]
+    body = [condition(c, signature) for c in roles.bodies(law)]
+    match law:
+        case syntax.CausalLaw(action=action, head=head):
+            occurs = f"occurs({term_text(action)},I)"
+            return rule(_holds(head, "I+1"), [occurs, *body, *sorts, "step(I)", "I < n"])
+        case syntax.StateConstraint(head=head) if _is_static(head, signature):
+            return rule(term_text(head.atom), [*body, *sorts])
+        case syntax.StateConstraint(head=head):
+            return rule(_holds(head, "I"), [*body, *sorts, "step(I)"])
+        case syntax.ExecutabilityCondition(actions=(action,)):
+            return rule(f"impossible({term_text(action)},I)", [*body, *sorts, "step(I)"])
+        case syntax.ExecutabilityCondition(actions=actions):
+            together = [f"occurs({term_text(action)},I)" for action in actions]
+            return rule("", [*together, *body, *sorts, "step(I)"])
+    raise TypeError(f"{type(law).__name__} is not a law")
+
+
+def _holds(literal: syntax.Literal, step: str) -> str:
+    return f"{'' if literal.positive else '-'}holds({term_text(literal.atom)},{step})"
+
+
+def _is_static(literal: syntax.Literal, signature: Signature) -> bool:
+    return signature.symbols[literal.atom.name].kind == "static"
+
+
+def _narrowest_sorts(
+    statement: syntax.Statement, signature: Signature
+) -> list[tuple[str, str]]:
+    """Each variable with the sorts that say what it ranges over, wider ones left out."""
+    found: list[tuple[str, str]] = []
+    for variable in variable_domains(statement, signature):
+        names = list(dict.fromkeys(_sorts_of(variable, statement, signature)))
+        members = {name: set(signature.sorts[name]) for name in names}
+        found += (
+            (variable, name)
+            for number, name in enumerate(names)
+            if not any(
+                members[other] < members[name]
+                or (members[other] == members[name] and names.index(other) < number)
+                for other in names
+                if other != name
+            )
+        )
+    return found
+
+
+def _sorts_of(variable: str, statement: syntax.Statement, signature: Signature) -> list[str]:
+    return [
+        sort
+        for use in roles.uses(statement)
+        if use.atom.name not in signature.sorts
+        for term, sort in zip(
+            use.atom.args,
+            (s.name for s in signature.symbols[use.atom.name].sorts),
+            strict=True,
+        )
+        if term.name == variable
+    ]
+
+
+def _signature_rules(signature: Signature) -> str:
+    """Closed world for statics, and what keeps predicates defined that nothing declares."""
+    lines = ["% Closed world for statics."]
+    for declaration in signature.symbols.values():
+        if declaration.kind == "static":
+            variables = [f"X{number}" for number, _ in enumerate(declaration.sorts, start=1)]
+            atom = declaration.name + (f"({','.join(variables)})" if variables else "")
+            body = [f"{s.name}({v})" for s, v in zip(declaration.sorts, variables, strict=True)]
+            lines.append(rule("-" + atom, [*body, f"not {atom}"]))
+    defined = "#defined inertial/1. #defined defined/1.\n"
+    defined += "#defined agent_action/1. #defined exogenous_action/1.\n"
+    defined += "#defined occurs/2. #defined impossible/2."
+    return "\n".join(lines) + f"\n\n% Every action.\n{_ACTIONS}\n{defined}"
