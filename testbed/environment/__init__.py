@@ -1,0 +1,1 @@
+"""The world and its PettingZoo environment: two agents, one core, two views."""

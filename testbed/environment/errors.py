@@ -1,0 +1,17 @@
+"""What can be wrong with what the environment is asked."""
+
+
+class StateError(ValueError):
+    """Literals that describe no state of the domain; one line says why."""
+
+
+class UnknownAction(ValueError):
+    """The name of an action that the description does not declare."""
+
+
+class NotExecutable(ValueError):
+    """A compound action without a successor in the state; one line says why."""
+
+
+class IllegalAction(ValueError):
+    """An agent's answer outside its mask; the environment's state is unchanged."""
