@@ -6,8 +6,17 @@ class LinkError(ValueError):
 
 
 class RobotLost(Exception):
-    """The robot will not answer this trial any more; ``reason`` is one line that says why."""
+    """The robot will not answer this trial any more.
 
-    def __init__(self, reason: str) -> None:
+    ``reason`` is one line that says why, the same whenever the same happens; ``details`` is what
+    the robot's process wrote to its standard error, if anything.
+    """
+
+    def __init__(self, reason: str, details: str = "") -> None:
         super().__init__(reason)
         self.reason = reason
+        self.details = details
+
+
+class RobotGone(RobotLost):
+    """The robot is not there any more, or was never there."""

@@ -1,0 +1,70 @@
+"""One question and its answer, whatever carries them.
+
+The robot's side (:class:`Desk`) turns the bytes of a question into the bytes of a decision; the
+driver's side (:func:`read_decision`) accepts nothing but the decision it asked for. In process
+and over zenoh both are the same.
+"""
+
+from testbed.link.errors import LinkError, RobotLost
+from testbed.link.messages import Decision, Percept, Question, Task, decode, encode
+from testbed.link.robot import Robot, RobotFactory
+
+
+class Desk:
+    """The robot's side: a new robot for every trial, and one trial at a time."""
+
+    def __init__(self, make_robot: RobotFactory) -> None:
+        self._make_robot = make_robot
+        self._trial: str | None = None
+        self._robot: Robot | None = None
+
+    def answer(self, payload: bytes) -> bytes:
+        """Return the bytes of the decision on a question.
+
+        Raises LinkError for a question not understood or of a trial that has not begun, and
+        whatever the robot raises.
+        """
+        question = decode(payload, Question)
+        if question.task is not None:
+            self._begin(question.task)
+        return encode(self._robot_of(question.percept).act(question.percept))
+
+    def _begin(self, task: Task) -> None:
+        self._trial, self._robot = task.trial, None
+        robot = self._make_robot(task.robot)
+        robot.begin(task)
+        self._robot = robot
+
+    def _robot_of(self, percept: Percept) -> Robot:
+        if self._robot is None or percept.trial != self._trial:
+            raise LinkError(f"trial {percept.trial} has not begun here")
+        return self._robot
+
+
+def read_decision(payload: bytes, percept: Percept) -> Decision:
+    """Return the decision in an answer to ``percept``.
+
+    Raises RobotLost when it is not understood, or belongs to another trial or step.
+    """
+    try:
+        decision = decode(payload, Decision)
+    except LinkError as error:
+        raise RobotLost(f"answer not understood: {error}") from error
+    given, asked = (decision.trial, decision.step), (percept.trial, percept.step)
+    if given != asked:
+        raise RobotLost(f"answer is for {_place(*given)}, the question was for {_place(*asked)}")
+    return decision
+
+
+def in_one_line(error: Exception) -> str:
+    """Return what a robot's exception says, as it travels to the driver."""
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
+def failed(text: str) -> RobotLost:
+    """Return the loss of a robot that raised an exception with this text."""
+    return RobotLost(f"robot failed: {text}")
+
+
+def _place(trial: str, step: int) -> str:
+    return f"step {step} of trial {trial}"

@@ -1,0 +1,98 @@
+"""A robot behind zenoh, seen from its driver."""
+
+from queue import Empty, SimpleQueue
+from threading import Event
+from typing import TypeAlias
+
+import zenoh
+
+from testbed.link import keys
+from testbed.link.errors import RobotGone, RobotLost
+from testbed.link.exchange import failed, read_decision
+from testbed.link.messages import Decision, Percept, Question, Task, encode
+
+PRESENCE_S = 10.0
+_GRACE_S = 1.0
+_LEFT = "robot is gone"
+
+_Inbox: TypeAlias = SimpleQueue[zenoh.Reply | RobotLost]
+
+
+class RemoteRobot:
+    """A RobotClient for the robot that serves under ``name`` where ``session`` can reach it.
+
+    A question ends with whatever comes first: the answer, the loss of the robot's liveliness
+    token, the end of the query without an answer (nobody there), or the answer limit in seconds.
+    """
+
+    def __init__(self, session: zenoh.Session, run: str, name: str, answer_s: float) -> None:
+        self._session = session
+        self._run = run
+        self._name = name
+        self._answer_s = answer_s
+        self._task: Task | None = None
+        self._present = Event()
+        self._inbox: _Inbox = SimpleQueue()
+        self._presence = session.liveliness().declare_subscriber(
+            keys.robot(name), self._on_presence, history=True
+        )
+
+    def wait(self, seconds: float) -> bool:
+        """Wait until the robot is there, at most so long; return whether it is."""
+        return self._present.wait(seconds)
+
+    def begin(self, task: Task) -> None:
+        """Prepare a trial. Raises RobotLost when the robot is not there."""
+        if not self.wait(PRESENCE_S):
+            raise RobotGone("robot is not there")
+        self._task = task
+
+    def ask(self, percept: Percept) -> Decision:
+        """Return the robot's decision. Raises RobotLost."""
+        question = encode(Question(percept=percept, task=self._task))
+        self._task = None
+        return read_decision(self._first_answer(percept.trial, question), percept)
+
+    def close(self) -> None:
+        """Stop watching the robot, which itself serves on."""
+        with self._presence:
+            pass
+
+    def _first_answer(self, trial: str, question: bytes) -> bytes:
+        inbox = self._inbox = SimpleQueue()
+        if not self._present.is_set():
+            raise RobotGone(_LEFT)
+        self._send(trial, question, inbox)
+        try:
+            return _payload(inbox.get(timeout=self._answer_s))
+        except Empty:
+            raise RobotLost(f"no answer within {self._answer_s:g} s") from None
+
+    def _send(self, trial: str, question: bytes, inbox: _Inbox) -> None:
+        def ended() -> None:
+            inbox.put(RobotGone("robot is unavailable: nobody answered"))
+
+        self._session.get(
+            keys.question(self._run, trial, self._name),
+            zenoh.handlers.Callback(inbox.put, ended),
+            target=zenoh.QueryTarget.ALL,
+            payload=question,
+            # Later than our own limit: zenoh's timeout would look like an error of the robot's.
+            timeout=self._answer_s + _GRACE_S,
+        )
+
+    def _on_presence(self, sample: zenoh.Sample) -> None:
+        if sample.kind == zenoh.SampleKind.PUT:
+            self._present.set()
+        else:
+            self._present.clear()
+            self._inbox.put(RobotGone(_LEFT))
+
+
+def _payload(received: zenoh.Reply | RobotLost) -> bytes:
+    if isinstance(received, RobotLost):
+        raise received
+    if received.err is not None:
+        raise failed(bytes(received.err.payload).decode(errors="replace"))
+    assert received.ok is not None
+    return bytes(received.ok.payload)

@@ -1,0 +1,65 @@
+"""Opening zenoh sessions that keep to themselves.
+
+A driver listens on a loopback port that the system picks; its robots connect to that endpoint
+and listen nowhere. Without multicast and gossip nobody finds anybody else: nothing leaves the
+machine, and two runs side by side never meet.
+
+Use every session in a ``with`` block: one that is still open when the interpreter ends, and that
+has called back into Python, hangs it.
+"""
+
+import json
+from typing import Any
+
+import zenoh
+
+LOOPBACK = "tcp/127.0.0.1:0"
+CONNECT_S = 10.0
+
+_SECLUDED: dict[str, Any] = {
+    "mode": "peer",
+    "scouting/multicast/enabled": False,
+    "scouting/gossip/enabled": False,
+}
+
+
+def open_driver() -> zenoh.Session:
+    """Open a session to which robots of this machine can connect, at :func:`endpoint`."""
+    # The admin space is how a session tells which port the system gave it.
+    return _open({"listen/endpoints": [LOOPBACK], "adminspace/enabled": True})
+
+
+def open_robot(driver: str) -> zenoh.Session:
+    """Open a session connected to the endpoint of a driver, or of a router.
+
+    Raises zenoh.ZError when nobody listens there.
+    """
+    return _open(
+        {
+            "listen/endpoints": [],
+            "connect/endpoints": [driver],
+            "connect/timeout_ms": int(CONNECT_S * 1000),
+            "connect/exit_on_failure": True,
+        }
+    )
+
+
+def endpoint(session: zenoh.Session) -> str:
+    """Return the endpoint at which a driver's session listens, ``tcp/127.0.0.1:<port>``."""
+    replies = session.get(f"@/{session.zid()}/peer")
+    for reply in replies:
+        if reply.ok is not None:
+            return _first_locator(reply.ok.payload.to_string())
+    raise RuntimeError("the zenoh session does not tell where it listens")
+
+
+def _first_locator(description: str) -> str:
+    locators: list[str] = json.loads(description)["locators"]
+    return locators[0]
+
+
+def _open(settings: dict[str, Any]) -> zenoh.Session:
+    config = zenoh.Config()
+    for key, value in (_SECLUDED | settings).items():
+        config.insert_json5(key, json.dumps(value))
+    return zenoh.open(config)

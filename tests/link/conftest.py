@@ -1,0 +1,63 @@
+"""What the link's tests share."""
+
+import os
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, closing
+from pathlib import Path
+
+import pytest
+
+from testbed.link.inprocess import InProcessRobot
+from testbed.link.messages import Percept, Task
+from testbed.link.robot import RobotClient
+from testbed.link.spawned import SpawnedRobot, spawned_robot
+from tests.link.scripted import COMMAND, ScriptedRobot
+
+PATIENCE_S = 120.0
+"""An answer limit no test should ever meet."""
+
+
+def task(kind: str, trial: str = "t1") -> Task:
+    """A task for a scripted robot of this kind."""
+    return Task(
+        trial=trial,
+        robot=kind,
+        domain="toy",
+        source="sorts\n",
+        goal=["lit(lamp)"],
+        initial=["-lit(lamp)"],
+        plan_limit=5,
+        seed=1,
+    )
+
+
+def percept(step: int = 1, trial: str = "t1") -> Percept:
+    """What a robot is told at a step."""
+    return Percept(trial=trial, step=step, visible=["-lit(lamp)"])
+
+
+@pytest.fixture(autouse=True)
+def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let robot processes import the scripted robot wherever the tests were started."""
+    root = str(Path(__file__).parents[2])
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([root, os.environ.get("PYTHONPATH", "")]))
+
+
+@pytest.fixture
+def spawned() -> Iterator[SpawnedRobot]:
+    """A scripted robot in its own process."""
+    with spawned_robot("run", PATIENCE_S, COMMAND) as robot:
+        yield robot
+
+
+def _client(link: str) -> AbstractContextManager[RobotClient]:
+    if link == "inprocess":
+        return closing(InProcessRobot(ScriptedRobot))
+    return spawned_robot("run", PATIENCE_S, COMMAND)
+
+
+@pytest.fixture(params=["inprocess", "zenoh"])
+def client(request: pytest.FixtureRequest) -> Iterator[RobotClient]:
+    """A scripted robot behind either link."""
+    with _client(request.param) as robot:
+        yield robot

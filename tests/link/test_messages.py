@@ -1,0 +1,106 @@
+"""Messages survive the wire, and nothing else passes for one."""
+
+import msgspec
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from testbed.link.errors import LinkError
+from testbed.link.messages import (
+    PROTOCOL_VERSION,
+    Decision,
+    Event,
+    Explanation,
+    Message,
+    Percept,
+    Question,
+    Task,
+    Trace,
+    decode,
+    encode,
+)
+from tests.link.conftest import percept
+
+TEXT = st.text()
+TEXTS = st.lists(TEXT)
+WHOLE = st.integers(-(2**63), 2**64 - 1)
+SECONDS = st.floats(allow_nan=False)
+MAYBE = st.none() | st.booleans()
+
+TASKS = st.builds(
+    Task,
+    trial=TEXT,
+    robot=TEXT,
+    domain=TEXT,
+    source=TEXT,
+    goal=TEXTS,
+    initial=TEXTS,
+    plan_limit=WHOLE,
+    seed=WHOLE,
+)
+PERCEPTS = st.builds(
+    Percept,
+    trial=TEXT,
+    step=WHOLE,
+    visible=TEXTS,
+    attempted=st.none() | TEXT,
+    happened=MAYBE,
+    events=TEXTS,
+    goal_holds=MAYBE,
+)
+QUESTIONS = st.builds(Question, percept=PERCEPTS, task=st.none() | TASKS)
+EVENTS = st.builds(Event, step=WHOLE, action=TEXT)
+EXPLANATIONS = st.builds(Explanation, step=WHOLE, unobserved=st.lists(EVENTS), exceptions=TEXTS)
+TRACES = st.builds(
+    Trace,
+    mental=st.none() | TEXT,
+    intention=TEXT,
+    activity=st.none() | WHOLE,
+    plan=TEXTS,
+    belief=TEXTS,
+    explanation=st.none() | EXPLANATIONS,
+    futile_at=st.none() | WHOLE,
+    reason=TEXT,
+    plans=WHOLE,
+    planning_time_s=SECONDS,
+    diagnosis_time_s=SECONDS,
+)
+DECISIONS = st.builds(
+    Decision, trial=TEXT, step=WHOLE, action=TEXT, believes_goal=st.booleans(), trace=TRACES
+)
+
+
+@given(QUESTIONS | DECISIONS)
+def test_decoding_undoes_encoding(message: Message) -> None:
+    assert decode(encode(message), type(message)) == message
+
+
+@given(st.binary())
+def test_anything_else_is_refused(payload: bytes) -> None:
+    with pytest.raises(LinkError):
+        decode(payload, Decision)
+
+
+@given(DECISIONS, st.data())
+def test_a_message_cut_short_is_refused(message: Decision, data: st.DataObject) -> None:
+    payload = encode(message)
+    with pytest.raises(LinkError):
+        decode(payload[: data.draw(st.integers(0, len(payload) - 1))], Decision)
+
+
+@given(WHOLE.filter(lambda version: version != PROTOCOL_VERSION))
+def test_another_version_is_refused_by_its_number(version: int) -> None:
+    question = Question(version=version, percept=percept())
+    with pytest.raises(LinkError, match=f"protocol version {version}, understood is 1"):
+        decode(encode(question), Question)
+
+
+def test_a_message_without_version_is_refused() -> None:
+    unversioned = {"percept": percept(), "task": None}
+    with pytest.raises(LinkError, match="version"):
+        decode(msgspec.msgpack.encode(unversioned), Question)
+
+
+def test_one_message_does_not_pass_for_another() -> None:
+    with pytest.raises(LinkError, match="not a Decision"):
+        decode(encode(Question(percept=percept())), Decision)
