@@ -47,9 +47,7 @@ def _check_use(use: roles.Use, signature: Signature, problems: Problems) -> None
     if kind is None:
         known = [n for n, d in signature.symbols.items() if d.kind in use.kinds]
         noun = "action" if use.kinds <= roles.ACTIONS else "fluent"
-        problems.report(
-            atom.place, f"unknown {noun} '{atom.name}'{suggestion(atom.name, known)}"
-        )
+        problems.report(atom.place, f"unknown {noun} '{atom.name}'{suggestion(atom.name, known)}")
     elif kind not in use.kinds:
         problems.report(
             atom.place, f"'{atom.name}' is {_noun(kind)}; this place needs {use.wanted}"
@@ -132,9 +130,7 @@ def _check_constraint(
             problems.report(law.place, "a static is false unless derived; drop the negation")
 
 
-def _check_variables(
-    statement: syntax.Statement, signature: Signature, problems: Problems
-) -> None:
+def _check_variables(statement: syntax.Statement, signature: Signature, problems: Problems) -> None:
     domains = variable_domains(statement, signature)
     for name, members in domains.items():
         if not members and not _is_empty_place(statement, name, signature):

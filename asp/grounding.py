@@ -210,5 +210,3 @@ def _atom(atom: syntax.Atom, binding: Binding) -> str:
 
 def _literal(literal: syntax.Literal, binding: Binding) -> str:
     return ("" if literal.positive else "-") + _atom(literal.atom, binding)
-
-

@@ -31,9 +31,7 @@ _READABLE = {
     "RBRACE": "'}'",
     "COLON": "':'",
 }
-_SECTIONS = (
-    "SORTS STATICS FLUENTS ACTIONS LAWS FACTS SEES SHOWS COSTS INITIALLY SCENARIOS".split()
-)
+_SECTIONS = "SORTS STATICS FLUENTS ACTIONS LAWS FACTS SEES SHOWS COSTS INITIALLY SCENARIOS".split()
 
 
 def parse(text: str, file: str = "<text>") -> syntax.Source:
@@ -53,13 +51,13 @@ def _grammar() -> Lark:
 
 
 def _syntax_error(error: UnexpectedInput, text: str, file: str) -> SourceError:
-    if isinstance(error, UnexpectedToken) and error.token.type == "$END" or isinstance(
-        error, UnexpectedEOF
+    if (
+        isinstance(error, UnexpectedToken)
+        and error.token.type == "$END"
+        or isinstance(error, UnexpectedEOF)
     ):
         lines = text.splitlines() or [""]
-        return SourceError(
-            file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement"
-        )
+        return SourceError(file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement")
     if isinstance(error, UnexpectedCharacters):
         return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
     assert isinstance(error, UnexpectedToken)

@@ -85,9 +85,7 @@ def _members(
         elif part.name in sorts:
             members += sorts[part.name]
         else:
-            problems.report(
-                part.place, f"unknown sort '{part.name}'{suggestion(part.name, sorts)}"
-            )
+            problems.report(part.place, f"unknown sort '{part.name}'{suggestion(part.name, sorts)}")
     return tuple(dict.fromkeys(members))
 
 
@@ -96,6 +94,4 @@ def _check_sorts(
 ) -> None:
     for sort in declaration.sorts:
         if sort.name not in sorts:
-            problems.report(
-                sort.place, f"unknown sort '{sort.name}'{suggestion(sort.name, sorts)}"
-            )
+            problems.report(sort.place, f"unknown sort '{sort.name}'{suggestion(sort.name, sorts)}")

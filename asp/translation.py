@@ -132,9 +132,7 @@ def _is_static(literal: syntax.Literal, signature: Signature) -> bool:
     return signature.symbols[literal.atom.name].kind == "static"
 
 
-def _narrowest_sorts(
-    statement: syntax.Statement, signature: Signature
-) -> list[tuple[str, str]]:
+def _narrowest_sorts(statement: syntax.Statement, signature: Signature) -> list[tuple[str, str]]:
     """Each variable with the sorts that say what it ranges over, wider ones left out."""
     found: list[tuple[str, str]] = []
     for variable in variable_domains(statement, signature):

@@ -1,0 +1,1 @@
+"""The agents of the testbed: robots that pursue a goal, adversaries that interfere."""

@@ -1,0 +1,5 @@
+"""The intentional robot: the adapted theory of intentions in the loop AIA (spec 2)."""
+
+from agents.intentional.controller import IntentionalRobot
+
+__all__ = ["IntentionalRobot"]

@@ -1,0 +1,1 @@
+"""What robots have in common: the domain they reason about, history, relevance, diagnosis."""
