@@ -1,5 +1,6 @@
 """A robot behind zenoh, seen from its driver."""
 
+from contextlib import ExitStack
 from queue import Empty, SimpleQueue
 from threading import Event
 from typing import TypeAlias
@@ -33,8 +34,11 @@ class RemoteRobot:
         self._task: Task | None = None
         self._present = Event()
         self._inbox: _Inbox = SimpleQueue()
-        self._presence = session.liveliness().declare_subscriber(
-            keys.robot(name), self._on_presence, history=True
+        self._watch = ExitStack()
+        self._watch.enter_context(
+            session.liveliness().declare_subscriber(
+                keys.robot(name), self._on_presence, history=True
+            )
         )
 
     def wait(self, seconds: float) -> bool:
@@ -55,8 +59,7 @@ class RemoteRobot:
 
     def close(self) -> None:
         """Stop watching the robot, which itself serves on."""
-        with self._presence:
-            pass
+        self._watch.close()
 
     def _first_answer(self, trial: str, question: bytes) -> bytes:
         inbox = self._inbox = SimpleQueue()
@@ -75,7 +78,9 @@ class RemoteRobot:
         self._session.get(
             keys.question(self._run, trial, self._name),
             zenoh.handlers.Callback(inbox.put, ended),
+            # Every robot hears the question and one answers; the others may be busy meanwhile.
             target=zenoh.QueryTarget.ALL,
+            consolidation=zenoh.ConsolidationMode.NONE,
             payload=question,
             # Later than our own limit: zenoh's timeout would look like an error of the robot's.
             timeout=self._answer_s + _GRACE_S,

@@ -4,7 +4,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 
 import pytest
 import zenoh
@@ -12,7 +12,7 @@ import zenoh
 from testbed.link import keys
 from testbed.link.errors import RobotGone, RobotLost
 from testbed.link.remote import RemoteRobot
-from testbed.link.session import open_driver
+from testbed.link.session import endpoint, open_driver, open_robot
 from testbed.link.spawned import SpawnedRobot
 from tests.link.conftest import PATIENCE_S, percept, task
 from tests.link.scripted import COMMAND
@@ -118,6 +118,28 @@ def test_zero_replies_are_a_lost_robot_and_not_an_answer() -> None:
         robot.begin(task("sound"))
         with pytest.raises(RobotGone, match="nobody answered"):
             robot.ask(percept())
+
+
+def test_a_robot_that_leaves_holding_a_question_is_lost_before_the_limit() -> None:
+    held: list[zenoh.Query] = []
+    presence = ExitStack()
+
+    def hold(query: zenoh.Query) -> None:
+        held.append(query)
+        presence.close()
+
+    with (
+        open_driver() as session,
+        open_robot(endpoint(session)) as leaver,
+        leaver.declare_queryable(keys.acts("run"), hold),
+        closing(RemoteRobot(session, "run", "leaver", PATIENCE_S)) as robot,
+    ):
+        presence.enter_context(leaver.liveliness().declare_token(keys.robot("leaver")))
+        robot.begin(task("sound"))
+        with pytest.raises(RobotGone, match="robot is gone"):
+            robot.ask(percept())
+        with held.pop():
+            """Let the question end."""
 
 
 def _spawned(session: zenoh.Session, answer_s: float) -> SpawnedRobot:

@@ -11,6 +11,7 @@ import pytest
 import zenoh
 
 from testbed.link import keys
+from testbed.link.errors import RobotLost
 from testbed.link.messages import Decision, decode
 from testbed.link.process import RobotProcess
 from testbed.link.remote import RemoteRobot
@@ -77,13 +78,23 @@ def test_a_robot_finds_no_driver_at_a_dead_endpoint(monkeypatch: pytest.MonkeyPa
 
 def test_of_several_robots_only_the_one_named_is_asked() -> None:
     with open_driver() as session, ExitStack() as stack:
-        for name in ("ann", "ben", "cleo"):
-            process = RobotProcess(endpoint(session), name, COMMAND)
-            stack.enter_context(closing(process))
-            robot = stack.enter_context(closing(RemoteRobot(session, "run", name, PATIENCE_S)))
-            assert robot.wait(PATIENCE_S)
-            robot.begin(task("sound"))
-            assert robot.ask(percept()).action == f"served_by({process.pid})"
+        served = {name: _serve(stack, session, name, PATIENCE_S) for name in ("ann", "ben", "cleo")}
+        for name, (robot, _) in served.items():
+            robot.begin(task("sound", name))
+        for step in (1, 2, 3):
+            for name, (robot, pid) in served.items():
+                assert robot.ask(percept(step, name)).action == f"served_by({pid})"
+
+
+def test_a_busy_robot_does_not_hold_up_another() -> None:
+    with open_driver() as session, ExitStack() as stack:
+        busy, _ = _serve(stack, session, "busy", 0.5)
+        free, _ = _serve(stack, session, "free", PATIENCE_S)
+        busy.begin(task("thinking", "long"))
+        with pytest.raises(RobotLost, match="no answer within"):
+            busy.ask(percept(1, "long"))
+        free.begin(task("sound", "short"))
+        assert free.ask(percept(1, "short")).trial == "short"
 
 
 def test_every_decision_is_published() -> None:
@@ -128,6 +139,15 @@ def test_an_interrupted_robot_ends_quietly() -> None:
             assert remote.wait(PATIENCE_S)
             os.kill(robot.pid, signal.SIGINT)
             assert robot.ending(PATIENCE_S) == "process ended with status 0"
+
+
+def _serve(
+    stack: ExitStack, session: zenoh.Session, name: str, answer_s: float
+) -> tuple[RemoteRobot, int]:
+    process = stack.enter_context(closing(RobotProcess(endpoint(session), name, COMMAND)))
+    robot = stack.enter_context(closing(RemoteRobot(session, "run", name, answer_s)))
+    assert robot.wait(PATIENCE_S)
+    return robot, process.pid
 
 
 @contextmanager
