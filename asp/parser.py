@@ -31,7 +31,10 @@ _READABLE = {
     "RBRACE": "'}'",
     "COLON": "':'",
 }
-_SECTIONS = "SORTS STATICS FLUENTS ACTIONS LAWS FACTS SEES SHOWS COSTS INITIALLY SCENARIOS".split()
+_SECTIONS = {
+    *("SORTS", "STATICS", "FLUENTS", "ACTIONS", "LAWS", "FACTS"),
+    *("SEES", "SHOWS", "COSTS", "INITIALLY", "SCENARIOS"),
+}
 
 
 def parse(text: str, file: str = "<text>") -> syntax.Source:

@@ -12,7 +12,7 @@ from agents.shared.diagnosis import Explained, diagnose
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import goal_facts, knowledge
 from agents.shared.relevance import outcome_literals
-from asp.solving import fact, first_model, ground, select, theory
+from asp.solving import first_model, ground, select, theory
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
 
