@@ -1,0 +1,1 @@
+"""Intention Testbed: reasoning robots in a world that others change."""

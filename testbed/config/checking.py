@@ -1,0 +1,136 @@
+"""Check a configuration against its domain: every fluent, action, state and scenario in it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+
+import asp
+from asp import Description
+from asp.errors import SourceError
+from asp.literals import atom, complement
+from testbed.config.errors import ConfigError, nearest
+from testbed.config.models import ExperimentConfig, ScenarioSettings, ScriptEntry
+from testbed.config.places import Key, Places
+from testbed.environment.errors import StateError
+from testbed.environment.world import World
+
+Finding = tuple[Key, str]
+
+UNDISTURBED = "1"  # the scenario in which nothing happens: it needs no trigger
+
+
+def check(config: ExperimentConfig, places: Places, robots: Collection[str] | None) -> None:
+    """Raise ConfigError with a line for everything in `config` that its domain does not allow."""
+    description = _description(config, places)
+    findings = [*_twice(config), *_robots(config, robots), *_scenarios(config, description)]
+    findings += _observability(config, description)
+    for key, owner in _owners(config):
+        findings += _literals((*key, "goal"), owner.goal or (), description)
+        findings += _initial((*key, "initial"), owner.initial, description)
+        findings += _script((*key, "script"), owner.script or (), description)
+    if findings:
+        raise ConfigError([f"{places.of(key)}: {message}" for key, message in findings])
+
+
+def _description(config: ExperimentConfig, places: Places) -> Description:
+    try:
+        return asp.load_description(config.domain)
+    except SourceError as error:
+        raise ConfigError([str(mistake) for mistake in error.all]) from None
+    except OSError as error:
+        raise ConfigError([f"{places.of(('domain',))}: {error.strerror or error}"]) from None
+
+
+def _owners(
+    config: ExperimentConfig,
+) -> Iterator[tuple[Key, ExperimentConfig | ScenarioSettings]]:
+    yield (), config
+    for scenario, own in config.scenario_settings.items():
+        yield ("scenario_settings", scenario), own
+
+
+def _twice(config: ExperimentConfig) -> Iterator[Finding]:
+    for key, names in (("scenarios", config.scenarios), ("robots", config.robots)):
+        for index, name in enumerate(names):
+            if name in names[:index]:
+                yield (key, index), f"'{name}' is listed twice; keep one of the two"
+
+
+def _robots(config: ExperimentConfig, known: Collection[str] | None) -> Iterator[Finding]:
+    for index, kind in enumerate(config.robots):
+        if known is not None and kind not in known:
+            yield ("robots", index), f"unknown robot '{kind}'; {nearest(kind, known)}"
+
+
+def _scenarios(config: ExperimentConfig, description: Description) -> Iterator[Finding]:
+    known = [UNDISTURBED, *description.scenarios]
+    scripted = [name for name, own in config.scenario_settings.items() if own.script is not None]
+    for index, name in enumerate(config.scenarios):
+        if config.script is None and name not in (*known, *scripted):
+            yield ("scenarios", index), f"unknown scenario '{name}'; {nearest(name, known)}"
+    for name in config.scenario_settings:
+        if name not in (*known, *config.scenarios):
+            yield ("scenario_settings", name), f"unknown scenario; {nearest(name, known)}"
+
+
+def _observability(config: ExperimentConfig, description: Description) -> Iterator[Finding]:
+    known = {action.partition("(")[0] for action in description.exogenous_actions}
+    for name in config.observability:
+        if name not in known:
+            yield ("observability", name), f"no such exogenous action; {nearest(name, known)}"
+
+
+def _literals(key: Key, literals: Sequence[str], description: Description) -> Iterator[Finding]:
+    fluents = description.fluents
+    for index, literal in enumerate(literals):
+        if atom(literal) not in fluents:
+            yield (*key, index), unknown_atom(atom(literal), fluents, "fluent")
+        elif complement(literal) in literals[:index]:
+            yield (*key, index), f"contradicts {complement(literal)}; keep one of the two"
+
+
+def _initial(
+    key: Key, literals: tuple[str, ...] | None, description: Description
+) -> Iterator[Finding]:
+    if literals is None:
+        return
+    unknown = list(_literals(key, literals, description))
+    yield from unknown
+    if not unknown:
+        try:
+            World(description).state(literals)
+        except StateError as error:
+            yield key, f"no such initial state: {error}"
+
+
+def _script(
+    key: Key, entries: Sequence[ScriptEntry], description: Description
+) -> Iterator[Finding]:
+    known = description.exogenous_actions
+    for index, entry in enumerate(entries):
+        if entry.action not in known:
+            yield (*key, index, "action"), unknown_atom(entry.action, known, "exogenous action")
+
+
+def unknown_atom(text: str, known: Sequence[str], what: str) -> str:
+    """Say what is wrong with a ground atom that is not among the known ones, and what is right."""
+    name, arguments = _split(text)
+    same = [parts for functor, parts in map(_split, known) if functor == name]
+    if not same:
+        return f"no {what} '{name}'; {nearest(name, (_split(item)[0] for item in known))}"
+    if len(arguments) != len(same[0]):
+        return f"{name} takes {len(same[0])} arguments, as in {_join(name, same[0])}"
+    for position, value in enumerate(arguments):
+        possible = {parts[position] for parts in same}
+        if value not in possible:
+            return f"'{value}' in {text} is not known there; {nearest(value, possible)}"
+    return f"{text} is not a {what}; {nearest(text, known)}"
+
+
+def _split(text: str) -> tuple[str, tuple[str, ...]]:
+    name, _, rest = text.partition("(")
+    return name, tuple(rest.removesuffix(")").split(",")) if rest else ()
+
+
+def _join(name: str, arguments: Sequence[str]) -> str:
+    return f"{name}({','.join(arguments)})" if arguments else name

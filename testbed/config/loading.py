@@ -1,0 +1,163 @@
+"""Read a configuration: OmegaConf composes file and overrides, pydantic validates the result."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+from omegaconf import OmegaConf
+from omegaconf.errors import OmegaConfBaseException
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from testbed.config.checking import check
+from testbed.config.errors import ConfigError, nearest
+from testbed.config.models import ExperimentConfig, Section
+from testbed.config.places import Key, Places
+from testbed.resources import find_config
+
+
+def load_config(
+    source: str | Path, overrides: Sequence[str] = (), robots: Collection[str] | None = None
+) -> ExperimentConfig:
+    """The validated configuration of a file or a packaged name, with dotted overrides applied.
+
+    A `domain` given as a path is taken relative to the configuration, and is absolute in the
+    answer. `robots`, where given, are the kinds of robot that may be asked for.
+
+    Raises:
+        ConfigError: one line an error, each with its place and what would be right.
+    """
+    path, text = _read(source)
+    composed = _compose(path, text, overrides)
+    places = Places(path, text, [item.partition("=")[0] for item in overrides])
+    config = _located(_validate(composed, places), path)
+    check(config, places, robots)
+    return config
+
+
+def _read(source: str | Path) -> tuple[Path, str]:
+    try:
+        path = find_config(source)
+        return path, path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise ConfigError([f"{source}: not a text file in UTF-8 ({error.reason})"]) from None
+    except OSError as error:
+        message = str(error) if error.strerror is None else f"{source}: {error.strerror}"
+        raise ConfigError([message]) from None
+
+
+def _compose(path: Path, text: str, overrides: Sequence[str]) -> dict[str, Any]:
+    try:
+        base = OmegaConf.to_container(OmegaConf.create(text))
+    except yaml.YAMLError as error:
+        raise ConfigError([_yaml_line(path, error)]) from None
+    except OmegaConfBaseException as error:
+        raise ConfigError([f"{path}: {_first_line(error)}"]) from None
+    if not isinstance(base, dict) or not all(isinstance(key, (str, int)) for key in base):
+        raise ConfigError([f"{path}: should hold `key: value` lines"])
+    return _override(path, _string_keys(base), overrides)
+
+
+def _override(path: Path, base: dict[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+    composed = OmegaConf.create(base)
+    for item in overrides:
+        key, equals, value = item.partition("=")
+        if not (equals and key.strip()):
+            raise ConfigError([f"command line: '{item}': an override is KEY=VALUE, e.g. limit=5"])
+        try:
+            given = OmegaConf.from_dotlist([f"value={value}"])["value"]
+            OmegaConf.update(composed, key.strip(), given, force_add=True)
+        except (yaml.YAMLError, OmegaConfBaseException, ValueError, TypeError, IndexError) as error:
+            raise ConfigError([f"command line: {key}: {_first_line(error)}"]) from None
+    try:
+        resolved = OmegaConf.to_container(composed, resolve=True, throw_on_missing=True)
+    except OmegaConfBaseException as error:
+        raise ConfigError([f"{path}: {_first_line(error)}"]) from None
+    composed_keys: dict[str, Any] = _string_keys(resolved)
+    return composed_keys
+
+
+def _string_keys(value: Any) -> Any:
+    """Keys as text at every depth: `4:` and `"4":` name the same scenario."""
+    if isinstance(value, Mapping):
+        return {str(key): _string_keys(item) for key, item in value.items()}
+    return [_string_keys(item) for item in value] if isinstance(value, list) else value
+
+
+def _validate(composed: dict[str, Any], places: Places) -> ExperimentConfig:
+    try:
+        return ExperimentConfig.model_validate(composed)
+    except ValidationError as error:
+        lines = [_describe(item, places) for item in error.errors(include_url=False)]
+        raise ConfigError(lines) from None
+
+
+def _describe(error: ErrorDetails, places: Places) -> str:
+    key = error["loc"]
+    where = places.of(key)
+    if error["type"] == "extra_forbidden":
+        return f"{where}: unknown key; {_unknown_key_hint(str(key[-1]), _known_keys(key[:-1]))}"
+    if error["type"] == "missing":
+        return f"{where}: is missing{_example(key)}"
+    if error["type"] == "too_short":
+        return f"{where}: should not be empty{_example(key)}"
+    if error["type"] == "tuple_type":
+        return f"{where}: should be a list such as [{error['input']!r}]"
+    message = error["msg"][0].lower() + error["msg"][1:]
+    return f"{where}: {message}, not {error['input']!r}{_choice_hint(error)}"
+
+
+def _example(key: Key) -> str:
+    field = ExperimentConfig.model_fields.get(str(key[0])) if len(key) == 1 else None
+    return f"; for example {field.examples[0]}" if field and field.examples else ""
+
+
+def _choice_hint(error: ErrorDetails) -> str:
+    expected = error.get("ctx", {}).get("expected")
+    if expected is None or not isinstance(error["input"], str):
+        return ""
+    choices = str(expected).replace("'", "").replace(" or ", ", ").split(", ")
+    near = nearest(error["input"], choices)
+    return f"; {near}" if near.startswith("did") else ""
+
+
+def _unknown_key_hint(key: str, known: Sequence[str]) -> str:
+    if "(" in key or ")" in key:
+        return "put quotes around an action or a literal with a comma in it"
+    return nearest(key, known)
+
+
+def _known_keys(parents: tuple[str | int, ...]) -> list[str]:
+    section: type[BaseModel] = ExperimentConfig
+    for part in parents:
+        if isinstance(part, str) and part in section.model_fields:
+            section = _section_in(section.model_fields[part].annotation) or section
+    return list(section.model_fields)
+
+
+def _section_in(annotation: Any) -> type[Section] | None:
+    if isinstance(annotation, type) and issubclass(annotation, Section):
+        return annotation
+    inner = (_section_in(part) for part in getattr(annotation, "__args__", ()))
+    return next((found for found in inner if found is not None), None)
+
+
+def _located(config: ExperimentConfig, path: Path) -> ExperimentConfig:
+    if not config.domain.endswith(".al"):
+        return config
+    beside = path.parent / config.domain
+    domain = beside if beside.is_file() else Path(config.domain)
+    return config.model_copy(update={"domain": str(domain.resolve())})
+
+
+def _yaml_line(path: Path, error: yaml.YAMLError) -> str:
+    mark = getattr(error, "problem_mark", None)
+    where = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)
+    return f"{where}: not YAML: {getattr(error, 'problem', None) or _first_line(error)}"
+
+
+def _first_line(error: Exception) -> str:
+    return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__

@@ -1,0 +1,131 @@
+"""What a configuration may say: types, bounds and defaults of every key.
+
+Literals and actions are ASP text without spaces, `f(a,b)` or `-f(a,b)`. Whether a domain knows
+them is checked in `testbed.config.checking`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+Mode = Literal["never", "colocated", "always"]
+LinkKind = Literal["zenoh", "inprocess"]
+
+
+def _tidy(text: object) -> object:
+    return "".join(text.split()) if isinstance(text, str) else text
+
+
+def _whole(items: object) -> object:
+    """Literals as one item each: YAML splits an unquoted `[loc(a,b)]` at the inner comma."""
+    if not isinstance(items, Sequence) or isinstance(items, str):
+        return items
+    whole: list[Any] = []
+    for item in items:
+        if whole and isinstance(whole[-1], str) and whole[-1].count("(") > whole[-1].count(")"):
+            whole[-1] = f"{whole[-1]},{item}"
+        else:
+            whole.append(item)
+    return tuple(whole)
+
+
+def _named(value: object) -> object:
+    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _named_keys(value: object) -> object:
+    return (
+        {_named(key): item for key, item in value.items()} if isinstance(value, Mapping) else value
+    )
+
+
+Text = Annotated[str, BeforeValidator(_tidy), Field(min_length=1)]
+Literals = Annotated[tuple[Text, ...], BeforeValidator(_whole)]
+Name = Annotated[str, BeforeValidator(_named), Field(min_length=1)]
+Count = Annotated[int, Field(strict=True, ge=1)]
+Probability = Annotated[float, Field(strict=True, ge=0.0, le=1.0)]
+Flag = Annotated[bool, Field(strict=True)]
+
+
+class Section(BaseModel):
+    """A part of a configuration: immutable, and a key it does not know is an error."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Observability(Section):
+    """Whether the robot is told of an exogenous action, and how often."""
+
+    mode: Mode = "never"
+    probability: Probability = 1.0
+
+
+class ScriptEntry(Section):
+    """An exogenous action that happens at exactly this step."""
+
+    step: Count
+    action: Text
+
+
+class Limits(Section):
+    """Bounds of a trial: environment steps, length of a plan, seconds for an answer."""
+
+    steps: Count = 100
+    plan: Count = 30
+    answer_s: Annotated[float, Field(strict=True, gt=0.0)] = 60.0
+
+
+class AdversarySettings(Section):
+    """`rate`: probability a step that a trigger fires; absent: as the domain states it."""
+
+    rate: Probability | None = None
+
+
+class ScenarioSettings(Section):
+    """What one scenario has of its own; a key left out is the experiment's."""
+
+    initial: Literals | None = None
+    goal: Literals | None = None
+    script: tuple[ScriptEntry, ...] | None = None
+    exogenous_while_thinking: Flag | None = None
+    goal_feedback: Flag | None = None
+
+
+class ExperimentConfig(Section):
+    """A whole experiment: which trials, in which domain, under which rules.
+
+    `initial` absent means every state that the domain's `initially` allows. A `script` replaces
+    the scenario's triggers; an empty one means that nothing exogenous happens.
+    """
+
+    name: Annotated[Name, Field(pattern=r"^[A-Za-z0-9][\w.-]*$", examples=["name: quickstart"])]
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    domain: Name = "office"
+    goal: Annotated[Literals, Field(min_length=1, examples=['goal: ["f(a,b)", "-g(a)"]'])]
+    initial: Literals | None = None
+    scenarios: Annotated[tuple[Name, ...], Field(min_length=1)] = ("1",)
+    scenario_settings: Annotated[dict[str, ScenarioSettings], BeforeValidator(_named_keys)] = Field(
+        default_factory=dict
+    )
+    robots: Annotated[tuple[Name, ...], Field(min_length=1)] = ("intentional", "traditional")
+    limit: Count | None = None
+    link: LinkKind = "zenoh"
+    observability: dict[str, Observability] = Field(default_factory=dict)
+    goal_feedback: Flag = True
+    exogenous_while_thinking: Flag = False
+    script: tuple[ScriptEntry, ...] | None = None
+    adversary: AdversarySettings = AdversarySettings()
+    limits: Limits = Limits()
+
+    def settings(self, scenario: str) -> ScenarioSettings:
+        """The settings that hold in a scenario: its own where it has them, else the common ones.
+
+        `goal`, `exogenous_while_thinking` and `goal_feedback` are never None in the answer.
+        """
+        own = self.scenario_settings.get(scenario, ScenarioSettings())
+        common = {key: getattr(self, key) for key in ScenarioSettings.model_fields}
+        given = {key: getattr(own, key) for key in own.model_fields_set}
+        return ScenarioSettings(**common | {k: v for k, v in given.items() if v is not None})

@@ -1,0 +1,61 @@
+"""Where a key stands: the line of the YAML file, or the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import yaml
+
+Key = tuple[str | int, ...]
+
+
+def dotted(key: Key) -> str:
+    """`("limits", "steps")` as `limits.steps`, positions of a list as `[0]`."""
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in key)
+    return text.removeprefix(".")
+
+
+class Places:
+    """Says where the value of a key came from."""
+
+    def __init__(self, file: str | Path, text: str, overridden: Sequence[str]) -> None:
+        self.file = str(file)
+        self._root = yaml.compose(text, Loader=yaml.SafeLoader)
+        self._overridden = tuple(overridden)
+
+    def of(self, key: Key) -> str:
+        """`FILE:LINE: KEY`, or `command line: KEY` for an overridden one."""
+        name = dotted(key)
+        if any(_covers(given, key) for given in self._overridden):
+            return f"command line: {name}"
+        line = self._line(key)
+        where = self.file if line is None else f"{self.file}:{line}"
+        return f"{where}: {name}" if name else where
+
+    def _line(self, key: Key) -> int | None:
+        node, line = self._root, None
+        for part in key:
+            found = _child(node, part)
+            if found is None:
+                return line
+            node, line = found
+        return line
+
+
+def _covers(given: str, key: Key) -> bool:
+    """Whether one of the two keys leads to the other."""
+    parts = [part for part in given.replace("[", ".").replace("]", "").split(".") if part]
+    shared = min(len(parts), len(key))
+    return shared > 0 and [str(part) for part in key[:shared]] == parts[:shared]
+
+
+def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, int] | None:
+    if isinstance(node, yaml.MappingNode):
+        for name, value in node.value:
+            if name.value == str(part):
+                return value, name.start_mark.line + 1
+    if isinstance(node, yaml.SequenceNode) and isinstance(part, int) and part < len(node.value):
+        item = node.value[part]
+        return item, item.start_mark.line + 1
+    return None
