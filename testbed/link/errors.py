@@ -5,7 +5,7 @@ class LinkError(ValueError):
     """A message that cannot be understood: wrong version, wrong form, or not MessagePack at all."""
 
 
-class RobotLost(Exception):
+class RobotLost(Exception):  # noqa: N818 - an outcome of a trial, by the name records give it
     """The robot will not answer this trial any more.
 
     ``reason`` is one line that says why, the same whenever the same happens; ``details`` is what

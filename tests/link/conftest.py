@@ -8,32 +8,9 @@ from pathlib import Path
 import pytest
 
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Percept, Task
 from testbed.link.robot import RobotClient
 from testbed.link.spawned import SpawnedRobot, spawned_robot
-from tests.link.scripted import COMMAND, ScriptedRobot
-
-PATIENCE_S = 120.0
-"""An answer limit no test should ever meet."""
-
-
-def task(kind: str, trial: str = "t1") -> Task:
-    """A task for a scripted robot of this kind."""
-    return Task(
-        trial=trial,
-        robot=kind,
-        domain="toy",
-        source="sorts\n",
-        goal=["lit(lamp)"],
-        initial=["-lit(lamp)"],
-        plan_limit=5,
-        seed=1,
-    )
-
-
-def percept(step: int = 1, trial: str = "t1") -> Percept:
-    """What a robot is told at a step."""
-    return Percept(trial=trial, step=step, visible=["-lit(lamp)"])
+from tests.link.scripted import COMMAND, PATIENCE_S, ScriptedRobot
 
 
 @pytest.fixture(autouse=True)

@@ -1,4 +1,7 @@
-"""A robot that plays faults, chosen by ``Task.robot``; run as a module it serves itself."""
+"""A robot that plays faults, chosen by ``Task.robot``, and what to ask it.
+
+Run as a module it serves itself.
+"""
 
 import argparse
 import os
@@ -14,6 +17,27 @@ from testbed.link.messages import Decision, Percept, Task, Trace
 from testbed.link.serve import serve_forever
 
 COMMAND = (sys.executable, "-m", "tests.link.scripted")
+PATIENCE_S = 120.0
+"""An answer limit no test should ever meet."""
+
+
+def task(kind: str, trial: str = "t1") -> Task:
+    """A task for a scripted robot of this kind."""
+    return Task(
+        trial=trial,
+        robot=kind,
+        domain="toy",
+        source="sorts\n",
+        goal=["lit(lamp)"],
+        initial=["-lit(lamp)"],
+        plan_limit=5,
+        seed=1,
+    )
+
+
+def percept(step: int = 1, trial: str = "t1") -> Percept:
+    """What a robot is told at a step."""
+    return Percept(trial=trial, step=step, visible=["-lit(lamp)"])
 
 
 def decision(percept: Percept, **changes: Any) -> Decision:
@@ -28,21 +52,21 @@ def decision(percept: Percept, **changes: Any) -> Decision:
     return msgspec.structs.replace(sound, **changes)
 
 
-def _raise(percept: Percept) -> Decision:
+def _raise(_: Percept) -> Decision:
     raise ArithmeticError("out of\nideas")
 
 
-def _die(percept: Percept) -> Decision:
+def _die(_: Percept) -> Decision:
     os.kill(os.getpid(), signal.SIGKILL)
     raise AssertionError("unreachable")
 
 
-def _exit(percept: Percept) -> Decision:
+def _exit(_: Percept) -> Decision:
     print("Traceback:\nOSError: no space left", file=sys.stderr, flush=True)
     os._exit(3)
 
 
-def _think(percept: Percept) -> Decision:
+def _think(_: Percept) -> Decision:
     print("thinking", flush=True)
     time.sleep(600)
     raise AssertionError("nobody waits this long")
@@ -54,8 +78,8 @@ BEHAVIOURS: dict[str, Callable[[Percept], Any]] = {
     "dying": _die,
     "exiting": _exit,
     "thinking": _think,
-    "babbling": lambda percept: msgspec.Raw(b"\xc1 no MessagePack starts like this"),
-    "foreign": lambda percept: {"version": 1, "action": "wait"},
+    "babbling": lambda _: msgspec.Raw(b"\xc1 no MessagePack starts like this"),
+    "foreign": lambda _: {"version": 1, "action": "wait"},
     "newer": lambda percept: decision(percept, version=2),
     "late": lambda percept: decision(percept, step=percept.step - 1),
     "elsewhere": lambda percept: decision(percept, trial="another"),

@@ -4,7 +4,7 @@ import pytest
 
 from testbed.link.errors import RobotLost
 from testbed.link.robot import RobotClient
-from tests.link.conftest import percept, task
+from tests.link.scripted import percept, task
 
 FAULTS = {
     "raising": "robot failed: ArithmeticError: out of ideas",

@@ -14,8 +14,7 @@ from testbed.link.errors import RobotGone, RobotLost
 from testbed.link.remote import RemoteRobot
 from testbed.link.session import endpoint, open_driver, open_robot
 from testbed.link.spawned import SpawnedRobot
-from tests.link.conftest import PATIENCE_S, percept, task
-from tests.link.scripted import COMMAND
+from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 
 def _lose(robot: SpawnedRobot, kind: str) -> RobotLost:

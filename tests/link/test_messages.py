@@ -19,7 +19,7 @@ from testbed.link.messages import (
     decode,
     encode,
 )
-from tests.link.conftest import percept
+from tests.link.scripted import percept
 
 TEXT = st.text()
 TEXTS = st.lists(TEXT)

@@ -17,13 +17,12 @@ from testbed.link.process import RobotProcess
 from testbed.link.remote import RemoteRobot
 from testbed.link.session import endpoint, open_driver, open_robot
 from testbed.link.spawned import SpawnedRobot, spawned_robot
-from tests.link.conftest import PATIENCE_S, percept, task
-from tests.link.scripted import COMMAND
+from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 DRIVER = """
 import sys
 from testbed.link.spawned import spawned_robot
-from tests.link.conftest import percept, task
+from tests.link.scripted import percept, task
 from tests.link.scripted import COMMAND
 
 with spawned_robot("run", 60, COMMAND) as robot:
@@ -35,7 +34,7 @@ HOST = """
 import time
 from testbed.link.remote import RemoteRobot
 from testbed.link.session import endpoint, open_driver
-from tests.link.conftest import percept, task
+from tests.link.scripted import percept, task
 
 with open_driver() as session:
     print(endpoint(session), flush=True)
