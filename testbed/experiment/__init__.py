@@ -1,0 +1,1 @@
+"""Experiments: a configuration becomes trials, trials become records, records become a report."""

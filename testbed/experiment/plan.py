@@ -1,0 +1,145 @@
+"""From a configuration to the list of its trials: ids, seeds and rules, before anything runs.
+
+What a trial's result may depend on is hashed into its id; the link, the number of workers and
+the time allowed for an answer are not (one trial is the same trial wherever its robot runs).
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+
+import msgspec
+import numpy as np
+
+from testbed.config.models import ExperimentConfig, Mode, Observability
+from testbed.environment.world import World
+from testbed.experiment.domains import load_world
+
+LEVEL = "coarse"
+
+
+class Setting(msgspec.Struct, frozen=True, kw_only=True):
+    """What holds in every trial of one scenario of a configuration.
+
+    `script` is `((step, action), ...)`, or None for the scenario's triggers; `observability`
+    is `{exogenous action: (mode, probability)}`.
+    """
+
+    domain: str
+    goal: tuple[str, ...]
+    script: tuple[tuple[int, str], ...] | None
+    observability: dict[str, tuple[Mode, float]]
+    goal_feedback: bool
+    exogenous_while_thinking: bool
+    rate: float | None
+    step_limit: int
+    plan_limit: int
+
+
+class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """One trial to play. `initial` holds the atoms true at step 0; all others are false."""
+
+    trial: str
+    pair: str
+    scenario: str
+    level: str
+    seed: int
+    robot: str
+    initial: tuple[str, ...]
+    domain: str
+    setting: Setting
+
+
+def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
+    """The trials of a configuration in their order: scenario, pair, robot."""
+    world = load_world(config.domain)
+    return [
+        spec
+        for scenario in config.scenarios
+        for initial in _initial_states(config, scenario, world)
+        for spec in _pair(config, scenario, initial, world.description.name)
+    ]
+
+
+def _initial_states(
+    config: ExperimentConfig, scenario: str, world: World
+) -> Iterator[tuple[str, ...]]:
+    given = config.settings(scenario).initial
+    states = world.initial_states() if given is None else [world.state(given)]
+    atoms = [tuple(sorted(world.true_atoms(state))) for state in states]
+    return (atoms[index] for index in _drawn(len(atoms), config, scenario))
+
+
+def _drawn(count: int, config: ExperimentConfig, scenario: str) -> Sequence[int]:
+    """Which of `count` states to play: a smaller limit draws a part of what a larger one does."""
+    if config.limit is None or config.limit >= count:
+        return range(count)
+    sequence = np.random.SeedSequence(config.seed, spawn_key=_words(["limit", scenario]))
+    order = np.random.default_rng(sequence).permutation(count)
+    return sorted(int(index) for index in order[: config.limit])
+
+
+def _pair(
+    config: ExperimentConfig, scenario: str, initial: tuple[str, ...], domain: str
+) -> Iterator[TrialSpec]:
+    setting = setting_of(config, scenario)
+    path = [domain, LEVEL, scenario, list(initial), sorted(setting.goal)]
+    seed = trial_seed(config.seed, path)
+    logical = [
+        config.seed,
+        path,
+        msgspec.to_builtins(msgspec.structs.replace(setting, domain=domain)),
+    ]
+    for robot in config.robots:
+        yield TrialSpec(
+            trial=_short_hash([*logical, robot]),
+            pair=_short_hash(logical),
+            scenario=scenario,
+            level=LEVEL,
+            seed=seed,
+            robot=robot,
+            initial=initial,
+            domain=domain,
+            setting=setting,
+        )
+
+
+def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
+    """The rules of a scenario: its own settings where it has them, else the experiment's."""
+    own = config.settings(scenario)
+    assert own.goal is not None
+    return Setting(
+        domain=config.domain,
+        goal=own.goal,
+        script=None if own.script is None else tuple((e.step, e.action) for e in own.script),
+        observability=_observability(config.observability),
+        goal_feedback=bool(own.goal_feedback),
+        exogenous_while_thinking=bool(own.exogenous_while_thinking),
+        rate=config.adversary.rate,
+        step_limit=config.limits.steps,
+        plan_limit=config.limits.plan,
+    )
+
+
+def _observability(settings: dict[str, Observability]) -> dict[str, tuple[Mode, float]]:
+    return {name: (own.mode, own.probability) for name, own in sorted(settings.items())}
+
+
+def trial_seed(root: int, path: object) -> int:
+    """The seed of the trials at a seed path: 32 bits that follow from the root seed and it."""
+    sequence = np.random.SeedSequence(root, spawn_key=_words(path))
+    return int(sequence.generate_state(1)[0])
+
+
+def _words(path: object) -> tuple[int, ...]:
+    digest = hashlib.blake2b(_canonical(path), digest_size=16).digest()
+    return tuple(int.from_bytes(digest[i : i + 4], "big") for i in range(0, 16, 4))
+
+
+def _short_hash(value: object) -> str:
+    return hashlib.blake2b(_canonical(value), digest_size=6).hexdigest()
+
+
+def _canonical(value: object) -> bytes:
+    return msgspec.json.encode(value, order="deterministic")

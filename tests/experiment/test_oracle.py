@@ -1,0 +1,80 @@
+"""The oracle finds shortest plans, and says where there is none."""
+
+import itertools
+
+import pytest
+
+from testbed.environment.world import World
+from testbed.experiment.domains import load_world
+from testbed.experiment.oracle import minimal_actions, shortest_plan
+
+DELIVERED = (
+    "loc(book1,library)",
+    "loc(book2,library)",
+    "-in_hand(rob1,book1)",
+    "-in_hand(rob1,book2)",
+)
+
+
+@pytest.fixture(scope="module")
+def office() -> World:
+    return load_world("office")
+
+
+def _after(world: World, state: int, plan: tuple[str, ...]) -> int:
+    for action in plan:
+        state = world.successor(state, (action,))
+    return state
+
+
+def test_the_published_problem_takes_its_six_actions(office: World) -> None:
+    start = office.state(["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)"])
+    assert shortest_plan(office, start, DELIVERED) == (
+        "move(rob1,library)",
+        "put_down(rob1,book1)",
+        "move(rob1,kitchen)",
+        "pickup(rob1,book2)",
+        "move(rob1,library)",
+        "put_down(rob1,book2)",
+    )
+
+
+def test_out_of_the_locked_library_for_both_books_takes_seventeen(office: World) -> None:
+    start = office.state(
+        ["loc(rob1,library)", "locked(library)", "loc(book1,office1)", "loc(book2,office1)"]
+    )
+    assert minimal_actions(office, start, DELIVERED) == 17
+
+
+def test_nothing_to_do_and_nothing_to_be_done(office: World) -> None:
+    start = office.state(["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,library)"])
+    assert shortest_plan(office, start, DELIVERED) == ()
+    assert shortest_plan(office, start, ("loc(book1,kitchen)", "loc(book1,library)")) is None
+    assert minimal_actions(office, start, ("loc(rob1,kitchen)", "locked(library)")) is None
+
+
+def test_from_every_initial_state_the_plan_arrives_and_is_plausible(office: World) -> None:
+    starts = office.initial_states()
+    assert len(starts) == 192
+    for start in starts:
+        plan = shortest_plan(office, start, DELIVERED)
+        assert plan is not None
+        assert office.satisfies(_after(office, start, plan), DELIVERED)
+        neighbours = (
+            minimal_actions(office, after, DELIVERED)
+            for action in office.agent_actions
+            for after in office.successors(start, (action,))
+        )
+        best = min(length for length in neighbours if length is not None)
+        assert len(plan) == (0 if office.satisfies(start, DELIVERED) else best + 1)
+
+
+def test_no_shorter_sequence_of_actions_does_it(office: World) -> None:
+    start = office.state(["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,library)"])
+    plan = shortest_plan(office, start, DELIVERED)
+    assert plan is not None
+    for shorter in itertools.product(office.agent_actions, repeat=len(plan) - 1):
+        states = {start}
+        for action in shorter:
+            states = {after for s in states for after in office.successors(s, (action,))}
+        assert not any(office.satisfies(state, DELIVERED) for state in states)

@@ -1,0 +1,82 @@
+"""The plan of a configuration: which trials, under which ids and seeds."""
+
+import pytest
+
+from testbed.config import load_config
+from testbed.experiment.plan import plan_trials
+
+
+def _ids(*overrides: str, name: str = "office") -> list[str]:
+    return [spec.trial for spec in plan_trials(load_config(name, overrides))]
+
+
+def test_both_robots_of_a_pair_share_all_but_the_robot() -> None:
+    specs = plan_trials(load_config("office", ["scenarios=[2, random]", "limit=3"]))
+    assert len(specs) == 2 * 3 * 2
+    assert len({spec.trial for spec in specs}) == len(specs)
+    for one, other in zip(specs[::2], specs[1::2], strict=True):
+        assert (one.robot, other.robot) == ("intentional", "traditional")
+        assert (one.pair, one.seed, one.initial) == (other.pair, other.seed, other.initial)
+    assert len({spec.pair for spec in specs}) == 6
+    assert len({spec.seed for spec in specs}) == 6
+
+
+def test_every_initial_state_is_there_where_no_limit_is() -> None:
+    specs = plan_trials(load_config("office", ["scenarios=[1]", "robots=[intentional]"]))
+    assert len({spec.initial for spec in specs}) == len(specs) == 192
+
+
+def test_the_same_configuration_gives_the_same_plan() -> None:
+    assert _ids("limit=4") == _ids("limit=4")
+
+
+@pytest.mark.parametrize(
+    "override",
+    ["link=inprocess", "limits.answer_s=5.0", "name=other", "robots=[traditional,intentional]"],
+)
+def test_what_no_result_depends_on_changes_no_id(override: str) -> None:
+    assert sorted(_ids("limit=2")) == sorted(_ids("limit=2", override))
+
+
+@pytest.mark.parametrize(
+    "override",
+    [
+        "seed=2",
+        "goal_feedback=false",
+        "exogenous_while_thinking=true",
+        "observability.exo_move.mode=always",
+        "observability.exo_lock.probability=0.5",
+        "limits.steps=99",
+        "limits.plan=29",
+        "adversary.rate=0.1",
+        "goal=[loc(book1,kitchen)]",
+        "script=[]",
+    ],
+)
+def test_what_a_result_may_depend_on_changes_every_id(override: str) -> None:
+    assert not set(_ids("scenarios=[1,2]")) & set(_ids("scenarios=[1,2]", override))
+
+
+def test_a_smaller_limit_draws_a_part_of_a_larger_one() -> None:
+    few, more, all_of_them = set(_ids("limit=5")), set(_ids("limit=20")), set(_ids())
+    assert (len(few), len(more)) == (5 * 6 * 2, 20 * 6 * 2)
+    assert few < more < all_of_them
+
+
+def test_limits_draw_by_the_seed_and_for_each_scenario_anew() -> None:
+    def drawn(*overrides: str) -> dict[str, list[tuple[str, ...]]]:
+        specs = plan_trials(load_config("office", ["limit=10", "robots=[intentional]", *overrides]))
+        return {name: [s.initial for s in specs if s.scenario == name] for name in ("1", "2")}
+
+    assert drawn()["1"] != drawn()["2"]
+    assert drawn()["1"] != drawn("seed=2")["1"]
+
+
+def test_a_scenario_is_planned_with_its_own_settings() -> None:
+    by_scenario = {s.scenario: s for s in plan_trials(load_config("quickstart"))}
+    assert by_scenario["4"].setting.script == ((1, "exo_move(book2,kitchen)"),)
+    assert "loc(book2,office1)" in by_scenario["4"].initial
+    assert by_scenario["4"].setting.exogenous_while_thinking
+    assert by_scenario["1"].setting.script is None
+    assert "loc(book2,kitchen)" in by_scenario["1"].initial
+    assert not by_scenario["1"].setting.exogenous_while_thinking
