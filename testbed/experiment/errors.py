@@ -1,0 +1,9 @@
+"""What a user can get wrong about an experiment, apart from its configuration."""
+
+
+class StoreError(ValueError):
+    """A run folder that cannot be used as asked: one line or more that say why."""
+
+
+class ServingError(ValueError):
+    """A robot that cannot be served as asked: one line that says why."""

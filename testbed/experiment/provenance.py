@@ -1,0 +1,110 @@
+"""Where a run came from: versions, platform, command, revision, start and end."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import json
+import platform
+import subprocess
+import sys
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import asp
+import testbed
+from testbed.experiment.store import PROVENANCE, replace_text
+
+DISTRIBUTION = "intention-testbed"
+LIBRARIES = ("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic")
+DIFFERENCE = "difference.patch"
+
+
+class Provenance:
+    """The provenance of one session of a run; those of earlier sessions are kept under `before`."""
+
+    def __init__(self, folder: Path, domain: str, arguments: Sequence[str]) -> None:
+        self._folder = folder
+        self._entry: dict[str, Any] = {
+            "command": ["testbed", *arguments],
+            "start": _now(),
+            "end": None,
+            "exit": None,
+            "versions": versions(),
+            "platform": {"system": platform.platform(), "machine": platform.machine()},
+            "revision": revision(folder),
+            "domain": _domain(domain),
+            "before": _sessions(folder / PROVENANCE),
+        }
+        self._write()
+
+    def close(self, code: int) -> None:
+        """Record the end of the session and its exit code."""
+        self._entry |= {"end": _now(), "exit": code}
+        self._write()
+
+    def _write(self) -> None:
+        replace_text(self._folder / PROVENANCE, json.dumps(self._entry, indent=2) + "\n")
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python, of this distribution and of the libraries that results rest on."""
+    found = {"python": platform.python_version()}
+    for name in (DISTRIBUTION, *LIBRARIES):
+        try:
+            found[name] = importlib.metadata.version(name)
+        except importlib.metadata.PackageNotFoundError:
+            found[name] = "not installed"
+    return found
+
+
+def revision(folder: Path) -> dict[str, object] | None:
+    """The git revision of the checkout this package runs from; None when installed.
+
+    What differs from that revision is written to `difference.patch` in `folder`.
+    """
+    root = Path(testbed.__file__).resolve().parent.parent
+    if not (root / ".git").exists():
+        return None
+    commit = _git(root, "rev-parse", "HEAD")
+    changed = _git(root, "status", "--porcelain")
+    if commit is None or changed is None:
+        return None
+    if changed:
+        difference = _git(root, "diff", "HEAD") or ""
+        (folder / DIFFERENCE).write_text(difference + "\n", encoding="utf-8")
+    return {"commit": commit, "changed": changed.splitlines()}
+
+
+def _domain(domain: str) -> dict[str, str]:
+    description = asp.load_description(domain)
+    digest = hashlib.sha256(description.source.encode()).hexdigest()
+    return {"name": description.name, "sha256": digest}
+
+
+def _sessions(path: Path) -> list[dict[str, Any]]:
+    try:
+        last = json.loads(path.read_text(encoding="utf-8"))
+        return [*last.pop("before", []), last]
+    except (OSError, ValueError, AttributeError):
+        return []
+
+
+def _git(root: Path, *arguments: str) -> str | None:
+    try:
+        command = ["git", "-C", str(root), *arguments]
+        done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=20)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return done.stdout.strip() if done.returncode == 0 else None
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+def session_arguments() -> list[str]:
+    """The arguments that this process was started with."""
+    return sys.argv[1:]

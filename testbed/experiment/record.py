@@ -1,0 +1,108 @@
+"""What is kept of a trial: one line of `trials.jsonl`, every key of it stated here.
+
+Steps are the environment's: 0 is the selection of the goal, the robot's first answer is step 1.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
+FAILURES: tuple[Outcome, ...] = ("robot_lost", "error")
+TIMES = ("planning_time_s", "diagnosis_time_s", "reasoning_time_s", "wall_time_s")
+
+
+class Attempt(msgspec.Struct):
+    """A physical action of the robot, and whether it took effect."""
+
+    step: int
+    action: str
+    happened: bool
+
+
+class Occurrence(msgspec.Struct):
+    """An exogenous action that happened, and whether the robot was told of it."""
+
+    step: int
+    action: str
+    observed: bool
+
+
+class At(msgspec.Struct):
+    """An action at a step."""
+
+    step: int
+    action: str
+
+
+class Explained(msgspec.Struct):
+    """An explanation that the robot adopted at `step`."""
+
+    step: int
+    unobserved: list[At]
+    exceptions: list[str]
+
+
+class Activity(msgspec.Struct):
+    """An activity of the robot: when it started, its plan, and when it was stopped (or None)."""
+
+    name: int
+    start: int
+    plan: list[str]
+    stop: int | None = None
+
+
+class TrialRecord(msgspec.Struct, kw_only=True):
+    """The record of a trial.
+
+    `reason` is one line that says why a trial was lost or ended in error. `minimal_actions` is
+    the oracle's, from the initial state with nothing exogenous; None where no plan exists.
+    `mental` holds `start(N)`, `stop(N)` and `finish`; times are seconds.
+    """
+
+    trial: str
+    pair: str
+    scenario: str
+    seed: int
+    robot: str
+    domain: str
+    level: str
+    initial: list[str]
+    goal: list[str]
+    achieved: bool = False
+    finished: bool = False
+    correct: bool = False
+    minimal_actions: int | None = None
+    outcome: Outcome = "error"
+    reason: str | None = None
+    steps: int = 0
+    actions: list[Attempt] = []
+    exogenous: list[Occurrence] = []
+    explanations: list[Explained] = []
+    mental: list[At] = []
+    activities: list[Activity] = []
+    plans: int = 0
+    action_count: int = 0
+    execution_units: int = 0
+    planning_time_s: float = 0.0
+    diagnosis_time_s: float = 0.0
+    reasoning_time_s: float = 0.0
+    wall_time_s: float = 0.0
+    fine: dict[str, float] | None = None
+
+
+def encode(record: TrialRecord) -> bytes:
+    """The record as one line of JSON, newline included."""
+    return msgspec.json.encode(record) + b"\n"
+
+
+def decode(line: bytes) -> TrialRecord:
+    """The record in a line. Raises msgspec.DecodeError for anything else."""
+    return msgspec.json.decode(line, type=TrialRecord)
+
+
+def logical(record: TrialRecord) -> dict[str, object]:
+    """The record without its times: what the same seed must give again."""
+    return {key: value for key, value in msgspec.to_builtins(record).items() if key not in TIMES}

@@ -1,0 +1,151 @@
+"""The run folder: what is written stays, what is torn is dropped, what is changed is refused."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import asp
+from testbed.config import load_config
+from testbed.experiment.errors import StoreError
+from testbed.experiment.record import decode, encode
+from testbed.experiment.store import (
+    TrialWriter,
+    check_unchanged,
+    choose_folder,
+    read_config,
+    read_records,
+    write_config,
+)
+from tests.experiment.samples import Configure, a_record, ids
+
+
+def _write(folder: Path, *trials: str) -> None:
+    with TrialWriter(folder) as writer:
+        for trial in trials:
+            writer.append(a_record(trial))
+
+
+def test_a_record_reads_back_as_it_was_written() -> None:
+    record = a_record("x", planning_time_s=0.25, reason="no answer", achieved=False)
+    assert decode(encode(record)) == record
+    assert encode(record).count(b"\n") == 1
+
+
+def test_records_are_readable_while_the_file_grows(tmp_path: Path) -> None:
+    with TrialWriter(tmp_path) as writer:
+        writer.append(a_record("a"))
+        assert ids(list(read_records(tmp_path))) == ["a"]
+        writer.append(a_record("b"))
+        assert ids(list(read_records(tmp_path))) == ["a", "b"]
+
+
+@pytest.mark.parametrize("kept", [0, 1, 10, -1])
+def test_a_torn_last_line_is_dropped_and_written_anew(tmp_path: Path, kept: int) -> None:
+    _write(tmp_path, "a", "b")
+    whole = (tmp_path / "trials.jsonl").read_bytes()
+    first, torn, _ = whole.split(b"\n")
+    (tmp_path / "trials.jsonl").write_bytes(first + b"\n" + torn[:kept])
+    assert ids(list(read_records(tmp_path))) == ["a"]
+    with TrialWriter(tmp_path) as writer:
+        assert writer.done == {"a"}
+        writer.append(a_record("b"))
+    assert (tmp_path / "trials.jsonl").read_bytes() == whole
+
+
+def test_a_file_that_is_nothing_but_torn_starts_again(tmp_path: Path) -> None:
+    (tmp_path / "trials.jsonl").write_bytes(b'{"trial":"a"')
+    with TrialWriter(tmp_path) as writer:
+        assert writer.done == set()
+    assert (tmp_path / "trials.jsonl").read_bytes() == b""
+
+
+def test_damage_in_the_middle_is_reported_with_its_line(tmp_path: Path) -> None:
+    _write(tmp_path, "a", "b", "c")
+    lines = (tmp_path / "trials.jsonl").read_bytes().splitlines(keepends=True)
+    (tmp_path / "trials.jsonl").write_bytes(lines[0] + b"nonsense\n" + lines[2])
+    with pytest.raises(StoreError, match=r"trials\.jsonl:2: not a record"):
+        list(read_records(tmp_path))
+
+
+def test_a_folder_has_one_writer(tmp_path: Path) -> None:
+    with TrialWriter(tmp_path), pytest.raises(StoreError, match="another run is writing here"):
+        TrialWriter(tmp_path)
+    _write(tmp_path, "a")
+
+
+def test_a_writer_killed_leaves_the_folder_free(tmp_path: Path) -> None:
+    program = (
+        "import os, signal, sys; from pathlib import Path;"
+        "from testbed.experiment.store import TrialWriter;"
+        "writer = TrialWriter(Path(sys.argv[1])); os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    killed = subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=False)
+    assert killed.returncode == -9
+    _write(tmp_path, "a")
+
+
+def test_runs_of_one_name_get_folders_of_their_own(at_home: Path) -> None:
+    first = choose_folder(None, "tiny", resume=False)
+    first.mkdir(parents=True)
+    second = choose_folder(None, "tiny", resume=False)
+    second.mkdir()
+    third = choose_folder(None, "tiny", resume=False)
+    assert [first, second, third] == [Path("runs") / n for n in ("tiny", "tiny-2", "tiny-3")]
+    assert choose_folder(None, "tiny", resume=True) == second
+    assert choose_folder(None, "another", resume=True) == Path("runs/another")
+
+
+def test_a_named_folder_with_a_run_is_only_resumed(tmp_path: Path) -> None:
+    assert choose_folder(tmp_path, "tiny", resume=False) == tmp_path
+    _write(tmp_path, "a")
+    assert choose_folder(tmp_path, "tiny", resume=True) == tmp_path
+    with pytest.raises(StoreError, match="--resume"):
+        choose_folder(tmp_path, "tiny", resume=False)
+    with pytest.raises(StoreError, match="not a folder"):
+        choose_folder(tmp_path / "trials.jsonl", "tiny", resume=True)
+
+
+def test_the_stored_configuration_is_the_one_that_ran(tmp_path: Path, configure: Configure) -> None:
+    config = configure("limit=1", "adversary.rate=0.5")
+    write_config(tmp_path, config)
+    assert read_config(tmp_path) == config
+    check_unchanged(tmp_path, config)
+
+
+def test_a_changed_configuration_is_refused_with_the_difference(
+    tmp_path: Path, configure: Configure
+) -> None:
+    write_config(tmp_path, configure())
+    changed = configure("seed=5", "limits.steps=50", "scenario_settings.4.goal_feedback=false")
+    with pytest.raises(StoreError) as refusal:
+        check_unchanged(tmp_path, changed)
+    assert [line.strip() for line in str(refusal.value).splitlines()[1:]] == [
+        "seed: 1 -> 5",
+        "limits.steps: 100 -> 50",
+        "scenario_settings.4.goal_feedback: absent -> False",
+    ]
+
+
+def test_where_the_robot_runs_may_change(tmp_path: Path, configure: Configure) -> None:
+    write_config(tmp_path, configure("link=zenoh"))
+    check_unchanged(tmp_path, configure("link=inprocess", "limits.answer_s=1.5"))
+
+
+def test_a_domain_of_ones_own_is_kept_with_the_run(tmp_path: Path) -> None:
+    source, run = tmp_path / "own.al", tmp_path / "run"
+    source.write_text(asp.load_description("office").source, encoding="utf-8")
+    config = load_config("quickstart", [f"domain={source}"])
+    write_config(run, config)
+    check_unchanged(run, config)
+    assert Path(read_config(run).domain) == (run / "own.al").resolve()
+    check_unchanged(run, read_config(run))
+    source.write_text(source.read_text(encoding="utf-8") + "% later\n", encoding="utf-8")
+    with pytest.raises(StoreError, match="domain text"):
+        check_unchanged(run, load_config("quickstart", [f"domain={source}"]))
+
+
+def test_a_folder_without_a_run_is_said_to_be_none(tmp_path: Path) -> None:
+    with pytest.raises(StoreError, match="is not a run folder"):
+        read_config(tmp_path)
