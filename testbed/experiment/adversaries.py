@@ -1,0 +1,27 @@
+"""The adversary of a trial: the scenario's triggers, or an explicit script."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from agents.adversary.base import Adversary, AdversaryView
+from agents.adversary.scripted import Script, Triggered
+
+from asp import Description
+from testbed.experiment.plan import TrialSpec
+
+__all__ = ["Adversary", "AdversaryView", "make_adversary"]
+
+
+def make_adversary(spec: TrialSpec, description: Description) -> Adversary:
+    """The adversary that plays a trial. Raises ValueError for an unknown scenario."""
+    if spec.setting.script is not None:
+        return Script(spec.setting.script)
+    return Triggered(_at_rate(description, spec.setting.rate), spec.scenario)
+
+
+def _at_rate(description: Description, rate: float | None) -> Description:
+    if rate is None:
+        return description
+    triggers = tuple(dataclasses.replace(t, probability=rate) for t in description.triggers)
+    return dataclasses.replace(description, triggers=triggers)

@@ -1,0 +1,94 @@
+"""Fill a trial's record while it is played."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from testbed.environment.core import FINISH, WAIT
+from testbed.environment.situation import Ending
+from testbed.experiment.record import (
+    Activity,
+    At,
+    Attempt,
+    Explained,
+    Occurrence,
+    Outcome,
+    TrialRecord,
+)
+from testbed.link.messages import Decision, Trace
+
+
+class Recorder:
+    """The record of the trial under way, complete up to the last step that was played."""
+
+    def __init__(self, record: TrialRecord) -> None:
+        self.record = record
+        self._believes_goal = False
+
+    def minimal_actions(self, number: int | None) -> None:
+        """The oracle's answer for the initial state."""
+        self.record.minimal_actions = number
+
+    def step(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
+        """What the robot decided; `happened` is None unless it attempted a physical action."""
+        record, trace = self.record, decision.trace
+        record.steps = decision.step
+        record.plans = trace.plans
+        record.planning_time_s += trace.planning_time_s
+        record.diagnosis_time_s += trace.diagnosis_time_s
+        record.reasoning_time_s = record.planning_time_s + record.diagnosis_time_s
+        self._believes_goal = decision.believes_goal
+        if decision.action not in (WAIT, FINISH):
+            record.actions.append(Attempt(decision.step, decision.action, bool(happened)))
+            record.action_count += 1
+            record.execution_units += costs.get(decision.action, 0)
+        self._mind(decision.step, decision.action, trace)
+
+    def _mind(self, step: int, action: str, trace: Trace) -> None:
+        record = self.record
+        mental = FINISH if action == FINISH else trace.mental
+        if mental is not None:
+            record.mental.append(At(step, mental))
+        if trace.explanation is not None:
+            unobserved = [At(event.step, event.action) for event in trace.explanation.unobserved]
+            record.explanations.append(Explained(step, unobserved, trace.explanation.exceptions))
+        self._activity(step, trace)
+
+    def _activity(self, step: int, trace: Trace) -> None:
+        """Follow the activities; a robot without mental actions begins one with each plan."""
+        kind, _, name = (trace.mental or "").rstrip(")").partition("(")
+        activities = self.record.activities
+        if kind == "stop" and activities:
+            activities[-1].stop = step
+        if kind == "start":
+            activities.append(Activity(int(name), step, list(trace.plan)))
+        elif not kind and trace.plans > len(activities):
+            activities.append(Activity(trace.plans, step, list(trace.plan)))
+
+    def exogenous(self, step: int, action: str, observed: bool) -> None:
+        """An exogenous action that took effect at `step`."""
+        self.record.exogenous.append(Occurrence(step, action, observed))
+
+    def end(self, ending: Ending, achieved: bool) -> None:
+        """The end of the game, and whether the goal truly holds there."""
+        record = self.record
+        record.achieved = achieved
+        record.finished = ending is not Ending.STEP_LIMIT
+        record.outcome = self._outcome(ending)
+        record.correct = achieved and record.finished and self._minimal_if_undisturbed()
+
+    def _outcome(self, ending: Ending) -> Outcome:
+        if ending is Ending.STEP_LIMIT:
+            return "step_limit"
+        if ending is Ending.ACHIEVED:
+            return "achieved"
+        return "false_finish" if self._believes_goal else "gave_up"
+
+    def _minimal_if_undisturbed(self) -> bool:
+        undisturbed = not self.record.exogenous
+        return not undisturbed or self.record.action_count == self.record.minimal_actions
+
+    def fail(self, outcome: Outcome, reason: str) -> None:
+        """The trial could not be played to its end."""
+        self.record.outcome = outcome
+        self.record.reason = reason

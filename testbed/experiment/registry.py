@@ -1,0 +1,26 @@
+"""The robots that can be asked for, by the name that configurations and records give them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from agents.intentional import IntentionalRobot
+from agents.traditional import TraditionalRobot
+from testbed.config.errors import nearest
+from testbed.link.robot import Robot
+
+ROBOTS: Mapping[str, Callable[[], Robot]] = {
+    "intentional": IntentionalRobot,
+    "traditional": TraditionalRobot,
+}
+
+
+def make_robot(kind: str) -> Robot:
+    """A new robot of a kind.
+
+    Raises:
+        ValueError: for an unknown kind, naming the nearest known one.
+    """
+    if kind not in ROBOTS:
+        raise ValueError(f"unknown robot '{kind}'; {nearest(kind, ROBOTS)}")
+    return ROBOTS[kind]()

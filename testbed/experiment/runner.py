@@ -1,0 +1,112 @@
+"""Run the trials of a configuration into a run folder, and go on where a run was left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from testbed.config import ExperimentConfig
+from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.pool import Play, play_all
+from testbed.experiment.record import FAILURES
+from testbed.experiment.registry import make_robot
+from testbed.experiment.store import ERRORS, TrialWriter
+from testbed.experiment.trial import Result, play_trial
+from testbed.link.inprocess import InProcessRobot
+from testbed.link.robot import RobotClient
+from testbed.link.spawned import spawned_robot
+
+
+@dataclass
+class Tally:
+    """How a run stands: trials planned, on record, and failed in this session."""
+
+    planned: int
+    done: int
+    failed: int = 0
+    interrupted: bool = False
+
+
+Notify = Callable[[Tally], None]
+
+
+def run_trials(config: ExperimentConfig, folder: Path, workers: int, notify: Notify) -> Tally:
+    """Play every trial of `config` that `folder` has no record of; append them in their order.
+
+    An interrupt ends the run early: what was finished is on record, and the tally says so.
+    `notify` is called once at the start and after every trial.
+
+    Raises:
+        StoreError: when the folder cannot be written to.
+    """
+    specs = plan_trials(config)
+    with TrialWriter(folder) as writer:
+        missing = [spec for spec in specs if spec.trial not in writer.done]
+        tally = Tally(planned=len(specs), done=len(specs) - len(missing))
+        notify(tally)
+        if missing:
+            _play_missing(missing, workers, config, _Filing(folder, writer, tally, notify))
+    return tally
+
+
+def _play_missing(
+    missing: Sequence[TrialSpec], workers: int, config: ExperimentConfig, filing: _Filing
+) -> None:
+    open_player = partial(player, config.link, config.name, config.limits.answer_s)
+    results = play_all(missing, workers, open_player)
+    try:
+        for position, result in results:
+            filing.take(position, result)
+    except KeyboardInterrupt:
+        filing.tally.interrupted = True
+    finally:
+        results.close()
+        filing.flush()
+
+
+class _Filing:
+    """Puts results on record in the order of the plan, whatever the order in which they come."""
+
+    def __init__(self, folder: Path, writer: TrialWriter, tally: Tally, notify: Notify) -> None:
+        self.tally = tally
+        self._folder, self._writer, self._notify = folder, writer, notify
+        self._early: dict[int, Result] = {}
+        self._next = 0
+
+    def take(self, position: int, result: Result) -> None:
+        self._early[position] = result
+        while self._next in self._early:
+            self._file(self._early.pop(self._next))
+            self._next += 1
+        self.tally.done += 1
+        self.tally.failed += result.record.outcome in FAILURES
+        self._notify(self.tally)
+
+    def flush(self) -> None:
+        """File what came before its turn: on an interrupt its turn does not come any more."""
+        for position in sorted(self._early):
+            self._file(self._early.pop(position))
+
+    def _file(self, result: Result) -> None:
+        self._writer.append(result.record)
+        if result.details:
+            errors = self._folder / ERRORS
+            errors.mkdir(exist_ok=True)
+            (errors / f"{result.record.trial}.txt").write_text(result.details, encoding="utf-8")
+
+
+@contextmanager
+def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
+    """What plays trials one after the other, with a robot that lives across them."""
+    if link == "inprocess":
+        yield partial(_play_with, InProcessRobot(make_robot))
+        return
+    with spawned_robot(run, answer_s) as robot:
+        yield partial(_play_with, robot)
+
+
+def _play_with(client: RobotClient, spec: TrialSpec) -> Result:
+    return play_trial(spec, client)

@@ -1,0 +1,164 @@
+"""Play one trial: the world, an adversary and a robot behind its link; the record comes out."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import msgspec
+import numpy as np
+
+from testbed.environment.core import NONE, Core
+from testbed.environment.rules import Observability
+from testbed.environment.rules import Rules as GameRules
+from testbed.environment.world import World
+from testbed.experiment.adversaries import Adversary, AdversaryView, make_adversary
+from testbed.experiment.domains import load_world
+from testbed.experiment.oracle import minimal_actions
+from testbed.experiment.plan import TrialSpec
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.recorder import Recorder
+from testbed.link.errors import RobotLost
+from testbed.link.messages import Decision, Percept, Task
+from testbed.link.robot import RobotClient
+
+
+@dataclass(frozen=True)
+class Moment:
+    """One step of a trial: what the robot was told, answered, and what became of it.
+
+    `happened` is None unless the robot attempted a physical action; `event` is the exogenous
+    action, or None; `before` and `after` are states of the world.
+    """
+
+    percept: Percept
+    decision: Decision
+    happened: bool | None
+    event: str | None
+    before: int
+    after: int
+
+
+class Result(msgspec.Struct):
+    """A record, and where the trial failed what is known of the failure."""
+
+    record: TrialRecord
+    details: str | None = None
+
+
+Watch = Callable[[Moment], None]
+
+
+def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None) -> Result:
+    """The result of a trial. A lost robot and any error end in the record, never in a raise."""
+    recorder = Recorder(blank_record(spec))
+    started = time.perf_counter()
+    details: str | None = None
+    try:
+        _play(spec, client, recorder, watch)
+    except RobotLost as loss:
+        recorder.fail("robot_lost", loss.reason)
+        details = loss.details or None
+    except Exception as error:  # whatever it is, it is this trial's outcome and not the run's
+        recorder.fail("error", " ".join(f"{type(error).__name__}: {error}".split()))
+        details = traceback.format_exc()
+    recorder.record.wall_time_s = time.perf_counter() - started
+    return Result(recorder.record, details)
+
+
+def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
+    """The result of a trial whose worker process ended in the middle of it."""
+    recorder = Recorder(blank_record(spec))
+    recorder.fail("error", f"worker process ended with exit code {exit_code}")
+    return Result(recorder.record)
+
+
+def blank_record(spec: TrialSpec) -> TrialRecord:
+    """A record with what is known before the trial is played."""
+    return TrialRecord(
+        trial=spec.trial,
+        pair=spec.pair,
+        scenario=spec.scenario,
+        seed=spec.seed,
+        robot=spec.robot,
+        domain=spec.domain,
+        level=spec.level,
+        initial=list(spec.initial),
+        goal=list(spec.setting.goal),
+    )
+
+
+def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch | None) -> None:
+    world = load_world(spec.setting.domain)
+    for_world, for_adversary, for_robot = _seeds(spec.seed)
+    core = Core(world, _game_rules(spec), ())
+    core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
+    recorder.minimal_actions(minimal_actions(world, core.situation.state, spec.setting.goal))
+    adversary = make_adversary(spec, world.description)
+    adversary.reset(for_adversary)
+    client.begin(_task(spec, world, core.situation.state, for_robot))
+    while core.situation.ending is None:
+        moment = _step(core, client, adversary, recorder)
+        if watch is not None:
+            watch(moment)
+    recorder.end(core.situation.ending, core.achieved)
+
+
+def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recorder) -> Moment:
+    before, percept = core.situation, core.percept
+    decision = client.ask(percept)
+    if decision.action not in core.robot_actions:
+        raise RobotLost(f"answered '{decision.action}', which is not an action")
+    event = adversary.act(_view(core, decision.action))
+    core.advance(decision.action, event)
+    after = core.situation
+    recorder.step(decision, after.happened, core.world.description.costs)
+    exogenous = None if event == NONE else event
+    if exogenous is not None:
+        recorder.exogenous(before.step, exogenous, observed=exogenous in core.percept.events)
+    return Moment(percept, decision, after.happened, exogenous, before.state, after.state)
+
+
+def _view(core: Core, robot_action: str) -> AdversaryView:
+    now = core.situation
+    return AdversaryView(
+        step=now.step,
+        state=frozenset(core.world.true_atoms(now.state)),
+        robot_action=robot_action,
+        legal=core.events(robot_action),
+    )
+
+
+def _task(spec: TrialSpec, world: World, state: int, seed: int) -> Task:
+    return Task(
+        trial=spec.trial,
+        robot=spec.robot,
+        domain=spec.domain,
+        source=world.description.source,
+        goal=list(spec.setting.goal),
+        initial=list(world.literals(state)),
+        plan_limit=spec.setting.plan_limit,
+        seed=seed,
+    )
+
+
+def _game_rules(spec: TrialSpec) -> GameRules:
+    setting = spec.setting
+    return GameRules(
+        goal=setting.goal,
+        steps=setting.step_limit,
+        observability={
+            name: Observability(mode, probability)
+            for name, (mode, probability) in setting.observability.items()
+        },
+        goal_feedback=setting.goal_feedback,
+        exogenous_while_thinking=setting.exogenous_while_thinking,
+    )
+
+
+def _seeds(seed: int) -> tuple[int, int, int]:
+    """Seeds for the world, the adversary and the robot, so that none shares another's numbers."""
+    world, adversary, robot = np.random.SeedSequence(seed).generate_state(3)
+    return int(world), int(adversary), int(robot)

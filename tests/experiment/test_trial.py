@@ -1,0 +1,241 @@
+"""Trials with robots whose answers are written down: every outcome, and what is kept of it."""
+
+import itertools
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import msgspec
+import pytest
+
+from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.trial import Moment, Result, play_trial
+from testbed.link.inprocess import InProcessRobot
+from testbed.link.messages import Decision, Event, Explanation, Percept, Task, Trace
+from tests.experiment.samples import Configure
+
+PUBLISHED = (
+    "move(rob1,library)",
+    "put_down(rob1,book1)",
+    "move(rob1,kitchen)",
+    "pickup(rob1,book2)",
+    "move(rob1,library)",
+    "put_down(rob1,book2)",
+)
+
+
+class Reciter:
+    """A robot that answers from a list, and waits when it is over."""
+
+    def __init__(
+        self,
+        answers: Sequence[str],
+        traces: Mapping[int, dict[str, Any]] | None = None,
+        believes: bool = True,
+    ) -> None:
+        self._answers = answers
+        self._traces = traces or {}
+        self._believes = believes
+        self.percepts: list[Percept] = []
+        self.tasks: list[Task] = []
+
+    def begin(self, task: Task) -> None:
+        self.tasks.append(task)
+
+    def act(self, percept: Percept) -> Decision:
+        self.percepts.append(percept)
+        left = self._answers[percept.step - 1 :]
+        return Decision(
+            trial=percept.trial,
+            step=percept.step,
+            action=left[0] if left else "wait",
+            believes_goal=self._believes,
+            trace=Trace(**self._traces.get(percept.step, {})),
+        )
+
+
+def _spec(configure: Configure, scenario: str, *overrides: str) -> TrialSpec:
+    chosen = [f"scenarios=[{scenario}]", "robots=[intentional]", *overrides]
+    (spec,) = plan_trials(configure(*chosen))
+    return spec
+
+
+def _play(spec: TrialSpec, robot: Reciter) -> TrialRecord:
+    return play_trial(spec, InProcessRobot(lambda _: robot)).record
+
+
+def test_the_published_plan_is_correct_and_minimal(configure: Configure) -> None:
+    record = _play(_spec(configure, "1"), Reciter(["wait", *PUBLISHED, "finish"]))
+    assert (record.outcome, record.achieved, record.finished, record.correct) == (
+        "achieved",
+        True,
+        True,
+        True,
+    )
+    assert [attempt.action for attempt in record.actions] == list(PUBLISHED)
+    assert [attempt.step for attempt in record.actions] == [2, 3, 4, 5, 6, 7]
+    assert all(attempt.happened for attempt in record.actions)
+    assert (record.minimal_actions, record.action_count, record.steps) == (6, 6, 8)
+    assert record.execution_units == 3 * 15 + 3 * 5
+    assert [(item.step, item.action) for item in record.mental] == [(8, "finish")]
+    assert record.exogenous == record.explanations == []
+
+
+def test_a_detour_achieves_the_goal_but_is_not_correct(configure: Configure) -> None:
+    detour = ("move(rob1,office2)", "move(rob1,kitchen)", *PUBLISHED, "finish")
+    record = _play(_spec(configure, "1"), Reciter(detour))
+    assert (record.outcome, record.achieved, record.correct) == ("achieved", True, False)
+    assert (record.action_count, record.minimal_actions) == (8, 6)
+
+
+def test_after_something_unexpected_achieving_is_correct(configure: Configure) -> None:
+    spec = _spec(configure, "2")
+    record = _play(spec, Reciter(["wait", "wait", *PUBLISHED[:2], "finish"]))
+    assert [(e.step, e.action, e.observed) for e in record.exogenous] == [
+        (4, "exo_move(book2,library)", False)
+    ]
+    assert (record.outcome, record.correct, record.action_count) == ("achieved", True, 2)
+
+
+def test_an_impossible_attempt_counts_and_changes_nothing(configure: Configure) -> None:
+    robot = Reciter(["pickup(rob1,book2)", "finish", "finish"])
+    record = _play(_spec(configure, "1"), robot)
+    assert [(a.step, a.action, a.happened) for a in record.actions] == [
+        (1, "pickup(rob1,book2)", False)
+    ]
+    assert (record.action_count, record.execution_units) == (1, 5)
+    assert robot.percepts[1].happened is False
+    assert set(robot.percepts[1].visible) == set(robot.percepts[0].visible)
+
+
+@pytest.mark.parametrize(("believes", "outcome"), [(True, "false_finish"), (False, "gave_up")])
+@pytest.mark.parametrize(("feedback", "steps"), [("true", 2), ("false", 1)])
+def test_finishing_in_vain(
+    configure: Configure, believes: bool, outcome: str, feedback: str, steps: int
+) -> None:
+    spec = _spec(configure, "1", f"goal_feedback={feedback}")
+    record = _play(spec, Reciter(["finish", "finish"], believes=believes))
+    assert (record.outcome, record.achieved, record.correct) == (outcome, False, False)
+    assert (record.finished, record.steps) == (True, steps)
+
+
+def test_a_robot_told_of_its_mistake_may_go_on(configure: Configure) -> None:
+    robot = Reciter(["finish", *PUBLISHED, "finish"])
+    record = _play(_spec(configure, "1"), robot)
+    assert [p.goal_holds for p in robot.percepts] == [None, False, *[None] * 6]
+    assert (record.outcome, record.correct) == ("achieved", True)
+
+
+def test_the_step_limit_ends_a_trial(configure: Configure) -> None:
+    record = _play(_spec(configure, "1", "limits.steps=3"), Reciter([]))
+    assert (record.outcome, record.finished, record.steps) == ("step_limit", False, 3)
+    assert record.correct is False
+
+
+def test_an_answer_that_is_no_action_loses_the_robot(configure: Configure) -> None:
+    record = _play(_spec(configure, "1"), Reciter([PUBLISHED[0], "fly(rob1,library)"]))
+    assert (record.outcome, record.finished) == ("robot_lost", False)
+    assert record.reason == "answered 'fly(rob1,library)', which is not an action"
+    assert [attempt.action for attempt in record.actions] == [PUBLISHED[0]]
+
+
+def test_a_robot_that_fails_is_lost_with_its_words(configure: Configure) -> None:
+    class Failing(Reciter):
+        def act(self, percept: Percept) -> Decision:
+            raise KeyError(f"no such book at step {percept.step}")
+
+    record = _play(_spec(configure, "1"), Failing([]))
+    assert record.outcome == "robot_lost"
+    assert record.reason is not None
+    assert "no such book" in record.reason
+
+
+def test_an_impossible_script_is_an_error_that_says_why(configure: Configure) -> None:
+    spec = _spec(configure, "1", "script=[{step: 1, action: 'exo_move(book1,office1)'}]")
+    result = play_trial(spec, InProcessRobot(lambda _: Reciter(PUBLISHED)))
+    assert result.record.outcome == "error"
+    assert result.record.reason is not None
+    assert "exo_move(book1,office1)" in result.record.reason
+    assert "step 1" in result.record.reason
+    assert result.details is not None
+    assert result.details.startswith("Traceback")
+
+
+def test_a_script_is_played_where_it_says(configure: Configure) -> None:
+    spec = _spec(configure, "4")
+    robot = Reciter(["wait", *PUBLISHED, "finish"])
+    record = _play(spec, robot)
+    assert [(e.step, e.action) for e in record.exogenous] == [(1, "exo_move(book2,kitchen)")]
+    assert "-loc(book2,kitchen)" in robot.percepts[0].visible
+    assert "loc(book2,kitchen)" in robot.percepts[1].visible
+    assert record.achieved
+
+
+def test_an_announced_event_is_told_and_recorded_as_observed(configure: Configure) -> None:
+    spec = _spec(configure, "4", "observability.exo_move.mode=always")
+    robot = Reciter(["wait", *PUBLISHED, "finish"])
+    record = _play(spec, robot)
+    assert [event.observed for event in record.exogenous] == [True]
+    assert robot.percepts[1].events == ["exo_move(book2,kitchen)"]
+
+
+def test_a_robot_is_given_the_task_with_complete_knowledge(configure: Configure) -> None:
+    spec = _spec(configure, "1", "limits.plan=12")
+    robot = Reciter(["finish", "finish"])
+    _play(spec, robot)
+    (task,) = robot.tasks
+    assert (task.trial, task.robot, task.domain) == (spec.trial, "intentional", "office")
+    assert task.plan_limit == 12
+    assert set(spec.initial) == {literal for literal in task.initial if literal[0] != "-"}
+    assert "-locked(library)" in task.initial
+    assert "move(R, L)     causes loc(R, L)." in task.source
+
+
+def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
+    explanation = Explanation(step=3, unobserved=[Event(step=1, action="e")], exceptions=["x"])
+    plan = list(PUBLISHED)
+    traces: dict[int, dict[str, Any]] = {
+        1: {"mental": "start(1)", "plan": plan, "plans": 1, "planning_time_s": 0.5},
+        2: {"mental": "stop(1)", "plans": 1, "planning_time_s": 0.25},
+        3: {"explanation": explanation, "plans": 1, "diagnosis_time_s": 2.0},
+        4: {"mental": "start(2)", "plan": plan[:1], "plans": 2},
+    }
+    record = _play(_spec(configure, "1", "limits.steps=5"), Reciter([], traces))
+    assert [(a.name, a.start, a.plan, a.stop) for a in record.activities] == [
+        (1, 1, plan, 2),
+        (2, 4, plan[:1], None),
+    ]
+    assert [(m.step, m.action) for m in record.mental] == [
+        (1, "start(1)"),
+        (2, "stop(1)"),
+        (4, "start(2)"),
+    ]
+    assert msgspec.to_builtins(record.explanations) == [
+        {"step": 3, "unobserved": [{"step": 1, "action": "e"}], "exceptions": ["x"]}
+    ]
+    assert (record.planning_time_s, record.diagnosis_time_s) == (0.75, 2.0)
+    assert record.reasoning_time_s == 2.75
+
+
+def test_whoever_watches_sees_every_step(configure: Configure) -> None:
+    seen: list[Moment] = []
+    robot = Reciter(["wait", *PUBLISHED, "finish"])
+    result: Result = play_trial(
+        _spec(configure, "5"), InProcessRobot(lambda _: robot), watch=seen.append
+    )
+    assert [moment.percept.step for moment in seen] == list(range(1, result.record.steps + 1))
+    assert [moment.event for moment in seen if moment.event] == ["exo_move(book1,kitchen)"]
+    for earlier, later in itertools.pairwise(seen):
+        assert earlier.after == later.before
+
+
+def test_the_same_seed_gives_the_same_trial(configure: Configure) -> None:
+    spec = _spec(configure, "random", "scenario_settings.4={}")
+    walk = ["move(rob1,office2)", "move(rob1,office1)", "move(rob1,office2)"] * 4
+    first, second = (_play(spec, Reciter(walk)) for _ in range(2))
+    assert first.exogenous == second.exogenous
+    others = [
+        _play(_spec(configure, "random", f"seed={seed}"), Reciter(walk)).exogenous
+        for seed in range(2, 9)
+    ]
+    assert any(other != first.exogenous for other in others)
