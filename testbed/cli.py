@@ -1,0 +1,176 @@
+"""The command line: run, check, robot, report, replay, translate.
+
+Exit codes: 0 done; 1 trials ended in error; 2 bad input; 130 interrupted.
+"""
+
+# Imports that only one command needs are made in it: a robot's process is to be there quickly,
+# and statistics alone take longer to import than it takes to start.
+# ruff: noqa: PLC0415
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+
+DONE, FAILED, BAD_INPUT = 0, 1, 2
+
+app = typer.Typer(
+    name="testbed",
+    help="Reasoning robots in a world that others change: run experiments, look into them.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+Config = Annotated[
+    str,
+    typer.Argument(metavar="CONFIG", help="A .yaml file, or a packaged name such as quickstart."),
+]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="[KEY=VALUE]...", help="Keys to override, dotted where nested."),
+]
+
+
+def main() -> None:
+    """Entry point of the distribution."""
+    app(prog_name="testbed")
+
+
+@app.command(
+    epilog="Examples: testbed run quickstart | testbed run office limit=5 robots=[intentional] "
+    "--workers 2 | testbed run office --out runs/office --resume"
+)
+def run(
+    config: Config,
+    overrides: Overrides = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Run folder; without it runs/NAME, numbered if taken.")
+    ] = None,
+    workers: Annotated[int, typer.Option(min=1, help="Processes that play trials.")] = 1,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with the trials that the folder lacks.")
+    ] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")] = False,
+) -> None:
+    """Run every trial of a configuration and print a table of what came out."""
+    from testbed.experiment.session import run_session
+
+    with _input_errors():
+        code = run_session(config, overrides or [], out, workers, resume, quiet)
+    raise typer.Exit(code)
+
+
+@app.command(epilog="Example: testbed check quickstart scenarios=[5] limits.steps=40")
+def check(config: Config, overrides: Overrides = None) -> None:
+    """Validate a configuration and print it as resolved."""
+    from testbed.experiment.session import load
+    from testbed.experiment.store import config_text
+
+    with _input_errors():
+        typer.echo(config_text(load(config, overrides or [])), nl=False)
+
+
+@app.command(
+    epilog="Examples: testbed robot --name arm --connect tcp/127.0.0.1:7447 | "
+    "testbed robot --config zenoh.json5"
+)
+def robot(
+    connect: Annotated[
+        str | None, typer.Option(metavar="ENDPOINT", help="Driver or router to serve.")
+    ] = None,
+    name: Annotated[str, typer.Option(help="Name under which the robot offers itself.")] = "robot",
+    config: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="zenoh configuration, JSON5.")
+    ] = None,
+) -> None:
+    """Serve a robot over zenoh until interrupted or until its driver is gone."""
+    from testbed.experiment.serving import serve_robot
+
+    with _input_errors():
+        serve_robot(connect, name, config)
+
+
+@app.command(epilog="Example: testbed report runs/quickstart")
+def report(
+    folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
+) -> None:
+    """Make tables, summary.json and report.html again from the stored trials."""
+    from testbed.experiment.session import report_again
+
+    with _input_errors():
+        for folder in folders:
+            report_again(folder)
+
+
+@app.command(epilog="Example: testbed replay runs/quickstart --trial 3f2a")
+def replay(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")],
+    trial: Annotated[str, typer.Option(metavar="ID", help="Id of the trial, or its beginning.")],
+) -> None:
+    """Tell a trial step by step: world, belief, intention, explanation.
+
+    The trial is played again in this process; where that differs from the record it says so, and
+    the exit code is 1.
+    """
+    from testbed.experiment.replay import replay as tell
+
+    with _input_errors():
+        as_recorded = tell(folder, trial, typer.echo)
+    raise typer.Exit(DONE if as_recorded else FAILED)
+
+
+@app.command(epilog="Example: testbed translate office -o office.lp")
+def translate(
+    source: Annotated[
+        str, typer.Argument(metavar="FILE.al", help="A description, or a packaged domain's name.")
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE.lp", help="Instead of printing.")
+    ] = None,
+) -> None:
+    """Translate an action description from AL_d to answer set programming."""
+    from asp.loading import read_domain
+    from asp.translation import translate as translated
+
+    with _input_errors():
+        file, text = read_domain(source)
+        program = translated(text, file)
+        if output is None:
+            typer.echo(program, nl=False)
+        else:
+            output.write_text(program, encoding="utf-8")
+
+
+@contextmanager
+def _input_errors() -> Iterator[None]:
+    """Turn what a user can get wrong into a line an error and the exit code for it."""
+    from asp import SourceError
+    from testbed.config import ConfigError
+    from testbed.experiment.errors import ServingError, StoreError
+
+    try:
+        yield
+    except SourceError as error:
+        _refuse("\n".join(str(mistake) for mistake in error.all))
+    except (ConfigError, StoreError, ServingError) as error:
+        _refuse(str(error))
+    except UnicodeDecodeError as error:
+        _refuse(f"not a text file in UTF-8: {error.reason} at byte {error.start}")
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        _refuse(f"{where}{error.strerror or error}")
+
+
+def _refuse(message: str) -> NoReturn:
+    sys.stdout.flush()
+    typer.echo(message, err=True)
+    raise typer.Exit(BAD_INPUT)

@@ -1,0 +1,139 @@
+"""A session of the command line over a run folder: run or go on, then tables and report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TextColumn,
+    TimeRemainingColumn,
+)
+from rich.text import Text
+
+from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.provenance import Provenance, session_arguments
+from testbed.experiment.registry import ROBOTS
+from testbed.experiment.report import write_report
+from testbed.experiment.runner import Notify, Tally, run_trials
+from testbed.experiment.store import (
+    REPORT,
+    check_unchanged,
+    choose_folder,
+    holds_run,
+    read_config,
+    write_config,
+)
+from testbed.experiment.tables import rich_table
+
+DONE, FAILED, INTERRUPTED = 0, 1, 130
+WIDE = 120
+
+
+def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
+    """A configuration that may be run here. Raises ConfigError."""
+    return load_config(source, overrides, ROBOTS)
+
+
+def run_session(
+    source: str,
+    overrides: Sequence[str],
+    out: Path | None,
+    workers: int,
+    resume: bool,
+    quiet: bool,
+) -> int:
+    """Run a configuration and report; the exit code.
+
+    Raises:
+        ConfigError, StoreError: before anything is run.
+    """
+    config = load(source, overrides)
+    folder = choose_folder(out, config.name, resume)
+    _prepare(folder, config)
+    provenance = Provenance(folder, config.domain, session_arguments())
+    with _progress(quiet) as notify:
+        tally = run_trials(config, folder, workers, notify)
+    code = _exit_code(tally)
+    provenance.close(code)
+    _conclude(folder, config.name, tally, _console(quiet))
+    return code
+
+
+def report_again(folder: Path) -> None:
+    """Table, summary and report of a run, made again. Raises StoreError or ConfigError."""
+    config = read_config(folder)
+    console = _console()
+    console.print(rich_table(write_report(folder, config.name)))
+    _say(console, f"report: {folder / REPORT}")
+
+
+def _console(quiet: bool = False) -> Console:
+    """Standard output: as wide as the terminal, and wide where it is none."""
+    console = Console(quiet=quiet)
+    return console if console.is_terminal else Console(quiet=quiet, width=WIDE)
+
+
+def _prepare(folder: Path, config: ExperimentConfig) -> None:
+    if holds_run(folder):
+        check_unchanged(folder, config)
+    else:
+        write_config(folder, config)
+
+
+def _exit_code(tally: Tally) -> int:
+    if tally.interrupted:
+        return INTERRUPTED
+    return FAILED if tally.failed else DONE
+
+
+def _conclude(folder: Path, name: str, tally: Tally, console: Console) -> None:
+    console.print(rich_table(write_report(folder, name)))
+    if tally.interrupted:
+        _say(console, f"interrupted: {tally.done} of {tally.planned} trials are kept in {folder}")
+        _say(console, f"to go on: testbed run {folder / 'config.yaml'} --out {folder} --resume")
+    if tally.failed:
+        _say(console, f"{tally.failed} trials ended in error or lost their robot; see the report")
+    _say(console, f"report: {folder / REPORT}")
+
+
+def _say(console: Console, line: str) -> None:
+    console.print(line, soft_wrap=True, highlight=False, markup=False)
+
+
+class _Rate(ProgressColumn):
+    """Trials a second."""
+
+    def render(self, task: Task) -> Text:
+        speed = task.finished_speed or task.speed
+        return Text("" if speed is None else f"{speed:.1f}/s")
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Notify]:
+    """A bar on standard error with rate and time left, where that is a terminal."""
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        _Rate(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, disable=quiet or not console.is_terminal) as bar:
+        task = bar.add_task("trials", total=None)
+
+        def notify(tally: Tally) -> None:
+            failed = f", {tally.failed} failed" if tally.failed else ""
+            bar.update(
+                task, total=tally.planned, completed=tally.done, description=f"trials{failed}"
+            )
+
+        yield notify

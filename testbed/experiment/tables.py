@@ -1,0 +1,128 @@
+"""The table of a run: one row a scenario and robot, means over their trials."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from rich.table import Table
+
+from testbed.experiment.record import FAILURES, TrialRecord
+
+COLUMNS = (
+    "scenario",
+    "robot",
+    "achieved",
+    "plans",
+    "actions",
+    "units",
+    "planning",
+    "explained by",
+)
+MOST_COMMON = 3
+
+
+@dataclass
+class Row:
+    """What the trials of one robot in one scenario come to; sums, from which means are taken.
+
+    Trials that failed (a lost robot, an error) count as trials and nowhere else.
+    """
+
+    scenario: str
+    robot: str
+    trials: int = 0
+    failed: int = 0
+    achieved: int = 0
+    plans: int = 0
+    actions: int = 0
+    units: int = 0
+    planning_s: float = 0.0
+    explanations: Counter[str] = field(default_factory=Counter)
+
+    def add(self, record: TrialRecord) -> None:
+        """Count one more trial."""
+        self.trials += 1
+        if record.outcome in FAILURES:
+            self.failed += 1
+            return
+        self.achieved += record.achieved
+        self.plans += record.plans
+        self.actions += record.action_count
+        self.units += record.execution_units
+        self.planning_s += record.planning_time_s
+        self.explanations.update(set(explained(record)))
+
+    def cells(self) -> tuple[str, ...]:
+        """The row as text, in the order of `COLUMNS`."""
+        return (
+            self.scenario,
+            self.robot,
+            self._achieved(),
+            self._mean(self.plans),
+            self._mean(self.actions),
+            self._mean(self.units),
+            self._planning(),
+            self._explained(),
+        )
+
+    @property
+    def _played(self) -> int:
+        return self.trials - self.failed
+
+    def _achieved(self) -> str:
+        if self.trials == 1 and not self.failed:
+            return "yes" if self.achieved else "no"
+        share = f"{self.achieved}/{self.trials}"
+        return f"{share}, {self.failed} failed" if self.failed else share
+
+    def _mean(self, total: float) -> str:
+        return f"{total / self._played:.4g}" if self._played else "-"
+
+    def _planning(self) -> str:
+        return f"{1000 * self.planning_s / self._played:.0f} ms" if self._played else "-"
+
+    def _explained(self) -> str:
+        common = self.explanations.most_common(MOST_COMMON)
+        texts = [text if self.trials == 1 else f"{text} x{count}" for text, count in common]
+        rest = len(self.explanations) - len(common)
+        return ", ".join([*texts, f"{rest} others"] if rest else texts) or "-"
+
+
+def explained(record: TrialRecord) -> list[str]:
+    """What the robot explained: the exogenous actions it assumed and the exceptions, in order."""
+    return [
+        text
+        for explanation in record.explanations
+        for text in [
+            *(event.action for event in explanation.unobserved),
+            *(f"exception {literal}" for literal in explanation.exceptions),
+        ]
+    ]
+
+
+def rows_of(records: Iterable[TrialRecord]) -> list[Row]:
+    """The rows of a table, in the order in which the records name them first."""
+    rows: dict[tuple[str, str], Row] = {}
+    for record in records:
+        key = (record.scenario, record.robot)
+        rows.setdefault(key, Row(*key)).add(record)
+    return list(rows.values())
+
+
+def rich_table(rows: Iterable[Row]) -> Table:
+    """The table for a terminal, with an empty line between scenarios."""
+    table = Table(*COLUMNS[:-1], box=None, padding=(0, 2, 0, 0), collapse_padding=True)
+    table.add_column(COLUMNS[-1], overflow="fold")
+    for column in table.columns[:-1]:
+        column.no_wrap = True
+    for column in table.columns[3:-1]:
+        column.justify = "right"
+    before: str | None = None
+    for row in rows:
+        if before not in (None, row.scenario):
+            table.add_row()
+        before = row.scenario
+        table.add_row(*row.cells())
+    return table

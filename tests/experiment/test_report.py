@@ -1,0 +1,114 @@
+"""The report: one self-contained file that tells every trial, readable by anyone."""
+
+import json
+from html.parser import HTMLParser
+from pathlib import Path
+
+from testbed.experiment.record import At, Attempt, Explained, Occurrence
+from testbed.experiment.report import SHOWN, timeline, write_report
+from testbed.experiment.store import TrialWriter
+from tests.experiment.samples import a_record
+
+LOADING = {"src", "srcset", "action", "poster", "data"}
+VOID = {"meta", "link", "br", "img", "hr", "input"}
+
+
+class Page(HTMLParser):
+    """What a page contains, and whether its elements are closed in order."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.tags: list[str] = []
+        self.addresses: list[str] = []
+        self.words: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.addresses += [v or "" for k, v in attrs if k in LOADING or k == "href"]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join(" ".join(self.words).split())
+
+
+def _report(folder: Path, *records: object) -> tuple[str, Page]:
+    with TrialWriter(folder) as writer:
+        for record in records:
+            writer.append(record)  # type: ignore[arg-type]
+    write_report(folder, "tiny")
+    text = (folder / "report.html").read_text(encoding="utf-8")
+    return text, Page(text)
+
+
+def test_a_timeline_has_every_step_with_who_did_what() -> None:
+    record = a_record(
+        steps=5,
+        actions=[Attempt(2, "go", True), Attempt(3, "take", False)],
+        exogenous=[Occurrence(2, "shift", False)],
+        explanations=[Explained(4, [At(2, "shift")], ["-home"])],
+        mental=[At(1, "start(1)"), At(5, "finish")],
+    )
+    told = [(s.number, s.kind, s.robot, s.others, s.explained) for s in timeline(record)]
+    assert told == [
+        (1, "mental", "start(1)", "", ""),
+        (2, "done", "go", "shift, unseen", ""),
+        (3, "failed", "take failed", "", ""),
+        (4, "mental", "wait", "", "shift at 2, exception -home"),
+        (5, "mental", "finish", "", ""),
+    ]
+
+
+def test_the_report_is_one_file_that_loads_nothing(tmp_path: Path) -> None:
+    text, page = _report(tmp_path, a_record("a"), a_record("b", outcome="gave_up", achieved=False))
+    assert page.open == []
+    assert all(address.startswith(("data:", "#")) for address in page.addresses)
+    assert not {"script", "iframe", "object"} & set(page.tags)
+    assert "http" not in text
+    assert "url(" not in text
+
+
+def test_the_report_suits_dark_rooms_and_narrow_screens(tmp_path: Path) -> None:
+    text, _ = _report(tmp_path, a_record("a"))
+    assert "prefers-color-scheme: dark" in text
+    assert 'name="viewport"' in text
+    assert "overflow-x: auto" in text
+
+
+def test_what_comes_from_outside_is_escaped(tmp_path: Path) -> None:
+    reason = "<script>alert(1)</script>"
+    text, page = _report(tmp_path, a_record(outcome="error", achieved=False, reason=reason))
+    assert reason not in text
+    assert reason in page.text
+
+
+def test_a_trial_is_told_with_the_command_that_replays_it(tmp_path: Path) -> None:
+    _, page = _report(tmp_path, a_record("cafe42"))
+    assert f"testbed replay {tmp_path.name} --trial cafe42" in page.text
+
+
+def test_of_many_trials_the_failures_are_told_first(tmp_path: Path) -> None:
+    good = [a_record(f"good{number}") for number in range(SHOWN + 20)]
+    bad = [a_record(f"bad{number}", achieved=False, outcome="gave_up") for number in range(3)]
+    _, page = _report(tmp_path, *good, *bad)
+    told = page.text
+    assert all(f"--trial bad{number}" in told for number in range(3))
+    assert told.count("--trial") == SHOWN
+    assert f"{SHOWN} of {SHOWN + 23} trials" in told
+
+
+def test_the_summary_is_written_beside_it(tmp_path: Path) -> None:
+    _report(tmp_path, a_record("a"))
+    summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
+    assert summary["trials"] == 1
+    assert summary["scenarios"]["1"]["accuracy"] == {"intentional": 1.0}

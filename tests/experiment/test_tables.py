@@ -1,0 +1,140 @@
+"""The table of a run, its summary and its statistics, from records made by hand."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+
+from testbed.experiment.record import At, Explained, TrialRecord
+from testbed.experiment.summary import summarise
+from testbed.experiment.tables import COLUMNS, explained, rows_of
+from tests.experiment.samples import a_record
+
+
+def _pair(
+    number: int, traditional: dict[str, Any], intentional: dict[str, Any]
+) -> list[TrialRecord]:
+    pair = f"pair {number}"
+    return [
+        a_record(f"t{number}", pair=pair, robot="traditional", **traditional),
+        a_record(f"i{number}", pair=pair, robot="intentional", **intentional),
+    ]
+
+
+def _group(records: Sequence[TrialRecord], scenario: str = "1") -> Any:
+    summary: Any = summarise(records)
+    return summary["scenarios"][scenario]
+
+
+def test_one_trial_a_row_is_shown_as_it_was() -> None:
+    record = a_record(
+        plans=2,
+        action_count=8,
+        execution_units=80,
+        planning_time_s=0.0123,
+        explanations=[Explained(3, [At(2, "exo_lock(library)")], [])],
+    )
+    (row,) = rows_of([record])
+    assert dict(zip(COLUMNS, row.cells(), strict=True)) == {
+        "scenario": "1",
+        "robot": "intentional",
+        "achieved": "yes",
+        "plans": "2",
+        "actions": "8",
+        "units": "80",
+        "planning": "12 ms",
+        "explained by": "exo_lock(library)",
+    }
+
+
+def test_several_trials_are_counted_and_averaged() -> None:
+    explanations = [Explained(3, [At(2, "e")], ["-d"]), Explained(5, [At(2, "e")], [])]
+    rows = rows_of(
+        [
+            a_record("a", action_count=4, explanations=explanations),
+            a_record("b", action_count=7, achieved=False, explanations=explanations[1:]),
+            a_record("c", action_count=90, outcome="robot_lost", achieved=False),
+            a_record("d", robot="traditional"),
+        ]
+    )
+    cells = dict(zip(COLUMNS, rows[0].cells(), strict=True))
+    assert (cells["achieved"], cells["actions"]) == ("1/3, 1 failed", "5.5")
+    assert cells["explained by"] == "e x2, exception -d x1"
+    assert [row.robot for row in rows] == ["intentional", "traditional"]
+
+
+def test_a_row_of_failures_alone_has_no_means() -> None:
+    (row,) = rows_of([a_record(outcome="error", achieved=False)])
+    cells = dict(zip(COLUMNS, row.cells(), strict=True))
+    assert (cells["achieved"], cells["plans"], cells["planning"]) == ("0/1, 1 failed", "-", "-")
+
+
+def test_what_was_explained_is_listed_in_order() -> None:
+    explanations = [Explained(3, [At(2, "e"), At(1, "f")], []), Explained(9, [], ["g"])]
+    assert explained(a_record(explanations=explanations)) == ["e", "f", "exception g"]
+
+
+def test_ratios_are_means_of_the_pairs_ratios() -> None:
+    records = [
+        *_pair(1, {"action_count": 6, "plans": 1}, {"action_count": 3, "plans": 1}),
+        *_pair(2, {"action_count": 4, "plans": 1}, {"action_count": 4, "plans": 2}),
+    ]
+    group = _group(records)
+    assert group["pairs"] == 2
+    assert group["ratios"]["actions"] == pytest.approx((2 + 1) / 2)
+    assert group["ratios"]["plans"] == pytest.approx((1 + 0.5) / 2)
+
+
+def test_a_pair_in_which_nothing_was_needed_has_no_ratio() -> None:
+    records = [
+        *_pair(1, {"action_count": 6}, {"action_count": 2}),
+        *_pair(2, {"action_count": 5}, {"action_count": 0}),
+    ]
+    group = _group(records)
+    assert group["ratios"]["actions"] == pytest.approx(3.0)
+    assert group["ratios"]["plans"] is None
+
+
+def test_total_time_is_planning_seconds_plus_units() -> None:
+    group = _group(
+        _pair(
+            1,
+            {"planning_time_s": 5.0, "execution_units": 15},
+            {"planning_time_s": 2.0, "execution_units": 8},
+        )
+    )
+    assert group["ratios"]["total_time"] == pytest.approx(2.0)
+
+
+def test_accuracy_is_the_share_of_correct_trials_of_each_robot() -> None:
+    records = [
+        *_pair(1, {"correct": False}, {}),
+        *_pair(2, {}, {}),
+        a_record("i3", pair="pair 3", correct=False),
+    ]
+    assert _group(records)["accuracy"] == {
+        "traditional": pytest.approx(1 / 2),
+        "intentional": pytest.approx(2 / 3),
+    }
+    assert _group(records)["pairs"] == 3
+
+
+def test_p_values_are_the_exact_ones() -> None:
+    records = [
+        record
+        for number in range(5)
+        for record in _pair(number, {"action_count": 10 + number, "correct": False}, {})
+    ]
+    p_values = _group(records)["p_values"]
+    # Five differences of one sign: 2 of the 2^5 equally likely ways are as extreme.
+    assert p_values["actions"] == pytest.approx(2 / 2**5)
+    assert p_values["accuracy"] == pytest.approx(2 / 2**5)
+    assert p_values["plans"] is None
+
+
+def test_a_summary_tells_scenarios_and_levels_apart() -> None:
+    summary: Any = summarise([a_record("a"), a_record("b", scenario="2")])
+    assert summary["trials"] == 2
+    assert set(summary["scenarios"]) == {"1", "2"}
+    assert summary["levels"]["coarse"]["pairs"] == 2
+    assert _group([a_record("a")])["p_values"]["accuracy"] is None
