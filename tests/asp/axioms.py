@@ -1,0 +1,180 @@
+"""Theories cut into their numbered axioms, and claims about the answer sets of small programs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+
+import clingo
+from clingo import Symbol
+
+from asp.loading import read_domain
+from asp.solving import theory
+from asp.translation import translate
+
+_NUMBER = re.compile(r"% \((\d+)\) \S")
+_END_OF_RULE = re.compile(r"\.[ \t]*\n")
+
+THEORIES = ("history", "intentions", "diagnosis", "planning")
+
+
+@dataclass(frozen=True)
+class Block:
+    """A paragraph of a theory: its text, its rules, and its number if it is an axiom."""
+
+    number: int | None
+    text: str
+    rules: tuple[str, ...]
+
+
+@cache
+def blocks(name: str) -> tuple[Block, ...]:
+    """The paragraphs of `asp/theories/NAME.lp`, in order."""
+    return tuple(_block(text) for text in theory(name).split("\n\n"))
+
+
+def _block(text: str) -> Block:
+    match = _NUMBER.match(text)
+    lines = [line for line in text.splitlines() if not line.startswith("%")]
+    rules = _END_OF_RULE.split("\n".join(lines) + "\n")
+    return Block(
+        None if match is None else int(match.group(1)),
+        text,
+        tuple(rule.strip() + "." for rule in rules if rule.strip()),
+    )
+
+
+@cache
+def axioms() -> dict[int, Block]:
+    """Every numbered block of every theory. Raises ValueError if a number stands twice."""
+    found: dict[int, Block] = {}
+    for name in THEORIES:
+        for block in blocks(name):
+            if block.number is not None:
+                if block.number in found:
+                    raise ValueError(f"axiom ({block.number}) stands twice")
+                found[block.number] = block
+    return found
+
+
+@dataclass(frozen=True)
+class Without:
+    """What is left out of the theories: an axiom, or (`rule`, counted from 1) one rule of it."""
+
+    number: int
+    rule: int | None = None
+
+
+def theory_text(name: str, without: Without | None = None) -> str:
+    """A theory's text, with or without one of its axioms or rules."""
+    return "\n\n".join(_kept(block, without) for block in blocks(name))
+
+
+def _kept(block: Block, without: Without | None) -> str:
+    if without is None or block.number != without.number:
+        return block.text
+    rules = list(block.rules)
+    if without.rule is None:
+        return ""
+    del rules[without.rule - 1]
+    return "\n".join(rules)
+
+
+@cache
+def domain_text(name_or_path: str) -> str:
+    """The translation of a packaged domain or of an .al file."""
+    file, text = read_domain(name_or_path)
+    return translate(text, file)
+
+
+@dataclass(frozen=True)
+class Program:
+    """A domain's translation with theories, constants and facts or rules of its own."""
+
+    domain: str
+    theories: tuple[str, ...]
+    rules: str
+    constants: dict[str, int] = field(default_factory=dict)
+
+    def solver(self, without: Without | None = None) -> Solver:
+        """The ground program."""
+        texts = [self.domain, *(theory_text(name, without) for name in self.theories), self.rules]
+        return Solver(texts, self.constants)
+
+
+class Solver:
+    """Asks whether a ground program has an answer set with, or without, some literals."""
+
+    def __init__(self, texts: Iterable[str], constants: dict[str, int]) -> None:
+        given = [part for name, value in constants.items() for part in ("-c", f"{name}={value}")]
+        self.control = clingo.Control([*given, "--warn=none"])
+        for text in texts:
+            self.control.add("base", [], text)
+        self.control.ground([("base", [])])
+
+    def some(self, true: Sequence[str] = (), false: Sequence[str] = ()) -> bool:
+        """Whether an answer set holds all of `true` and none of `false`."""
+        wanted = [(_symbol(text), True) for text in true]
+        if any(self.control.symbolic_atoms[atom] is None for atom, _ in wanted):
+            return False
+        unwanted = [(_symbol(text), False) for text in false]
+        return bool(self.control.solve(assumptions=[*wanted, *unwanted]).satisfiable)
+
+
+def _symbol(text: str) -> Symbol:
+    return clingo.parse_term(text)
+
+
+class Claim:
+    """A statement about the answer sets of a program."""
+
+    def holds(self, solver: Solver) -> bool:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Always(Claim):
+    """There is an answer set, and every one holds the literal."""
+
+    literal: str
+
+    def holds(self, solver: Solver) -> bool:
+        return solver.some() and not solver.some(false=[self.literal])
+
+
+@dataclass(frozen=True)
+class Never(Claim):
+    """There is an answer set, and none holds all of the literals together."""
+
+    literals: tuple[str, ...]
+
+    def holds(self, solver: Solver) -> bool:
+        return solver.some() and not solver.some(true=self.literals)
+
+
+@dataclass(frozen=True)
+class Possible(Claim):
+    """Some answer set holds all of the literals; without literals: there is an answer set."""
+
+    literals: tuple[str, ...] = ()
+
+    def holds(self, solver: Solver) -> bool:
+        return solver.some(true=self.literals)
+
+
+@dataclass(frozen=True)
+class Inconsistent(Claim):
+    """There is no answer set."""
+
+    def holds(self, solver: Solver) -> bool:
+        return not solver.some()
+
+
+def never(*literals: str) -> Never:
+    return Never(literals)
+
+
+def possible(*literals: str) -> Possible:
+    return Possible(literals)

@@ -1,0 +1,43 @@
+"""Every axiom of the theory does something: a case that follows from it fails without it."""
+
+from __future__ import annotations
+
+import pytest
+from axioms import Without, axioms
+from cases_of_history import CASES as HISTORY
+from cases_of_intentions import CASES as INTENTIONS
+from cases_of_planning import CASES as PLANNING
+from stories import Case
+
+CASES = (*INTENTIONS, *HISTORY, *PLANNING)
+
+
+def _name(case: Case) -> str:
+    rule = "" if case.rule is None else f".{case.rule}"
+    return f"({case.number}{rule}) {case.sentence}"
+
+
+def test_the_theories_state_the_axioms_1_to_53_once_each() -> None:
+    assert sorted(axioms()) == list(range(1, 54))
+
+
+def test_every_rule_of_every_axiom_has_a_case() -> None:
+    stated = {
+        (number, rule)
+        for number, block in axioms().items()
+        for rule in range(1, len(block.rules) + 1)
+    }
+    assert {(case.number, case.rule or 1) for case in CASES} == stated
+
+
+@pytest.mark.parametrize("case", CASES, ids=_name)
+def test_what_an_axiom_says_holds_with_it_and_fails_without_it(case: Case) -> None:
+    assert case.claim.holds(case.program.solver())
+    assert not case.claim.holds(case.program.solver(case.without))
+
+
+@pytest.mark.parametrize("number", range(1, 54))
+def test_no_other_axiom_says_the_same(number: int) -> None:
+    cases = [case for case in CASES if case.number == number]
+    without = Without(number)
+    assert not all(case.claim.holds(case.program.solver(without)) for case in cases)
