@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from asp import literals as text
 
 
-class UnknownFluent(ValueError):
+class UnknownFluentError(ValueError):
     """A literal whose atom is no fluent of the description."""
 
 
@@ -26,15 +26,17 @@ class Vocabulary:
         self._bits = {fluent: 1 << i for i, fluent in enumerate(fluents)}
 
     def bit(self, literal: str) -> int:
-        """The mask of one literal. Raises UnknownFluent."""
+        """The mask of one literal. Raises UnknownFluentError."""
         try:
             bit = self._bits[text.atom(literal)]
         except KeyError:
-            raise UnknownFluent(f"{text.atom(literal)} is not a fluent of the domain") from None
+            raise UnknownFluentError(
+                f"{text.atom(literal)} is not a fluent of the domain"
+            ) from None
         return bit if text.is_positive(literal) else bit << self.size
 
     def mask(self, literals: Iterable[str]) -> int:
-        """The mask of a set of literals. Raises UnknownFluent."""
+        """The mask of a set of literals. Raises UnknownFluentError."""
         mask = 0
         for literal in literals:
             mask |= self.bit(literal)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from asp.description import Description
-from testbed.environment.closure import Closure, Rule, UnknownFluent, Vocabulary
+from testbed.environment.closure import Closure, Rule, UnknownFluentError, Vocabulary
 from testbed.environment.errors import StateError
 
 
@@ -48,7 +48,7 @@ class StateSpace:
     def _facts(self, literals: Iterable[str]) -> int:
         try:
             facts = self._vocabulary.mask(literals)
-        except UnknownFluent as error:
+        except UnknownFluentError as error:
             raise StateError(str(error)) from None
         if not self._vocabulary.consistent(facts):
             twice = facts & self._vocabulary.complement(facts)
@@ -110,11 +110,11 @@ class StateSpace:
         return self._vocabulary.render(state)
 
     def holds(self, state: int, literal: str) -> bool:
-        """Whether the literal holds. Raises UnknownFluent."""
+        """Whether the literal holds. Raises UnknownFluentError."""
         return bool(self._vocabulary.complete(state) & self._vocabulary.bit(literal))
 
     def satisfies(self, state: int, literals: Iterable[str]) -> bool:
-        """Whether all the literals hold. Raises UnknownFluent."""
+        """Whether all the literals hold. Raises UnknownFluentError."""
         return not self._vocabulary.mask(literals) & ~self._vocabulary.complete(state)
 
     def _true(self, literals: int) -> int:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from asp.description import Description
 from testbed.environment.closure import Rule
-from testbed.environment.errors import NotExecutable, UnknownAction
+from testbed.environment.errors import NotExecutableError, UnknownActionError
 from testbed.environment.states import StateSpace
 
 
@@ -41,7 +41,7 @@ class World(StateSpace):
     def successors(self, state: int, actions: Iterable[str]) -> tuple[int, ...]:
         """Every state the compound action can lead to, sorted; none: it cannot be executed.
 
-        Raises UnknownAction. The empty compound action is one, too.
+        Raises UnknownActionError. The empty compound action is one, too.
         """
         compound = frozenset(actions)
         key = (state, compound)
@@ -50,18 +50,18 @@ class World(StateSpace):
         return self._known[key]
 
     def successor(self, state: int, actions: Iterable[str]) -> int:
-        """The one successor. Raises NotExecutable, or ValueError where there are several."""
+        """The one successor. Raises NotExecutableError, or ValueError where there are several."""
         compound = frozenset(actions)
         found = self.successors(state, compound)
         if not found:
-            raise NotExecutable(self.why_not(state, compound))
+            raise NotExecutableError(self.why_not(state, compound))
         if len(found) > 1:
             outcomes = " | ".join(" ".join(self.true_atoms(s)) for s in found)
             raise ValueError(f"{_names(compound)} has several outcomes: {outcomes}")
         return found[0]
 
     def executable(self, state: int, actions: Iterable[str]) -> bool:
-        """Whether the compound action has a successor. Raises UnknownAction."""
+        """Whether the compound action has a successor. Raises UnknownActionError."""
         return bool(self.successors(state, actions))
 
     def why_not(self, state: int, actions: Iterable[str]) -> str | None:
@@ -93,7 +93,7 @@ class World(StateSpace):
             return self._effects[action]
         except KeyError:
             name = self.description.name
-            raise UnknownAction(f"{action} is not an action of the domain {name}") from None
+            raise UnknownActionError(f"{action} is not an action of the domain {name}") from None
 
     def _forbidding(self, literals: int, compound: frozenset[str]) -> str | None:
         """The first law that makes the compound action impossible, as text."""

@@ -3,8 +3,8 @@
 import pytest
 
 from asp import load_description
-from testbed.environment.closure import UnknownFluent
-from testbed.environment.errors import NotExecutable, StateError, UnknownAction
+from testbed.environment.closure import UnknownFluentError
+from testbed.environment.errors import NotExecutableError, StateError, UnknownActionError
 from testbed.environment.world import World
 
 SCENARIO_1 = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)")
@@ -32,7 +32,7 @@ def test_the_office_has_430_states_and_192_initial_ones(world: World) -> None:
     held_by_a_robot_nowhere = 2 * 5 * 5
     states = list(world.states())
     assert len(states) == len(set(states)) == 430
-    assert 430 == 2 * (nothing_held + held_in_a_room + held_by_a_robot_nowhere)
+    assert 2 * (nothing_held + held_in_a_room + held_by_a_robot_nowhere) == 430
     # Spec 4: the library locked or not, book1 held, book2 held, or nothing held.
     initial = world.initial_states()
     assert len(set(initial)) == 2 * (4 * 4 + 4 * 4 + 4 * 4 * 4) == 192
@@ -73,7 +73,7 @@ def test_contradicting_effects_make_a_compound_action_impossible(world: World) -
     both = ["pickup(rob1,book1)", "exo_move(book1,office1)"]
     assert all(world.executable(state, [action]) for action in both)
     assert not world.executable(state, both)
-    with pytest.raises(NotExecutable, match=r"effects of exo_move.*, pickup.* contradict"):
+    with pytest.raises(NotExecutableError, match=r"effects of exo_move.*, pickup.* contradict"):
         world.successor(state, both)
 
 
@@ -111,7 +111,7 @@ def test_literals_and_truth(world: World) -> None:
     assert all(world.holds(state, literal) for literal in literals)
     assert world.satisfies(state, literals)
     assert not world.holds(state, "locked(library)")
-    with pytest.raises(UnknownFluent, match=r"loc\(rob1,attic\) is not a fluent"):
+    with pytest.raises(UnknownFluentError, match=r"loc\(rob1,attic\) is not a fluent"):
         world.holds(state, "loc(rob1,attic)")
 
 
@@ -134,5 +134,5 @@ def test_what_is_no_initial_state(world: World, literals: list[str], message: st
 
 
 def test_an_unknown_action_is_named(world: World) -> None:
-    with pytest.raises(UnknownAction, match=r"fly\(rob1,kitchen\) is not an action"):
+    with pytest.raises(UnknownActionError, match=r"fly\(rob1,kitchen\) is not an action"):
         world.successors(world.state(SCENARIO_1), ["fly(rob1,kitchen)"])

@@ -1,0 +1,100 @@
+"""The game as a PettingZoo AEC environment: the robot answers, then the adversary beside it."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from dataclasses import dataclass
+from typing import Any
+
+from pettingzoo import AECEnv
+
+from testbed.environment.agents import ADVERSARY, ROBOT, check_legal, name_of
+from testbed.environment.core import Core
+from testbed.environment.observation import Observation, infos, observe
+from testbed.environment.rewards import rewards
+from testbed.environment.situation import Snapshot
+from testbed.environment.view import View
+
+_TURN = (
+    "agents",
+    "agent_selection",
+    "rewards",
+    "_cumulative_rewards",
+    "terminations",
+    "truncations",
+    "infos",
+    "_chosen",
+)
+"""The attributes that belong to the turn: PettingZoo's, and the robot's answer."""
+
+
+@dataclass(frozen=True)
+class AECSnapshot:
+    """The core's snapshot, and whose turn it is with what PettingZoo has told so far."""
+
+    core: Snapshot
+    turn: dict[str, Any]
+
+
+class AECView(View, AECEnv[str, Observation, int | None]):
+    """A view of a core: two answers a step, the second of which plays it.
+
+    An answer outside the mask raises IllegalActionError and changes nothing. `reset` takes the
+    options `initial` (literals: begin there, raises StateError) and `trial` (an id for percepts).
+    """
+
+    def __init__(self, core: Core, render_mode: str | None = None) -> None:
+        super().__init__(core, render_mode)
+        self._chosen: str | None = None
+
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
+        self._begin(seed, options)
+        self._cumulative_rewards = dict.fromkeys(self.agents, 0.0)
+        self._open_turn()
+
+    def step(self, action: int | None) -> None:
+        agent = self.agent_selection
+        if self.terminations[agent] or self.truncations[agent]:
+            self._was_dead_step(action)
+        elif agent == ROBOT:
+            self._robot_answers(name_of(agent, action, self.core.robot_actions))
+        else:
+            self._adversary_answers(name_of(agent, action, self.core.adversary_actions))
+
+    def _robot_answers(self, action: str) -> None:
+        self._cumulative_rewards[ROBOT] = 0.0
+        self._clear_rewards()
+        self._chosen = action
+        self.agent_selection = ADVERSARY
+        self.infos = infos(self.core, action)
+
+    def _adversary_answers(self, event: str) -> None:
+        assert self._chosen is not None
+        legal = self.core.events(self._chosen)
+        check_legal(ADVERSARY, event, self.core.adversary_actions, legal)
+        self.core.advance(self._chosen, event)
+        self._cumulative_rewards[ADVERSARY] = 0.0
+        self._open_turn()
+        self._accumulate_rewards()
+        self._deads_step_first()
+
+    def _open_turn(self) -> None:
+        """The robot is next, and both agents are told of the new situation."""
+        self._chosen = None
+        self.agent_selection = ROBOT
+        self.terminations, self.truncations = self._ends()
+        self.rewards = rewards(self.core.situation.ending)
+        self.infos = infos(self.core, None)
+
+    def observe(self, agent: str) -> Observation:
+        return observe(self.core, agent, self._chosen)
+
+    def snapshot(self) -> AECSnapshot:
+        """A copy of all that the rest of the episode depends on."""
+        return AECSnapshot(self.core.snapshot(), deepcopy({k: getattr(self, k) for k in _TURN}))
+
+    def restore(self, snapshot: AECSnapshot) -> None:
+        """Goes back to the snapshot, which may be used again."""
+        self.core.restore(snapshot.core)
+        for name, value in deepcopy(snapshot.turn).items():
+            setattr(self, name, value)

@@ -1,0 +1,44 @@
+"""A scene as a few lines of text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from testbed.environment.scene import Place, Scene
+
+_SMALLEST = 18
+
+
+def draw_text(scene: Scene) -> str:
+    """The places side by side, an open wall (`=`) between neighbours, and a caption."""
+    columns = [list(_lines(place)) for place in scene.places]
+    width = max([_SMALLEST, *(len(line) for column in columns for line in column)])
+    height = max((len(column) for column in columns), default=0)
+    rule = "+" + "+".join(["-" * (width + 2)] * len(columns)) + "+"
+    rows = [_row(scene, columns, number, width) for number in range(height)]
+    return "\n".join([rule, *rows, rule, *_caption(scene)])
+
+
+def _lines(place: Place) -> Iterator[str]:
+    marks = [name if true else f"not {name}" for name, true in place.marks.items()]
+    yield place.name + (f" ({', '.join(marks)})" if marks else "")
+    for robot, held in place.robots.items():
+        yield f"[{robot}]" + (f" holds {', '.join(held)}" if held else "")
+    yield from place.things
+
+
+def _row(scene: Scene, columns: list[list[str]], number: int, width: int) -> str:
+    cells = [(column[number] if number < len(column) else "").ljust(width) for column in columns]
+    walls = ["=" if b.name in a.next_to and number == 0 else "|" for a, b in pairwise(scene.places)]
+    return (
+        "| " + "".join(f"{c} {w} " for c, w in zip(cells, walls, strict=False)) + f"{cells[-1]} |"
+    )
+
+
+def _caption(scene: Scene) -> Iterator[str]:
+    done = f"  before it: {scene.robot}" if scene.robot else ""
+    beside = f" beside {scene.adversary}" if scene.adversary not in ("", "none") else ""
+    yield f"step {scene.step}{done}{beside}" + (f"  [{scene.outcome}]" if scene.outcome else "")
+    if scene.nowhere:
+        yield f"nowhere: {', '.join(scene.nowhere)}"

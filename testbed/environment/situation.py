@@ -1,0 +1,49 @@
+"""The moment of a game: what a step changes, and how a game ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+
+class Ending(StrEnum):
+    """How a game ended; the values are those of a trial's `outcome`."""
+
+    ACHIEVED = "achieved"
+    FALSE_FINISH = "false_finish"
+    STEP_LIMIT = "step_limit"
+
+    @property
+    def by_answer(self) -> bool:
+        """Whether the robot ended the game (a termination), not the clock (a truncation)."""
+        return self is not Ending.STEP_LIMIT
+
+
+@dataclass(frozen=True)
+class Situation:
+    """Everything about a running game that changes.
+
+    `answer` and `event` are what both agents did at the step before (None at step 1), `happened`
+    whether the robot's physical action took effect (None if it waited or finished); `told` the
+    exogenous actions of that step that the robot hears of; `goal_holds` is False after a `finish`
+    that was answered, else None.
+    """
+
+    trial: str
+    step: int
+    state: int
+    answer: str | None = None
+    happened: bool | None = None
+    event: str | None = None
+    told: tuple[str, ...] = ()
+    goal_holds: bool | None = None
+    ending: Ending | None = None
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A situation with the state of the random generator: all that a game's future depends on."""
+
+    situation: Situation
+    generator: Any

@@ -1,0 +1,83 @@
+"""What the AEC and the parallel environment have in common: the spaces and looks of a core."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, ClassVar
+
+from gymnasium import spaces
+
+from testbed.environment.agents import ADVERSARY, ROBOT
+from testbed.environment.core import Core
+from testbed.environment.observation import (
+    Vector,
+    action_spaces,
+    observation_spaces,
+    state_space,
+    state_vector,
+)
+from testbed.environment.picture import Image
+from testbed.environment.rendering import MODES, check_mode, render
+
+
+class View:
+    """A core as PettingZoo shows it. Raises ValueError for an unknown render mode."""
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "name": "office_v0",
+        "render_modes": list(MODES),
+        "render_fps": 2,
+        "is_parallelizable": True,
+    }
+
+    def __init__(self, core: Core, render_mode: str | None = None) -> None:
+        check_mode(render_mode)
+        self.core = core
+        self.render_mode = render_mode
+        self.possible_agents = [ROBOT, ADVERSARY]
+        self.agents: list[str] = []
+        self.observation_spaces = observation_spaces(core)
+        self.action_spaces = action_spaces(core)
+        self.state_space = state_space(core)
+
+    @property
+    def max_cycles(self) -> int:
+        """The number of the last step of a game."""
+        return self.core.rules.steps
+
+    @max_cycles.setter
+    def max_cycles(self, steps: int) -> None:
+        self.core.rules = replace(self.core.rules, steps=steps)
+
+    def observation_space(self, agent: str) -> spaces.Space[Any]:
+        """The same object on every call."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> spaces.Space[Any]:
+        """The same object on every call."""
+        return self.action_spaces[agent]
+
+    def state(self) -> Vector:
+        """The true state, one entry a fluent: 1 true, -1 false."""
+        return state_vector(self.core)
+
+    def render(self) -> str | Image | None:
+        """`ansi`: text; `rgb_array`: a picture (height, width, 3) of uint8; `human`: prints."""
+        return render(self.core, self.render_mode)
+
+    def close(self) -> None:
+        """Nothing is held: no window, no process, no connection."""
+
+    def _begin(self, seed: int | None, options: dict[str, Any] | None) -> None:
+        """Begins a game; of the options `initial` are literals and `trial` an id, both optional."""
+        chosen = options or {}
+        self.core.reset(seed, chosen.get("initial"), chosen.get("trial", ""))
+        self.agents = list(self.possible_agents)
+
+    def _ends(self) -> tuple[dict[str, bool], dict[str, bool]]:
+        """Terminations and truncations: agents end together, the first by the robot's answer."""
+        ending = self.core.situation.ending
+        terminated = ending is not None and ending.by_answer
+        truncated = ending is not None and not ending.by_answer
+        agents = self.possible_agents
+        return dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated)
