@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import pytest
 from axioms import Without, axioms
+from cases_of_activities import CASES as ACTIVITIES
+from cases_of_candidates import CASES as CANDIDATES
 from cases_of_history import CASES as HISTORY
 from cases_of_intentions import CASES as INTENTIONS
-from cases_of_planning import CASES as PLANNING
 from stories import Case
 
-CASES = (*INTENTIONS, *HISTORY, *PLANNING)
+CASES = (*INTENTIONS, *HISTORY, *ACTIVITIES, *CANDIDATES)
 
 
 def _name(case: Case) -> str:
