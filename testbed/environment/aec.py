@@ -8,8 +8,9 @@ from typing import Any
 
 from pettingzoo import AECEnv
 
-from testbed.environment.agents import ADVERSARY, ROBOT, check_legal, name_of
+from testbed.environment.agents import ADVERSARY, ROBOT, listed, name_of
 from testbed.environment.core import Core
+from testbed.environment.errors import IllegalActionError
 from testbed.environment.observation import Observation, infos, observe
 from testbed.environment.rewards import rewards
 from testbed.environment.situation import Snapshot
@@ -70,8 +71,13 @@ class AECView(View, AECEnv[str, Observation, int | None]):
 
     def _adversary_answers(self, event: str) -> None:
         assert self._chosen is not None
-        legal = self.core.events(self._chosen)
-        check_legal(ADVERSARY, event, self.core.adversary_actions, legal)
+        reason = self.core.why_not(self._chosen, event)
+        if reason is not None:
+            actions, legal = self.core.adversary_actions, self.core.events(self._chosen)
+            raise IllegalActionError(
+                f"{ADVERSARY}: {actions.index(event)} {event} is not legal: {reason}; "
+                f"legal are {listed(actions, legal)}"
+            )
         self.core.advance(self._chosen, event)
         self._cumulative_rewards[ADVERSARY] = 0.0
         self._open_turn()

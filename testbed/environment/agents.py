@@ -19,15 +19,6 @@ def name_of(agent: str, answer: object, actions: Sequence[str]) -> str:
     raise IllegalActionError(f"{agent}: {answer!r} is not an action; there are {listed(actions)}")
 
 
-def check_legal(agent: str, action: str, actions: Sequence[str], legal: Sequence[str]) -> None:
-    """Raises IllegalActionError naming the agent, its answer and what would be legal."""
-    if action not in legal:
-        raise IllegalActionError(
-            f"{agent}: {actions.index(action)} {action} is not legal now; "
-            f"legal are {listed(actions, legal)}"
-        )
-
-
 def listed(actions: Sequence[str], legal: Sequence[str] | None = None) -> str:
     """The actions, or the legal ones among them, with their indices."""
     chosen = actions if legal is None else legal

@@ -98,7 +98,7 @@ class Core:
         if event in self.events(robot_action):
             return None
         if robot_action == FINISH or (robot_action == WAIT and not self._opens_thinking):
-            return f"nothing exogenous may happen while the robot answers {robot_action}"
+            return f"nothing exogenous happens while the robot answers {robot_action}"
         compound = (*self._effective(robot_action), event)
         return self.world.why_not(self.situation.state, compound)
 
@@ -147,7 +147,8 @@ class Core:
             raise IllegalActionError(f"{event} is not an action of the adversary")
         reason = self.why_not(robot_action, event)
         if reason is not None:
-            raise IllegalActionError(f"{event} beside {robot_action} is impossible: {reason}")
+            step = self.situation.step
+            raise IllegalActionError(f"step {step}: {event} beside {robot_action}: {reason}")
 
     def _effective(self, robot_action: str) -> tuple[str, ...]:
         """The robot's part of the compound action: nothing if it thinks or tries in vain."""

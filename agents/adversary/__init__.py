@@ -1,0 +1,1 @@
+"""Adversaries: who casts the exogenous actions. One file a strategy, one interface."""

@@ -1,0 +1,33 @@
+"""What an adversary is: it sees everything, the robot's chosen action included."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+NONE = "none"
+"""The answer of an adversary that does nothing."""
+
+
+@dataclass(frozen=True)
+class AdversaryView:
+    """What an adversary sees before it answers.
+
+    `state` are the true fluents, `robot_action` what the robot will attempt at this step, `legal`
+    what may be answered: `none`, and the exogenous actions possible beside the robot's.
+    """
+
+    step: int
+    state: frozenset[str]
+    robot_action: str
+    legal: tuple[str, ...]
+
+
+class Adversary(Protocol):
+    """One adversary over many trials."""
+
+    def reset(self, seed: int) -> None:
+        """Begins a trial; everything drawn in it follows from the seed."""
+
+    def act(self, view: AdversaryView) -> str:
+        """The answer at a step: `none` or a ground exogenous action."""

@@ -1,0 +1,104 @@
+"""Adversaries that play what was written down: a scenario's triggers, or an explicit script."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from agents.adversary.base import NONE, AdversaryView
+from asp import Description
+from asp import literals as text
+from asp.description import Trigger
+
+T = TypeVar("T")
+
+UNDISTURBED = "1"
+"""The scenario in which nothing exogenous happens: it needs no trigger (spec 1)."""
+
+
+class Triggered:
+    """Fires a scenario's exogenous action when one of its triggers applies, once a trial.
+
+    Where the triggers draw a value, one of those that could be drawn is drawn first, and fires
+    only if its own triggers apply: a draw may come to nothing, and is repeated at the next action
+    of the robot (spec 1). Where nothing is drawn, the first possible event in order is taken.
+    """
+
+    def __init__(self, description: Description, scenario: str) -> None:
+        """Raises ValueError, naming the scenarios there are, for an unknown one."""
+        known = dict.fromkeys((UNDISTURBED, *description.scenarios))
+        if scenario not in known:
+            raise ValueError(f"no scenario {scenario}; there are {', '.join(known)}")
+        self._triggers = [t for t in description.triggers if t.scenario == scenario]
+        self._physical = frozenset(description.agent_actions)
+        self.reset(0)
+
+    def reset(self, seed: int) -> None:
+        self._random = np.random.default_rng(seed)
+        self._fired = False
+
+    def act(self, view: AdversaryView) -> str:
+        if self._fired or view.robot_action not in self._physical:
+            return NONE
+        triggers = [t for t in self._triggers if t.upon in (None, view.robot_action)]
+        if not self._tries(triggers):
+            return NONE
+        event = self._choose(triggers, view)
+        self._fired = event != NONE
+        return event
+
+    def _tries(self, triggers: Sequence[Trigger]) -> bool:
+        """The coin of a step. The triggers of a scenario that apply together share one."""
+        if not triggers:
+            return False
+        probability = triggers[0].probability
+        return probability >= 1 or bool(self._random.random() < probability)
+
+    def _choose(self, triggers: Sequence[Trigger], view: AdversaryView) -> str:
+        if not any(trigger.drawn for trigger in triggers):
+            return next((t.event for t in triggers if _possible(t, view)), NONE)
+        pool = dict.fromkeys(_drawable(t) for t in triggers if _hold(t.pool, view))
+        if not pool:
+            return NONE
+        drawn = self._draw(list(pool))
+        events = [t.event for t in triggers if _drawable(t) == drawn and _possible(t, view)]
+        return self._draw(events) if events else NONE
+
+    def _draw(self, options: Sequence[T]) -> T:
+        return options[int(self._random.integers(len(options)))]
+
+
+class Script:
+    """Plays given exogenous actions at given steps.
+
+    An impossible entry is played all the same: the environment refuses it and says why.
+    """
+
+    def __init__(self, entries: Iterable[tuple[int, str]]) -> None:
+        """`entries` are steps, from 1 on, with their action. Raises ValueError for a step twice."""
+        self._actions: dict[int, str] = {}
+        for step, action in entries:
+            if step in self._actions:
+                raise ValueError(f"script: step {step} has two actions: one a step is possible")
+            self._actions[step] = action
+
+    def reset(self, seed: int) -> None:
+        """A script draws nothing."""
+
+    def act(self, view: AdversaryView) -> str:
+        return self._actions.get(view.step, NONE)
+
+
+def _drawable(trigger: Trigger) -> tuple[str, str]:
+    """What is drawn: a value, for this kind of event."""
+    return text.name(trigger.event), trigger.drawn
+
+
+def _possible(trigger: Trigger, view: AdversaryView) -> bool:
+    return trigger.event in view.legal and _hold((*trigger.pool, *trigger.body), view)
+
+
+def _hold(literals: Iterable[str], view: AdversaryView) -> bool:
+    return all(text.is_positive(lit) == (text.atom(lit) in view.state) for lit in literals)

@@ -1,0 +1,93 @@
+"""The environment as PettingZoo users expect it: `env`, `raw_env`, `parallel_env`.
+
+    from testbed import office_v0
+    env = office_v0.env(config="configs/office.yaml", render_mode="ansi")
+
+Of a configuration the environment uses domain, goal, initial, observability, goal_feedback,
+exogenous_while_thinking and limits.steps; scenarios and scripts are an adversary's business, and
+the adversary is an agent here. Any key can be overridden: `env(goal_feedback=False)`.
+"""
+
+from __future__ import annotations
+
+import json
+from os import PathLike
+from typing import TypeAlias
+
+from pettingzoo.utils.wrappers import OrderEnforcingWrapper
+
+from asp import load_description
+from testbed.config import ExperimentConfig, load_config
+from testbed.environment.aec import AECView
+from testbed.environment.core import Core
+from testbed.environment.observation import Observation
+from testbed.environment.parallel import ParallelView
+from testbed.environment.rules import Observability, Rules
+from testbed.environment.world import World
+
+Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
+"""A file, the bare name of a packaged configuration, one already read, or None: `office`."""
+
+
+def env(
+    config: Config = None,
+    render_mode: str | None = None,
+    max_cycles: int | None = None,
+    **overrides: object,
+) -> OrderEnforcingWrapper[str, Observation, int | None]:
+    """The AEC environment, wrapped: what is called out of order raises, too.
+
+    `max_cycles` is the number of the last step, instead of limits.steps. Raises ConfigError for a
+    bad configuration and ValueError for an unknown render mode.
+    """
+    return OrderEnforcingWrapper(raw_env(config, render_mode, max_cycles, **overrides))
+
+
+def raw_env(
+    config: Config = None,
+    render_mode: str | None = None,
+    max_cycles: int | None = None,
+    **overrides: object,
+) -> AECView:
+    """The AEC environment, unwrapped. Parameters and errors as for `env`."""
+    return AECView(make_core(config, max_cycles, **overrides), render_mode)
+
+
+def parallel_env(
+    config: Config = None,
+    render_mode: str | None = None,
+    max_cycles: int | None = None,
+    **overrides: object,
+) -> ParallelView:
+    """The parallel environment. Parameters and errors as for `env`."""
+    return ParallelView(make_core(config, max_cycles, **overrides), render_mode)
+
+
+def make_core(config: Config = None, max_cycles: int | None = None, **overrides: object) -> Core:
+    """The game that a configuration describes. Raises ConfigError."""
+    read = _read(config, overrides)
+    world = World(load_description(read.domain))
+    states = world.initial_states() if read.initial is None else (world.state(read.initial),)
+    return Core(world, _rules(read, max_cycles), states)
+
+
+def _read(config: Config, overrides: dict[str, object]) -> ExperimentConfig:
+    if isinstance(config, ExperimentConfig):
+        if overrides:
+            raise ValueError("overrides go with the name of a configuration, not with a read one")
+        return config
+    changes = [f"{key}={json.dumps(value)}" for key, value in overrides.items()]
+    return load_config("office" if config is None else str(config), changes)
+
+
+def _rules(config: ExperimentConfig, max_cycles: int | None) -> Rules:
+    return Rules(
+        goal=config.goal,
+        steps=config.limits.steps if max_cycles is None else max_cycles,
+        observability={
+            name: Observability(how.mode, how.probability)
+            for name, how in config.observability.items()
+        },
+        goal_feedback=config.goal_feedback,
+        exogenous_while_thinking=config.exogenous_while_thinking,
+    )
