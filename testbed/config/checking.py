@@ -110,6 +110,8 @@ def _script(
     for index, entry in enumerate(entries):
         if entry.action not in known:
             yield (*key, index, "action"), unknown_atom(entry.action, known, "exogenous action")
+        if any(entry.step == earlier.step for earlier in entries[:index]):
+            yield (*key, index, "step"), f"step {entry.step} has an action already; one a step"
 
 
 def unknown_atom(text: str, known: Sequence[str], what: str) -> str:

@@ -61,14 +61,14 @@ def _lines(moment: Moment, world: World) -> Iterator[str]:
     trace = moment.decision.trace
     yield ""
     yield f"step {moment.percept.step}"
-    truth = world.true_atoms(moment.before)
+    truth = sorted(world.true_atoms(moment.before))
     yield f"  world        {' '.join(truth)}"
     if moment.percept.goal_holds is False:
         yield "  told         the goal does not hold"
     if moment.percept.events:
         yield f"  told         {' '.join(moment.percept.events)}"
-    yield f"  belief       {' '.join(trace.belief) or '-'}"
-    if trace.belief and set(trace.belief) != set(truth):
+    yield f"  belief       {' '.join(sorted(trace.belief)) or '-'}"
+    if trace.belief and sorted(trace.belief) != truth:
         yield f"               in truth {_difference(trace.belief, truth)}"
     if trace.explanation is not None:
         yield f"  explanation  {_explanation(moment)}"

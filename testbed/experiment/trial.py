@@ -11,6 +11,7 @@ import msgspec
 import numpy as np
 
 from testbed.environment.core import NONE, Core
+from testbed.environment.errors import IllegalActionError
 from testbed.environment.rules import Observability
 from testbed.environment.rules import Rules as GameRules
 from testbed.environment.world import World
@@ -112,13 +113,22 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     if decision.action not in core.robot_actions:
         raise RobotLost(f"answered '{decision.action}', which is not an action")
     event = adversary.act(_view(core, decision.action))
-    core.advance(decision.action, event)
+    _advance(core, decision.action, event)
     after = core.situation
     recorder.step(decision, after.happened, core.world.description.costs)
     exogenous = None if event == NONE else event
     if exogenous is not None:
         recorder.exogenous(before.step, exogenous, observed=exogenous in core.percept.events)
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state)
+
+
+def _advance(core: Core, robot_action: str, event: str) -> None:
+    """Play the step. Raises IllegalActionError, with the step, for an event that is impossible."""
+    step = core.situation.step
+    try:
+        core.advance(robot_action, event)
+    except IllegalActionError as error:
+        raise IllegalActionError(f"step {step}: {error}") from error
 
 
 def _view(core: Core, robot_action: str) -> AdversaryView:

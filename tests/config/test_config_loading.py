@@ -157,6 +157,13 @@ def test_packaged_configurations_are_found_by_name(name: str) -> None:
             "exo_move(book2,kichen) is not known there; did you mean 'kitchen'?",
         ),
         (
+            "script: []",
+            'script: [{step: 2, action: "exo_lock(library)"}, '
+            '{step: 2, action: "exo_move(book2,kitchen)"}]',
+            "tiny.yaml:7: scenario_settings.1.script[1].step: step 2 has an action already; "
+            "one a step",
+        ),
+        (
             '"loc(book1,library)"]\ninitial',
             '"loc(book1,library)", "-loc(book1,library)"]\ninitial',
             "tiny.yaml:3: goal[1]: contradicts loc(book1,library); keep one of the two",

@@ -86,7 +86,8 @@ def test_a_writer_killed_leaves_the_folder_free(tmp_path: Path) -> None:
     _write(tmp_path, "a")
 
 
-def test_runs_of_one_name_get_folders_of_their_own(at_home: Path) -> None:
+@pytest.mark.usefixtures("at_home")
+def test_runs_of_one_name_get_folders_of_their_own() -> None:
     first = choose_folder(None, "tiny", resume=False)
     first.mkdir(parents=True)
     second = choose_folder(None, "tiny", resume=False)

@@ -1,0 +1,155 @@
+"""Runs with real robots in real processes, and with faults injected for real."""
+
+import os
+import signal
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from multiprocessing import active_children
+from pathlib import Path
+
+from testbed.config import ExperimentConfig
+from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.pool import Play, play_all
+from testbed.experiment.record import logical
+from testbed.experiment.runner import Tally, player, run_trials
+from testbed.experiment.store import read_records
+from testbed.experiment.trial import Moment, Result, blank_record, play_trial
+from testbed.link.spawned import spawned_robot
+from tests.experiment.samples import Configure, ids
+
+SMALL = ("scenarios=[1,2,6]",)
+
+
+def _ignore(tally: Tally) -> None:
+    del tally
+
+
+def _run(config: ExperimentConfig, folder: Path, workers: int = 1) -> list[dict[str, object]]:
+    run_trials(config, folder, workers, _ignore)
+    return [logical(record) for record in read_records(folder)]
+
+
+def _planned(config: ExperimentConfig) -> list[str]:
+    return [spec.trial for spec in plan_trials(config)]
+
+
+def test_the_same_seed_gives_the_same_trials_wherever_they_are_played(
+    tmp_path: Path, configure: Configure
+) -> None:
+    here = _run(configure(*SMALL), tmp_path / "here")
+    assert _run(configure(*SMALL, "link=zenoh"), tmp_path / "zenoh") == here
+    assert _run(configure(*SMALL), tmp_path / "two", workers=2) == here
+    assert [trial["trial"] for trial in here] == _planned(configure(*SMALL))
+
+
+def test_a_run_goes_on_with_exactly_what_is_missing(tmp_path: Path, configure: Configure) -> None:
+    config = configure("scenarios=[1,2]")
+    whole = _run(config, tmp_path / "whole")
+    _run(config, tmp_path / "part")
+    path = tmp_path / "part" / "trials.jsonl"
+    first, second, third, _ = path.read_bytes().splitlines(keepends=True)
+    path.write_bytes(first + second + third[:50])
+    told: list[tuple[int, int]] = []
+    run_trials(config, tmp_path / "part", 1, lambda tally: told.append((tally.planned, tally.done)))
+    assert told == [(4, 2), (4, 3), (4, 4)]
+    assert path.read_bytes().startswith(first + second)
+    assert [logical(record) for record in read_records(tmp_path / "part")] == whole
+    before = path.read_bytes()
+    tally = run_trials(config, tmp_path / "part", 1, _ignore)
+    assert (tally.done, tally.failed, path.read_bytes()) == (4, 0, before)
+
+
+def test_a_killed_robot_costs_its_trial_alone(configure: Configure) -> None:
+    config = configure("link=zenoh", "scenarios=[1]", "limit=1")
+    doomed, after = plan_trials(config)
+    with spawned_robot("killing", 60.0) as robot:
+
+        def kill(moment: Moment) -> None:
+            if moment.percept.step == 3:
+                assert robot.process is not None
+                os.kill(robot.process.pid, signal.SIGKILL)
+
+        lost = play_trial(doomed, robot, watch=kill).record
+        fine = play_trial(after, robot).record
+    assert lost.outcome == "robot_lost"
+    assert lost.reason is not None
+    assert "signal 9" in lost.reason
+    assert (lost.steps, lost.finished, lost.achieved) == (3, False, False)
+    assert len(lost.actions) == 2
+    assert (fine.outcome, fine.correct) == ("achieved", True)
+
+
+@contextmanager
+def _fragile(victim: str) -> Iterator[Play]:
+    """Plays in process, but a worker that is given the victim dies of it."""
+    with player("inprocess", "fragile", 60.0) as play:
+
+        def play_or_die(spec: TrialSpec) -> Result:
+            if spec.trial == victim:
+                os.kill(os.getpid(), signal.SIGKILL)
+            return play(spec)
+
+        yield play_or_die
+
+
+def test_a_killed_worker_costs_its_trial_alone(configure: Configure) -> None:
+    specs = plan_trials(configure("scenarios=[1,2]"))
+    victim = specs[1].trial
+    results = dict(play_all(specs, 2, partial(_fragile, victim)))
+    assert sorted(results) == [0, 1, 2, 3]
+    records = [results[position].record for position in range(4)]
+    assert ids(records) == [spec.trial for spec in specs]
+    assert [record.outcome for record in records if record.trial != victim] == ["achieved"] * 3
+    assert records[1].outcome == "error"
+    assert records[1].reason == "worker process ended with exit code -9"
+
+
+@contextmanager
+def _instant() -> Iterator[Play]:
+    yield lambda spec: Result(blank_record(spec))
+
+
+def test_a_crew_larger_than_its_work_plays_each_trial_once(configure: Configure) -> None:
+    specs = plan_trials(configure("scenarios=[1]"))
+    played = Counter(position for position, _ in play_all(specs, 5, _instant))
+    assert played == {0: 1, 1: 1}
+
+
+def test_a_caller_that_stops_listening_leaves_no_worker_behind(configure: Configure) -> None:
+    specs = plan_trials(configure(*SMALL))
+    results = play_all(specs, 2, _instant)
+    next(results)
+    assert active_children() != []
+    results.close()
+    assert active_children() == []
+
+
+def test_an_interrupt_keeps_what_was_finished(tmp_path: Path, configure: Configure) -> None:
+    config = configure("scenarios=[1,2]")
+
+    def interrupt(tally: Tally) -> None:
+        if tally.done == 3 and not tally.interrupted:
+            raise KeyboardInterrupt
+
+    tally = run_trials(config, tmp_path, 1, interrupt)
+    assert (tally.interrupted, tally.done) == (True, 3)
+    assert ids(list(read_records(tmp_path))) == _planned(config)[:3]
+    assert len(_run(config, tmp_path)) == 4
+
+
+def test_a_failed_trial_leaves_its_traceback_and_the_run_goes_on(
+    tmp_path: Path, configure: Configure
+) -> None:
+    config = configure(
+        "scenarios=[1,3]",
+        "scenario_settings.3.script=[{step: 1, action: 'exo_move(book1,office1)'}]",
+    )
+    tally = run_trials(config, tmp_path, 1, _ignore)
+    records = list(read_records(tmp_path))
+    assert [record.outcome for record in records] == ["achieved", "achieved", "error", "error"]
+    assert tally.failed == 2
+    details = (tmp_path / "errors" / f"{records[2].trial}.txt").read_text(encoding="utf-8")
+    assert "Traceback" in details
+    assert not (tmp_path / "errors" / f"{records[0].trial}.txt").exists()
