@@ -27,7 +27,9 @@ class View:
         "name": "office_v0",
         "render_modes": list(MODES),
         "render_fps": 2,
-        "is_parallelizable": True,
+        # PettingZoo's conversion would show the adversary a mask from before the robot's answer,
+        # and the environment refuse what it then picks: there is a parallel view of our own.
+        "is_parallelizable": False,
     }
 
     def __init__(self, core: Core, render_mode: str | None = None) -> None:
