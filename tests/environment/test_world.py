@@ -2,7 +2,7 @@
 
 import pytest
 
-from asp import load_description
+from asp import load_description, parse_description
 from testbed.environment.closure import UnknownFluentError
 from testbed.environment.errors import NotExecutableError, StateError, UnknownActionError
 from testbed.environment.world import World
@@ -17,6 +17,21 @@ PLAN = (
     "put_down(rob1,book2)",
 )
 GOAL = ("loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book1)", "-in_hand(rob1,book2)")
+
+# Once h holds, f and g exclude each other, and nothing says which of them goes.
+UNDETERMINED = """
+sorts
+  thing = {it}.
+fluents
+  inertial f.  inertial g.  inertial h.  defined p.
+actions
+  agent a.
+laws
+  a causes h.
+  -f if g, h.
+  -g if f, h.
+  p if f.
+"""
 
 
 @pytest.fixture(scope="module")
@@ -136,3 +151,20 @@ def test_what_is_no_initial_state(world: World, literals: list[str], message: st
 def test_an_unknown_action_is_named(world: World) -> None:
     with pytest.raises(UnknownActionError, match=r"fly\(rob1,kitchen\) is not an action"):
         world.successors(world.state(SCENARIO_1), ["fly(rob1,kitchen)"])
+
+
+def test_several_outcomes_are_all_found_and_none_is_taken_for_the_one() -> None:
+    world = World(parse_description(UNDETERMINED))
+    state = world.state(["f", "g"])
+    outcomes = {world.true_atoms(after) for after in world.successors(state, ["a"])}
+    assert outcomes == {("f", "h", "p"), ("g", "h")}
+    with pytest.raises(ValueError, match=r"a has several outcomes: "):
+        world.successor(state, ["a"])
+
+
+def test_a_defined_fluent_follows_and_cannot_be_given_otherwise() -> None:
+    world = World(parse_description(UNDETERMINED))
+    assert world.true_atoms(world.state(["f"])) == ("f", "p")
+    for wrong in (["p"], ["f", "-p"]):
+        with pytest.raises(StateError):
+            world.state(wrong)
