@@ -46,7 +46,7 @@ def _check_use(use: roles.Use, signature: Signature, problems: Problems) -> None
     kind = _kind(atom.name, signature)
     if kind is None:
         known = [n for n, d in signature.symbols.items() if d.kind in use.kinds]
-        noun = "action" if use.kinds <= roles.ACTIONS else "fluent"
+        noun = roles.noun(use.kinds)
         problems.report(atom.place, f"unknown {noun} '{atom.name}'{suggestion(atom.name, known)}")
     elif kind not in use.kinds:
         problems.report(
@@ -133,31 +133,51 @@ def _check_constraint(
 def _check_variables(statement: syntax.Statement, signature: Signature, problems: Problems) -> None:
     domains = variable_domains(statement, signature)
     for name, members in domains.items():
-        if not members and not _is_empty_place(statement, name, signature):
+        if not members and not _may_be_empty(statement, name, signature):
             problems.report(statement.place, f"no constant fits all the places of variable {name}")
     for comparison in roles.comparisons(roles.bodies(statement)):
         for term in (comparison.left, comparison.right):
             if term.is_variable and term.name not in domains:
                 _report_unbound(term, problems)
-            elif not term.is_variable and term.name not in signature.constants:
-                problems.report(term.place, f"unknown constant '{term.name}'")
-    for field in ("drawn", "variable"):
+            elif not term.is_variable:
+                _check_constant(term, signature, problems)
+    for field in ("drawn", "variable", "robot"):
         named = getattr(statement, field, None)
-        if named is not None and named.name not in domains:
-            _report_unbound(named, problems)
+        if named is not None:
+            _check_named(named, statement, signature, problems)
+
+
+def _check_named(
+    term: syntax.Term, statement: syntax.Statement, signature: Signature, problems: Problems
+) -> None:
+    if term.is_variable and _stands_nowhere(statement, term.name):
+        _report_unbound(term, problems)
+    elif not term.is_variable:
+        _check_constant(term, signature, problems)
+
+
+def _check_constant(term: syntax.Term, signature: Signature, problems: Problems) -> None:
+    if term.name not in signature.constants:
+        known = suggestion(term.name, sorted(signature.constants))
+        problems.report(term.place, f"unknown constant '{term.name}'{known}")
+
+
+def _stands_nowhere(statement: syntax.Statement, variable: str) -> bool:
+    """Whether a variable of a comparison, or named beside the atoms, stands in no atom."""
+    return not any(term.name == variable for use in roles.uses(statement) for term in use.atom.args)
+
+
+def _may_be_empty(statement: syntax.Statement, name: str, signature: Signature) -> bool:
+    """Whether another mistake is to blame: a sort without members, or a place in no atom."""
+    return _stands_nowhere(statement, name) or any(
+        term.name == name and not members
+        for use in roles.uses(statement)
+        for term, members in zip(use.atom.args, _places(use.atom, signature), strict=True)
+    )
 
 
 def _report_unbound(term: syntax.Term, problems: Problems) -> None:
     problems.report(
         term.place,
         f"variable {term.name} is bound by nothing: it stands in no fluent, static or action",
-    )
-
-
-def _is_empty_place(statement: syntax.Statement, name: str, signature: Signature) -> bool:
-    """A sort without members makes its laws empty, which is no mistake."""
-    return any(
-        term.name == name and not members
-        for use in roles.uses(statement)
-        for term, members in zip(use.atom.args, _places(use.atom, signature), strict=True)
     )

@@ -1,8 +1,10 @@
-"""The check that no fluent is defined through its own negation.
+"""The check that nothing is defined through its own negation.
 
 A state constraint with a positive head defines that fluent. Where such definitions run in a
 cycle with a negated body literal on it (`p if -p`, or `p if -q` with `q if -p`), the description
-says no longer which states there are, and AL_d forbids it.
+says no longer which states there are, and AL_d forbids it. A defined fluent, which is false where
+nothing derives it, can also depend on its own negation by way of negative literals
+(`d if -p` with `-p if -d`).
 """
 
 from __future__ import annotations
@@ -10,8 +12,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from asp import syntax
-from asp.grounding import ground_law
-from asp.literals import atom, is_positive
+from asp.instances import instances_of, literal_of, static_truth
+from asp.literals import atom, complement, is_positive, name
 from asp.signature import Problems, Signature
 
 Graph = Mapping[str, set[str]]
@@ -19,20 +21,46 @@ Graph = Mapping[str, set[str]]
 
 def check_cycles(source: syntax.Source, signature: Signature, problems: Problems) -> None:
     """Reports each state constraint that closes a cycle through negation."""
-    graph: dict[str, set[str]] = {}
-    negative: list[tuple[syntax.StateConstraint, str, str]] = []
+    _check_statics(source, signature, problems)
+    atoms: dict[str, set[str]] = {}
+    literals: dict[str, set[str]] = {}
+    laws: list[tuple[syntax.StateConstraint, str, str]] = []
+    instances = instances_of(source, signature)
     for law in source.each(syntax.StateConstraint):
-        if not law.head.positive:
-            continue
-        for head, body in ground_law(law, source, signature):
-            graph.setdefault(head, set()).update(map(atom, body))
-            negative += [(law, head, atom(lit)) for lit in body if not is_positive(lit)]
+        for binding, body in instances.of(law):
+            head = literal_of(law.head, binding)
+            literals.setdefault(head, set()).update(body)
+            laws += [(law, head, condition) for condition in body]
+            if is_positive(head):
+                atoms.setdefault(head, set()).update(map(atom, body))
+                if signature.symbols[name(head)].kind == "defined":
+                    literals.setdefault(complement(head), set()).add(head)
     reported: set[syntax.StateConstraint] = set()
-    for law, head, condition in negative:
-        if law not in reported and head in _reachable(condition, graph):
+    for law, head, condition in laws:
+        if law not in reported and _closes(head, condition, atoms, literals, signature):
             reported.add(law)
             problems.report(
-                law.place, f"'{head}' is defined through its own negation by way of '-{condition}'"
+                law.place, f"'{head}' is defined through its own negation by way of '{condition}'"
+            )
+
+
+def _closes(head: str, condition: str, atoms: Graph, literals: Graph, signature: Signature) -> bool:
+    """Whether this condition of a law makes its head depend on its own negation."""
+    if not is_positive(head):
+        return False
+    if not is_positive(condition) and head in _reachable(atom(condition), atoms):
+        return True
+    defined = signature.symbols[name(head)].kind == "defined"
+    return defined and complement(head) in _reachable(condition, literals)
+
+
+def _check_statics(source: syntax.Source, signature: Signature, problems: Problems) -> None:
+    _, undecided = static_truth(source, signature)
+    names = {name(static) for static in undecided}
+    for law in source.each(syntax.StateConstraint):
+        if law.head.atom.name in names:
+            problems.report(
+                law.place, f"'{law.head.atom.name}' is defined through its own negation"
             )
 
 

@@ -8,33 +8,11 @@ from importlib.resources import files
 from typing import Any
 
 from lark import Lark, Token, Transformer, v_args
-from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
+from lark.exceptions import UnexpectedInput
 from lark.tree import Meta
 
 from asp import syntax
-from asp.errors import SourceError
-
-_READABLE = {
-    "NAME": "a name",
-    "VARIABLE": "a variable",
-    "NUMBER": "a number",
-    "DECIMAL": "a number",
-    "DOT": "a full stop",
-    "LPAR": "'('",
-    "RPAR": "')'",
-    "COMMA": "','",
-    "EQUAL": "'='",
-    "UNEQUAL": "'!='",
-    "MINUS": "'-'",
-    "PLUS": "'+'",
-    "LBRACE": "'{'",
-    "RBRACE": "'}'",
-    "COLON": "':'",
-}
-_SECTIONS = {
-    *("SORTS", "STATICS", "FLUENTS", "ACTIONS", "LAWS", "FACTS"),
-    *("SEES", "SHOWS", "COSTS", "INITIALLY", "SCENARIOS"),
-}
+from asp.syntax_errors import check_section_words, syntax_error
 
 
 def parse(text: str, file: str = "<text>") -> syntax.Source:
@@ -42,7 +20,8 @@ def parse(text: str, file: str = "<text>") -> syntax.Source:
     try:
         tree = _grammar().parse(text)
     except UnexpectedInput as error:
-        raise _syntax_error(error, text, file) from None
+        raise syntax_error(error, text, file) from None
+    check_section_words(tree, text, file)
     statements = _ToSyntax().transform(tree)
     return syntax.Source(file, text, statements, _comments(text))
 
@@ -53,35 +32,9 @@ def _grammar() -> Lark:
     return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
 
 
-def _syntax_error(error: UnexpectedInput, text: str, file: str) -> SourceError:
-    if (
-        isinstance(error, UnexpectedToken)
-        and error.token.type == "$END"
-        or isinstance(error, UnexpectedEOF)
-    ):
-        lines = text.splitlines() or [""]
-        return SourceError(file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement")
-    if isinstance(error, UnexpectedCharacters):
-        return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
-    assert isinstance(error, UnexpectedToken)
-    expected = _describe(set(error.accepts or error.expected))
-    message = f"unexpected {str(error.token)!r}; expected {expected}"
-    return SourceError(file, error.line, error.column, message)
-
-
-def _describe(expected: set[str]) -> str:
-    if expected.issuperset(_SECTIONS):
-        expected = expected.difference(_SECTIONS)
-        words = ["a section word such as sorts or laws"]
-    else:
-        words = []
-    words += sorted(_READABLE.get(name, repr(name.lower())) for name in expected - {"$END"})
-    return " or ".join(dict.fromkeys(words))
-
-
 def _comments(text: str) -> tuple[syntax.Comment, ...]:
     found = []
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(text.split("\n"), start=1):
         match = re.search(r"%.*", line)
         if match:
             alone = not line[: match.start()].strip()
@@ -90,7 +43,8 @@ def _comments(text: str) -> tuple[syntax.Comment, ...]:
 
 
 def _place(meta: Meta | Token) -> syntax.Place:
-    assert meta.line is not None and meta.column is not None
+    assert meta.line is not None
+    assert meta.column is not None
     return syntax.Place(meta.line, meta.column)
 
 
@@ -204,6 +158,8 @@ class _ToSyntax(Transformer[Token, Any]):
         return syntax.Atom(str(children[0]), args, _place(meta))
 
     def constant(self, _: Meta, children: list[Token]) -> syntax.Term:
-        return syntax.Term(str(children[0]), _place(children[0]))
+        token = children[0]
+        name = str(int(token)) if token.type == "NUMBER" else str(token)
+        return syntax.Term(name, _place(token))
 
     variable = constant

@@ -88,6 +88,13 @@ def _(statement: syntax.TriggerStatement) -> Iterator[Use]:
     yield from _body(statement.body)
 
 
+def noun(kinds: frozenset[str]) -> str:
+    """What a place for these kinds of symbols is for, in one word."""
+    if kinds <= ACTIONS:
+        return "action"
+    return "static" if kinds == {"static"} else "fluent"
+
+
 def _body(body: syntax.Body) -> Iterator[Use]:
     for literal in literals(body):
         yield Use(literal.atom, DOMAIN | {SORT}, "a fluent, a static or a sort in a body")

@@ -8,6 +8,7 @@ from difflib import get_close_matches
 
 from asp import syntax
 from asp.errors import SourceError
+from asp.reserved import is_reserved_constant, is_reserved_sort, is_reserved_symbol
 
 
 class Problems(list[SourceError]):
@@ -48,9 +49,13 @@ def signature_of(source: syntax.Source, problems: Problems) -> Signature:
     for statement in source.statements:
         if isinstance(statement, syntax.SortDefinition):
             _claim(statement.name, statement, taken, problems)
+            if is_reserved_sort(statement.name):
+                _report_reserved(statement.name, statement.place, problems)
             sorts[statement.name] = _members(statement, sorts, problems)
         elif isinstance(statement, syntax.Declaration):
             _claim(statement.name, statement, taken, problems)
+            if is_reserved_symbol(statement.name, statement.kind):
+                _report_reserved(statement.name, statement.place, problems)
             _check_sorts(statement, sorts, problems)
             symbols[statement.name] = statement
     return Signature(sorts, symbols)
@@ -81,12 +86,31 @@ def _members(
     members: list[str] = []
     for part in definition.parts:
         if isinstance(part, tuple):
+            _check_constants(part, definition, problems)
             members += (constant.name for constant in part)
         elif part.name in sorts:
             members += sorts[part.name]
         else:
             problems.report(part.place, f"unknown sort '{part.name}'{suggestion(part.name, sorts)}")
     return tuple(dict.fromkeys(members))
+
+
+def _check_constants(
+    constants: tuple[syntax.Term, ...], definition: syntax.SortDefinition, problems: Problems
+) -> None:
+    if not constants:
+        problems.report(definition.place, f"the range of sort '{definition.name}' is empty")
+    seen = set()
+    for constant in constants:
+        if constant.name in seen:
+            problems.report(constant.place, f"the name '{constant.name}' is used twice in one sort")
+        elif is_reserved_constant(constant.name):
+            _report_reserved(constant.name, constant.place, problems)
+        seen.add(constant.name)
+
+
+def _report_reserved(name: str, place: syntax.Place, problems: Problems) -> None:
+    problems.report(place, f"the name '{name}' means something else in programs; take another")
 
 
 def _check_sorts(

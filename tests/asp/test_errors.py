@@ -1,0 +1,89 @@
+"""Every mistake in an AL_d text is told with its place and with what would be right."""
+
+from __future__ import annotations
+
+import pytest
+from mistakes_of_form import CYCLES, FORMS, SYNTAX
+from mistakes_of_names import ARGUMENTS, NAMES
+
+from asp import SourceError, load_description, parse_description
+
+# The mistakes below are in the lines behind these; the first of them is line 16.
+HOUSE = """\
+sorts
+  room  = {hall, attic}.
+  thing = {book, lamp}.
+statics
+  next_to(room, room).
+  far(room, room).
+fluents
+  inertial loc(thing, room).
+  inertial lit.
+  inertial warm.
+  defined  seen(thing).
+actions
+  agent     carry(thing, room).
+  exogenous blow.
+laws
+"""
+
+MISTAKES = {**SYNTAX, **NAMES, **ARGUMENTS, **FORMS, **CYCLES}
+
+
+def mistakes_in(text: str) -> tuple[SourceError, ...]:
+    with pytest.raises(SourceError) as caught:
+        parse_description(HOUSE + text, "house.al")
+    assert caught.value is caught.value.all[0]
+    return tuple(caught.value.all)
+
+
+def test_the_text_before_the_mistakes_is_right() -> None:
+    assert HOUSE.count("\n") == 15
+    parse_description(HOUSE, "house.al")
+
+
+@pytest.mark.parametrize(("text", "place", "message"), MISTAKES.values(), ids=MISTAKES)
+def test_a_mistake_is_told_with_its_place(text: str, place: str, message: str) -> None:
+    first = mistakes_in(text)[0]
+    assert str(first).startswith(f"house.al:{place}: ")
+    assert message in first.message
+    assert f"{first.line}:{first.column}" == place
+    assert first.file == "house.al"
+
+
+@pytest.mark.parametrize("text", [text for text, *_ in (NAMES | ARGUMENTS | FORMS).values()])
+def test_one_mistake_is_told_once(text: str) -> None:
+    assert len(mistakes_in(text)) == 1
+
+
+RIGHT = {
+    "a cycle without negation": "lit if warm.\nwarm if lit.",
+    "negative heads that exclude each other": "-lit if warm.\n-warm if lit.",
+    "negation of what is defined elsewhere": "lit if -warm.\nseen(T) if -lit.",
+    "instances that close no cycle": "loc(T, hall) if -loc(T, attic).",
+    "a static that is not another": "far(L1, L2) if -next_to(L1, L2).",
+    "a constant of two sorts": "sorts\n  own = thing + {ring}.\n  old = {book}.",
+}
+
+
+@pytest.mark.parametrize("text", RIGHT.values(), ids=RIGHT)
+def test_what_is_no_mistake_is_let_through(text: str) -> None:
+    parse_description(HOUSE + text, "house.al")
+
+
+def test_all_mistakes_of_a_text_are_told_in_the_order_of_the_source() -> None:
+    text = "lid if worm.\nfluents\n  inertial at(rom).\nlaws\ncary(T, L) causes lit.\n"
+    places = [f"{error.line}:{error.column}" for error in mistakes_in(text)]
+    assert places == ["16:1", "16:8", "18:15", "20:1"]
+
+
+def test_the_cycles_of_a_text_are_all_told() -> None:
+    lines = [
+        error.line for error in mistakes_in("lit if -warm.\nwarm if -lit.\nseen(T) if -seen(T).")
+    ]
+    assert lines == [16, 17, 18]
+
+
+def test_an_unknown_domain_is_told_with_the_known_ones() -> None:
+    with pytest.raises(FileNotFoundError, match=r"offce: no such domain.*office"):
+        load_description("offce")
