@@ -14,12 +14,12 @@ from asp.translation import translate
 from testbed.environment.world import World
 from tests.environment import diagram
 
-INERTIAL, DEFINED, ACTIONS = ("f", "g", "h"), ("p", "q"), ("a", "b", "e")
+INERTIAL, DEFINED, ACTIONS = ("f", "g", "k", "h"), ("p", "q"), ("a", "b", "e")
 HEADER = """\
 sorts
   thing = {it}.
 fluents
-  inertial f.  inertial g.  inertial h(thing).
+  inertial f.  inertial g.  inertial k.  inertial h(thing).
   defined p.   defined q.
 actions
   agent a.  agent b.  exogenous e.
@@ -46,11 +46,19 @@ def laws(draw: st.DrawFn) -> str:
     return f"{head}{condition}."
 
 
-# Once h holds, f and g exclude each other, and nothing says which of them goes.
-UNDETERMINED = ["a causes h(it).", "-f if g, h(it).", "-g if f, h(it).", "p if f."]
+# With h, f excludes g and g excludes k: f and k stay, or g alone, and nothing says which.
+UNDETERMINED = [
+    "a causes h(it).",
+    *("-f if g, h(it).", "-g if f, h(it).", "-g if k, h(it).", "-k if g, h(it)."),
+]
+# p is false as soon as nothing derives it, and that has consequences.
+CLOSED_WORLD = ["a causes -g.", "p if g.", "q if -p, h(it).", "f if -p.", "-f if g, q."]
+TOGETHER = ["a causes f.", "b causes -f.", "e causes g.", "impossible a, e if k."]
 
 
 @example(UNDETERMINED)
+@example(CLOSED_WORLD)
+@example(TOGETHER)
 @settings(max_examples=120, deadline=None)
 @given(st.lists(laws(), min_size=1, max_size=9))
 def test_a_random_world_is_the_programs(drawn: list[str]) -> None:
