@@ -12,12 +12,19 @@ _SMALLEST = 18
 
 def draw_text(scene: Scene) -> str:
     """The places side by side, an open wall (`=`) between neighbours, and a caption."""
+    return "\n".join([*_rooms(scene), *_caption(scene)])
+
+
+def _rooms(scene: Scene) -> Iterator[str]:
+    if not scene.places:
+        return
     columns = [list(_lines(place)) for place in scene.places]
     width = max([_SMALLEST, *(len(line) for column in columns for line in column)])
-    height = max((len(column) for column in columns), default=0)
     rule = "+" + "+".join(["-" * (width + 2)] * len(columns)) + "+"
-    rows = [_row(scene, columns, number, width) for number in range(height)]
-    return "\n".join([rule, *rows, rule, *_caption(scene)])
+    yield rule
+    for number in range(max(map(len, columns))):
+        yield _row(scene, columns, number, width)
+    yield rule
 
 
 def _lines(place: Place) -> Iterator[str]:
@@ -40,5 +47,5 @@ def _caption(scene: Scene) -> Iterator[str]:
     done = f"  before it: {scene.robot}" if scene.robot else ""
     beside = f" beside {scene.adversary}" if scene.adversary not in ("", "none") else ""
     yield f"step {scene.step}{done}{beside}" + (f"  [{scene.outcome}]" if scene.outcome else "")
-    if scene.nowhere:
-        yield f"nowhere: {', '.join(scene.nowhere)}"
+    if scene.rest:
+        yield f"also true: {', '.join(scene.rest)}"

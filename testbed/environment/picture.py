@@ -83,7 +83,7 @@ def _locked(place: Place) -> bool:
 def _covers(scene: Scene) -> dict[str, str]:
     """A colour for each thing, the same in every picture of a domain."""
     held = [t for p in scene.places for things in p.robots.values() for t in things]
-    things = sorted({*scene.nowhere, *held, *(t for p in scene.places for t in p.things)})
+    things = sorted({*held, *(t for p in scene.places for t in p.things)})
     return {thing: _COVERS[i % len(_COVERS)] for i, thing in enumerate(things)}
 
 
@@ -143,5 +143,5 @@ def _draw_caption(pen: _Pen, scene: Scene, y: float) -> None:
     pen.text(_EDGE + 110, y + 8, scene.outcome.replace("_", " "), 18, _SHUT, "lm")
     before = f"robot: {scene.robot or '-'}     adversary: {scene.adversary or '-'}"
     pen.text(_EDGE, y + 36, f"the step before    {before}", 15, _FAINT, "lm")
-    if scene.nowhere:
-        pen.text(_EDGE, y + 58, f"nowhere: {', '.join(scene.nowhere)}", 15, _FAINT, "lm")
+    if scene.rest:
+        pen.text(_EDGE, y + 58, f"also true: {', '.join(scene.rest)}", 15, _FAINT, "lm")

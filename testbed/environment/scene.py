@@ -7,12 +7,15 @@ alone is a mark of that place, such as a lock.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from asp import literals as text
 from asp.description import Description
 from testbed.environment.core import Core
+
+Adjacency: TypeAlias = dict[str, frozenset[str]]
 
 
 @dataclass(frozen=True)
@@ -28,11 +31,15 @@ class Place:
 
 @dataclass(frozen=True)
 class Scene:
-    """The places in the order of a walk, what is in none of them, and what just happened."""
+    """The places in the order of a walk, what just happened, and what the places do not show.
+
+    `robot` and `adversary` are what the two did at the step before, "" at the first one; `rest`
+    are the true fluents that have no place in the picture.
+    """
 
     step: int
     places: tuple[Place, ...]
-    nowhere: tuple[str, ...]
+    rest: tuple[str, ...]
     robot: str
     adversary: str
     outcome: str
@@ -43,11 +50,11 @@ def scene(core: Core) -> Scene:
     now, description = core.situation, core.world.description
     true = core.world.true_atoms(now.state)
     adjacent = _adjacency(description)
-    places = tuple(_place(place, description, true, adjacent[place]) for place in _walk(adjacent))
+    places = tuple(_place(name, description, true, adjacent) for name in _walk(adjacent))
     return Scene(
         step=now.step,
         places=places,
-        nowhere=_nowhere(description, true, adjacent),
+        rest=tuple(fluent for fluent in true if not _shown(text.arguments(fluent), places)),
         robot=_said(now.answer, now.happened),
         adversary=now.event or "",
         outcome=now.ending or "",
@@ -58,9 +65,9 @@ def _said(answer: str | None, happened: bool | None) -> str:
     return f"{answer} failed" if happened is False else answer or ""
 
 
-def _adjacency(description: Description) -> dict[str, frozenset[str]]:
+def _adjacency(description: Description) -> Adjacency:
     """The neighbours of each place, in the order in which the places are declared."""
-    pairs = [args for args in map(text.arguments, description.statics) if len(args) == 2]
+    pairs = _pairs(description.statics)
     joined = {constant for pair in pairs for constant in pair}
     sorts = [members for members in description.sorts.values() if joined <= set(members)]
     places = min(sorts, key=len) if joined and sorts else ()
@@ -70,52 +77,48 @@ def _adjacency(description: Description) -> dict[str, frozenset[str]]:
     }
 
 
-def _walk(adjacent: dict[str, frozenset[str]]) -> tuple[str, ...]:
+def _walk(adjacent: Adjacency) -> tuple[str, ...]:
     """The places in depth-first order, from a dead end if there is one."""
-    seen: list[str] = []
-    ends = sorted(adjacent, key=lambda place: len(adjacent[place]) != 1)
-    stack = ends[::-1]
+    seen: dict[str, None] = {}
+    stack = sorted(adjacent, key=lambda place: len(adjacent[place]) != 1)[::-1]
     while stack:
         place = stack.pop()
         if place not in seen:
-            seen.append(place)
-            stack += [p for p in reversed(list(adjacent)) if p in adjacent[place] - set(seen)]
+            seen[place] = None
+            stack += [other for other in reversed(list(adjacent)) if other in adjacent[place]]
     return tuple(seen)
 
 
 def _place(
-    place: str, description: Description, true: tuple[str, ...], next_to: frozenset[str]
+    name: str, description: Description, true: tuple[str, ...], adjacent: Adjacency
 ) -> Place:
-    here = [args[0] for args in map(text.arguments, true) if len(args) == 2 and args[1] == place]
-    robots = {robot: _held(robot, true, description) for robot in description.robots}
-    in_hand = {thing for held in robots.values() for thing in held}
+    pairs = _pairs(true)
+    here = [thing for thing, place in pairs if place == name]
+    held = {
+        robot: tuple(thing for one, thing in pairs if one == robot and thing not in adjacent)
+        for robot in description.robots
+    }
+    in_hand = {thing for things in held.values() for thing in things}
+    marks = [fluent for fluent in description.fluents if text.arguments(fluent) == (name,)]
     return Place(
-        name=place,
-        things=tuple(t for t in here if t not in in_hand and t not in robots),
-        robots={robot: held for robot, held in robots.items() if robot in here},
-        marks=dict(_marks(place, description, true)),
-        next_to=next_to,
+        name=name,
+        things=tuple(t for t in here if t not in in_hand and t not in held),
+        robots={robot: things for robot, things in held.items() if robot in here},
+        marks={text.name(mark): mark in true for mark in marks},
+        next_to=adjacent[name],
     )
 
 
-def _held(robot: str, true: tuple[str, ...], description: Description) -> tuple[str, ...]:
-    pairs = [args for args in map(text.arguments, true) if len(args) == 2 and args[0] == robot]
-    return tuple(thing for _, thing in pairs if thing not in _adjacency(description))
+def _shown(arguments: tuple[str, ...], places: tuple[Place, ...]) -> bool:
+    """Whether a true fluent of these arguments is among what the places show."""
+    names = {place.name for place in places}
+    robots = {robot for place in places for robot in place.robots}
+    if len(arguments) == 2:
+        return arguments[1] in names or arguments[0] in robots
+    return len(arguments) == 1 and arguments[0] in names
 
 
-def _marks(
-    place: str, description: Description, true: tuple[str, ...]
-) -> Iterator[tuple[str, bool]]:
-    for fluent in description.fluents:
-        if text.arguments(fluent) == (place,):
-            yield text.name(fluent), fluent in true
-
-
-def _nowhere(
-    description: Description, true: tuple[str, ...], places: dict[str, frozenset[str]]
-) -> tuple[str, ...]:
-    """The things that a fluent could place, and no true one does."""
-    located = [args for f in description.fluents if len(args := text.arguments(f)) == 2]
-    movable = dict.fromkeys(thing for thing, place in located if place in places)
-    placed = {args[0] for a in true if len(args := text.arguments(a)) == 2 and args[1] in places}
-    return tuple(thing for thing in movable if thing not in placed)
+def _pairs(atoms: Iterable[str]) -> list[tuple[str, str]]:
+    """The arguments of the two-place atoms."""
+    found = (text.arguments(atom) for atom in atoms)
+    return [(args[0], args[1]) for args in found if len(args) == 2]

@@ -1,0 +1,125 @@
+"""What a person is shown: everything that is true, and nothing that is not."""
+
+import numpy as np
+import pytest
+
+from asp import load_description, parse_description
+from testbed.environment.ansi import draw_text
+from testbed.environment.core import Core
+from testbed.environment.picture import Image, draw_picture
+from testbed.environment.rendering import MODES, render
+from testbed.environment.rules import Rules
+from testbed.environment.scene import Scene, scene
+from testbed.environment.world import World
+
+WORLD = World(load_description("office"))
+IN_KITCHEN = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,office2)")
+TOWER = """
+sorts
+  block = {a, b}.
+  robot = {arm}.
+fluents
+  inertial on(block, block).
+  inertial dusty(block).
+actions
+  agent polish(robot, block).
+laws
+  polish(arm, B) causes -dusty(B).
+sees
+  arm sees dusty(B).
+"""
+
+
+def office(*literals: str) -> Core:
+    core = Core(WORLD, Rules(goal=("loc(book1,library)",), goal_feedback=False), ())
+    core.reset(0, literals or IN_KITCHEN)
+    return core
+
+
+def picture(core: Core) -> Image:
+    return draw_picture(scene(core))
+
+
+def test_the_rooms_stand_in_the_order_of_a_walk_through_them() -> None:
+    walk = [place.name for place in scene(office()).places]
+    assert walk == ["office1", "office2", "kitchen", "library"]
+
+
+def test_the_scene_says_where_everything_is() -> None:
+    rooms = {place.name: place for place in scene(office()).places}
+    assert rooms["kitchen"].robots == {"rob1": ("book1",)}
+    assert rooms["kitchen"].things == ()
+    assert rooms["office2"].things == ("book2",)
+    assert rooms["office1"].things == () == tuple(rooms["office1"].robots)
+    assert rooms["library"].marks == {"locked": False}
+    assert rooms["library"].next_to == {"kitchen"}
+
+
+def test_the_scene_says_what_just_happened() -> None:
+    core = office()
+    assert (scene(core).robot, scene(core).adversary) == ("", "")
+    core.advance("move(rob1,office1)", "exo_lock(library)")
+    shown = scene(core)
+    assert (shown.robot, shown.adversary) == ("move(rob1,office1) failed", "exo_lock(library)")
+    core.advance("finish")
+    assert scene(core).outcome == "false_finish"
+
+
+def test_every_initial_state_shows_each_thing_once() -> None:
+    core = office()
+    for state in WORLD.initial_states():
+        core.reset(0, WORLD.literals(state))
+        places = scene(core).places
+        lying = [thing for place in places for thing in place.things]
+        held = [thing for place in places for things in place.robots.values() for thing in things]
+        assert sorted(lying + held) == ["book1", "book2"]
+        assert [robot for place in places for robot in place.robots] == ["rob1"]
+
+
+def test_the_text_shows_it() -> None:
+    core = office()
+    core.advance("move(rob1,library)", "exo_lock(library)")
+    lines = draw_text(scene(core)).splitlines()
+    assert len({len(line) for line in lines[:-1]}) == 1
+    cells = [
+        [c.strip() for c in line.strip("|").replace(" = ", " | ").split(" | ")] for line in lines
+    ]
+    assert cells[1] == ["office1", "office2", "kitchen", "library (locked)"]
+    assert cells[2] == ["", "book2", "", "[rob1] holds book1"]
+    assert "step 2" in lines[-1]
+    assert "move(rob1,library) beside exo_lock(library)" in lines[-1]
+
+
+def test_the_picture_tells_apart_what_differs() -> None:
+    pictures = [
+        picture(office(*literals))
+        for literals in (
+            IN_KITCHEN,
+            (*IN_KITCHEN, "locked(library)"),
+            ("loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office2)"),
+            ("loc(rob1,kitchen)", "in_hand(rob1,book2)", "loc(book1,office2)"),
+            ("loc(rob1,office1)", "in_hand(rob1,book1)", "loc(book2,office2)"),
+        )
+    ]
+    for image in pictures:
+        assert (image.shape, image.dtype) == (pictures[0].shape, np.uint8)
+        assert image.std() > 10  # not one colour
+    assert len({image.tobytes() for image in pictures}) == len(pictures)
+    assert np.array_equal(pictures[0], picture(office()))
+
+
+def test_a_domain_without_places_is_shown_as_well() -> None:
+    world = World(parse_description(TOWER))
+    core = Core(world, Rules(goal=()), ())
+    core.reset(0, ["on(a,b)", "dusty(a)"])
+    shown = scene(core)
+    assert shown == Scene(1, (), ("on(a,b)", "dusty(a)"), "", "", "")
+    assert "on(a,b)" in draw_text(shown)
+    assert draw_picture(shown).ndim == 3
+
+
+@pytest.mark.parametrize("mode", [*MODES, None])
+def test_no_mode_needs_a_screen(mode: str | None, capsys: pytest.CaptureFixture[str]) -> None:
+    shown = render(office(), mode)
+    assert (shown is None) is (mode in ("human", None))
+    assert ("kitchen" in capsys.readouterr().out) is (mode == "human")
