@@ -95,7 +95,9 @@ def _draw_place(pen: _Pen, place: Place, x: int, y: int, covers: dict[str, str])
     for number, (robot, held) in enumerate(place.robots.items()):
         _draw_robot(pen, x + 62 + 80 * number, y + 118, robot, held, covers)
     for number, thing in enumerate(place.things):
-        _draw_book(pen, x + 18 + 68 * (number % 3), y + 202 - 44 * (number // 3), thing, covers)
+        row, column = divmod(number, 3)
+        from_left = 2 - column if row else column  # a second layer grows away from the robots
+        _draw_book(pen, x + 18 + 68 * from_left, y + 202 - 44 * row, thing, covers)
 
 
 def _draw_door(pen: _Pen, x: int, y: int, shut: bool) -> None:
@@ -142,6 +144,6 @@ def _draw_caption(pen: _Pen, scene: Scene, y: float) -> None:
     pen.text(_EDGE, y + 8, f"step {scene.step}", 18, _INK, "lm")
     pen.text(_EDGE + 110, y + 8, scene.outcome.replace("_", " "), 18, _SHUT, "lm")
     before = f"robot: {scene.robot or '-'}     adversary: {scene.adversary or '-'}"
-    pen.text(_EDGE, y + 36, f"the step before    {before}", 15, _FAINT, "lm")
+    pen.text(_EDGE, y + 36, f"just now    {before}", 15, _FAINT, "lm")
     if scene.rest:
         pen.text(_EDGE, y + 58, f"also true: {', '.join(scene.rest)}", 15, _FAINT, "lm")
