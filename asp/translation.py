@@ -7,6 +7,8 @@ diagram; they stay out of it.
 
 from __future__ import annotations
 
+from itertools import chain, count
+
 from asp import roles, syntax
 from asp.checker import variable_domains
 from asp.loading import analyse
@@ -72,9 +74,15 @@ class _Writer:
         return "\n".join(self._lines)
 
     def _comments_until(self, line: int) -> list[str]:
-        taken = [c.text for c in self._pending if c.line <= line]
+        taken = [_comment(c.text) for c in self._pending if c.line <= line]
         self._pending = [c for c in self._pending if c.line > line]
         return taken
+
+
+def _comment(text: str) -> str:
+    """The comment as a line of ASP, where `%*` would open a comment of many lines."""
+    line = "".join(c if c.isprintable() else " " for c in text)
+    return line.replace("%*", "% *", 1) if line.startswith("%*") else line
 
 
 def _rules(statement: syntax.Statement, signature: Signature) -> list[str]:
@@ -106,22 +114,29 @@ def _declaration(declaration: syntax.Declaration) -> str:
 
 
 def _law(law: syntax.Statement, signature: Signature) -> str:
+    i = _step_variable(law, signature)
     sorts = [f"{sort}({v})" for v, sort in _narrowest_sorts(law, signature)]
-    body = [condition(c, signature) for c in roles.bodies(law)]
+    body = [condition(c, signature, i) for c in roles.bodies(law)]
     match law:
         case syntax.CausalLaw(action=action, head=head):
-            occurs = f"occurs({term_text(action)},I)"
-            return rule(_holds(head, "I+1"), [occurs, *body, *sorts, "step(I)", "I < n"])
+            occurs = f"occurs({term_text(action)},{i})"
+            return rule(_holds(head, f"{i}+1"), [occurs, *body, *sorts, f"step({i})", f"{i} < n"])
         case syntax.StateConstraint(head=head) if _is_static(head, signature):
             return rule(term_text(head.atom), [*body, *sorts])
         case syntax.StateConstraint(head=head):
-            return rule(_holds(head, "I"), [*body, *sorts, "step(I)"])
+            return rule(_holds(head, i), [*body, *sorts, f"step({i})"])
         case syntax.ExecutabilityCondition(actions=(action,)):
-            return rule(f"impossible({term_text(action)},I)", [*body, *sorts, "step(I)"])
+            return rule(f"impossible({term_text(action)},{i})", [*body, *sorts, f"step({i})"])
         case syntax.ExecutabilityCondition(actions=actions):
-            together = [f"occurs({term_text(action)},I)" for action in actions]
-            return rule("", [*together, *body, *sorts, "step(I)"])
+            together = [f"occurs({term_text(action)},{i})" for action in actions]
+            return rule("", [*together, *body, *sorts, f"step({i})"])
     raise TypeError(f"{type(law).__name__} is not a law")
+
+
+def _step_variable(law: syntax.Statement, signature: Signature) -> str:
+    """`I`, or where the law has a variable of that name `I1`, `I2`, ..."""
+    taken = variable_domains(law, signature)
+    return next(name for name in chain(["I"], map("I{}".format, count(1))) if name not in taken)
 
 
 def _holds(literal: syntax.Literal, step: str) -> str:

@@ -1,4 +1,4 @@
-"""Mistakes of grammar and of form: what is wrong with it, the text behind that of the house, place, message."""
+"""Mistakes of grammar and of form: what is wrong, the text, its place, words of the message."""
 
 SYNTAX = {
     "a character of no word": ("lit & warm.", "16:5", "unexpected character '&'"),

@@ -1,4 +1,4 @@
-"""Mistakes in names and in arguments: what is wrong with it, the text behind that of the house, place, message."""
+"""Mistakes in names and arguments: what is wrong, the text, its place, words of the message."""
 
 NAMES = {
     "an unknown sort in a sort": (
