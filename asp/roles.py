@@ -26,7 +26,7 @@ class Use:
 
 
 @singledispatch
-def uses(statement: syntax.Statement) -> Iterator[Use]:
+def uses(_statement: syntax.Statement) -> Iterator[Use]:
     """Every atom of the statement with its role; none in sorts and declarations."""
     yield from ()
 

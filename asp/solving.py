@@ -16,7 +16,7 @@ _OPTIONS = ("--heuristic=Domain", "--warn=none")
 _POLL_S = 0.2
 
 
-class TimeLimit(RuntimeError):
+class TimeLimitError(RuntimeError):
     """A solver call was interrupted at its deadline."""
 
 
@@ -74,7 +74,7 @@ def first_model(
 ) -> tuple[Symbol, ...] | None:
     """The shown symbols of the first answer set, or None if there is none.
 
-    `deadline` is a time of `time.monotonic()`. Raises TimeLimit there; the control stays usable.
+    `deadline` is a time of `time.monotonic()`. Raises TimeLimitError there; the control stays usable.
     The wait is polled, so that an interrupt from the keyboard reaches Python.
     """
     if any(not _is_known(control, atom) for atom, truth in assumptions if truth):
@@ -84,7 +84,7 @@ def first_model(
         while not handle.wait(_POLL_S):
             if deadline is not None and time.monotonic() > deadline:
                 handle.cancel()
-                raise TimeLimit("the time limit for one decision ran out")
+                raise TimeLimitError("the time limit for one decision ran out")
         model = handle.model()
         return None if model is None else tuple(model.symbols(shown=True))
 

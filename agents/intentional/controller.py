@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import time
 
-from agents.intentional.logician import Intention, Logician
+from agents.intentional.intention import Intention
+from agents.intentional.logician import Logician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import knowledge
@@ -31,7 +32,7 @@ class IntentionalRobot:
         self._attempted: str | None = None
 
     def act(self, percept: Percept) -> Decision:
-        """One round of the loop. Raises InconsistentHistory where nothing explains the percept."""
+        """One round of the loop. Raises InconsistentHistoryError where nothing explains the percept."""
         self._observe(percept)
         began = time.perf_counter()
         explained = self._logician.diagnose(self._history, self._diagnosis)

@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from clingo import Symbol
 
+from agents.intentional.intention import Intention
 from agents.shared.diagnosis import Explained, diagnose
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, goal_facts
 from asp.solving import fact, first_model, ground, select, theory
-
-
-@dataclass(frozen=True)
-class Intention:
-    """What the agent intends at a step, the plan it would start with it, and what it believes."""
-
-    action: str
-    plan: tuple[str, ...]
-    believed: frozenset[str]
 
 
 class Logician:
@@ -32,7 +23,7 @@ class Logician:
         self._plan_limit = plan_limit
 
     def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
-        """Phase one. Raises InconsistentHistory."""
+        """Phase one. Raises InconsistentHistoryError."""
         constants = self._constants(history, history.step, history.longest)
         return diagnose(self._base, constants, self._facts(history), history, adopted)
 

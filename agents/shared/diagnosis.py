@@ -16,7 +16,7 @@ _KEEP = clingo.Function("keep")
 _FIRST_TRY = 4
 
 
-class InconsistentHistory(RuntimeError):
+class InconsistentHistoryError(RuntimeError):
     """No set of exogenous actions explains what was observed."""
 
 
@@ -39,7 +39,7 @@ def diagnose(
     """Explains the history up to its step; `texts` are the theories besides diagnosis itself.
 
     The adopted diagnosis is kept if it still explains everything; else the first one, in the
-    stated order, with the fewest unobserved events. Raises InconsistentHistory.
+    stated order, with the fewest unobserved events. Raises InconsistentHistoryError.
     """
     given = [*facts, fact("explaining", history.step), *adopted.facts("adopted")]
     programs = [*texts, theory("diagnosis")]
@@ -54,7 +54,7 @@ def diagnose(
             model = first_model(control, [(fact("number_unobserved", number, history.step), True)])
             if model is not None:
                 return _explained(model, kept=False)
-    raise InconsistentHistory(f"nothing explains the observations up to step {history.step}")
+    raise InconsistentHistoryError(f"nothing explains the observations up to step {history.step}")
 
 
 def _limits(adopted: int, step: int) -> Iterator[int]:

@@ -23,29 +23,53 @@ class Activity:
 
 
 @dataclass
+class Moment:
+    """What the history says of one step.
+
+    `observed` has the truth of fluents, `attempted` the agent's actions of any kind, `happened`
+    whether an action, the agent's own or another's, took effect.
+    """
+
+    observed: dict[str, bool] = field(default_factory=dict)
+    attempted: list[str] = field(default_factory=list)
+    happened: dict[str, bool] = field(default_factory=dict)
+
+
+@dataclass
 class History:
-    """Statements obs, hpd and attempt of all steps up to `step`, as facts for the theory."""
+    """Statements obs, hpd and attempt of all steps up to `step`."""
 
     step: int = 0
     activities: list[Activity] = field(default_factory=list)
-    _recorded: dict[Symbol, None] = field(default_factory=dict)
+    moments: dict[int, Moment] = field(default_factory=dict)
+
+    def at(self, step: int) -> Moment:
+        """What is recorded of a step; made when it is first asked for."""
+        return self.moments.setdefault(step, Moment())
 
     def observe(self, literals: Iterable[str], step: int) -> None:
         """obs(F,B,I) for each literal."""
+        moment = self.at(step)
         for literal in literals:
-            self._record("obs", atom(literal), _truth(is_positive(literal)), step)
+            moment.observed[atom(literal)] = is_positive(literal)
 
     def happened(self, action: str, truth: bool, step: int) -> None:
         """hpd(A,B,I)."""
-        self._record("hpd", action, _truth(truth), step)
+        self.at(step).happened[action] = truth
 
     def attempt(self, action: str, step: int) -> None:
         """attempt(A,I)."""
-        self._record("attempt", action, step)
+        self.at(step).attempted.append(action)
 
     def facts(self) -> Iterator[Symbol]:
-        """The history in the order in which it was recorded, without the activities."""
-        yield from self._recorded
+        """The history as facts for the theory, step by step, without the activities."""
+        for step, moment in self.moments.items():
+            for fluent, truth in moment.observed.items():
+                yield fact("obs", fluent, _boolean(truth), step)
+            for action in moment.attempted:
+                yield fact("attempt", action, step)
+            for action, truth in moment.happened.items():
+                yield fact("hpd", action, _boolean(truth), step)
         yield fact("current_step", self.step)
 
     def activity_facts(self) -> Iterator[Symbol]:
@@ -61,9 +85,6 @@ class History:
         """The length of the longest plan so far."""
         return max((len(activity.plan) for activity in self.activities), default=0)
 
-    def _record(self, predicate: str, *arguments: str | int) -> None:
-        self._recorded.setdefault(fact(predicate, *arguments))
-
 
 @dataclass(frozen=True)
 class Diagnosis:
@@ -77,5 +98,5 @@ class Diagnosis:
             yield fact(predicate, event.action, event.step)
 
 
-def _truth(value: bool) -> str:
+def _boolean(value: bool) -> str:
     return "true" if value else "false"

@@ -1,4 +1,4 @@
-"""Which of the fluents it sees a robot takes into its history (spec 1, "What the robot can see")."""
+"""Which of the fluents that it sees a robot takes into its history (spec 1)."""
 
 from __future__ import annotations
 

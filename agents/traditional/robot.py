@@ -46,7 +46,7 @@ class TraditionalRobot:
         self._plans = 0
 
     def act(self, percept: Percept) -> Decision:
-        """The next action of the plan. Raises InconsistentHistory."""
+        """The next action of the plan. Raises InconsistentHistoryError."""
         self._observe(percept)
         began = time.perf_counter()
         explained = self._explain()
