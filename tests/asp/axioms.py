@@ -61,10 +61,14 @@ def axioms() -> dict[int, Block]:
 
 @dataclass(frozen=True)
 class Without:
-    """What is left out of the theories: an axiom, or (`rule`, counted from 1) one rule of it."""
+    """What is left out of the theories.
+
+    An axiom, or one rule of it (`rule`, counted from 1), or one condition of this rule's body.
+    """
 
     number: int
     rule: int | None = None
+    condition: str | None = None
 
 
 def theory_text(name: str, without: Without | None = None) -> str:
@@ -78,8 +82,20 @@ def _kept(block: Block, without: Without | None) -> str:
     rules = list(block.rules)
     if without.rule is None:
         return ""
-    del rules[without.rule - 1]
+    if without.condition is None:
+        del rules[without.rule - 1]
+    else:
+        rules[without.rule - 1] = _weaker(rules[without.rule - 1], without.condition)
     return "\n".join(rules)
+
+
+def _weaker(rule: str, condition: str) -> str:
+    """The rule without a condition of its body. Raises ValueError if it has no such condition."""
+    text = " ".join(rule.split())
+    for part in (f", {condition}", f"; {condition}", f"{condition}, "):
+        if text.count(part) == 1:
+            return text.replace(part, "")
+    raise ValueError(f"no one condition {condition} in: {text}")
 
 
 @cache

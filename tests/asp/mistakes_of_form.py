@@ -16,6 +16,11 @@ SYNTAX = {
     "a text that ends without a full stop": ("lit if warm\n\n", "16:12", "ends inside a statement"),
     "an empty sort": ("sorts\n  a = {}.", "17:8", "unexpected '}'; expected a name or a number"),
     "a range to a name": ("sorts\n  a = {1..b}.", "17:11", "unexpected 'b'; expected a number"),
+    "a number beyond those of programs": (
+        "sorts\n  a = {9999999999}.",
+        "17:8",
+        "unexpected character '9'",
+    ),
     "a fluent without its kind": ("fluents\n  dim.", "17:3", "'defined' or 'inertial'"),
     "an action declared as a fluent": (
         "actions\n  inertial dim.",

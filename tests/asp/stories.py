@@ -21,7 +21,8 @@ _THEORIES = {"acting": _ACTING, **{name: (*_ACTING, name) for name in ("diagnosi
 class Case:
     """A claim that follows from axiom `number`, and from its rule `rule` (from 1) if given.
 
-    The claim is true of the program and false without that axiom, or without that rule alone.
+    The claim is true of the program and false without that axiom, or without that rule alone, or
+    without that condition of the rule.
     """
 
     number: int
@@ -31,10 +32,11 @@ class Case:
     n: int = 1
     rule: int | None = None
     limit: int = 0
+    condition: str | None = None
 
     @property
     def without(self) -> Without:
-        return Without(self.number, self.rule)
+        return Without(self.number, self.rule, self.condition)
 
     @property
     def program(self) -> Program:

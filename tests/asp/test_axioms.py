@@ -6,6 +6,7 @@ import pytest
 from axioms import Without, axioms
 from cases_of_activities import CASES as ACTIVITIES
 from cases_of_candidates import CASES as CANDIDATES
+from cases_of_conditions import CASES as CONDITIONS
 from cases_of_history import CASES as HISTORY
 from cases_of_intentions import CASES as INTENTIONS
 from stories import Case
@@ -15,6 +16,8 @@ CASES = (*INTENTIONS, *HISTORY, *ACTIVITIES, *CANDIDATES)
 
 def _name(case: Case) -> str:
     rule = "" if case.rule is None else f".{case.rule}"
+    if case.condition is not None:
+        rule += f" {case.condition}"
     return f"({case.number}{rule}) {case.sentence}"
 
 
@@ -33,6 +36,12 @@ def test_every_rule_of_every_axiom_has_a_case() -> None:
 
 @pytest.mark.parametrize("case", CASES, ids=_name)
 def test_what_an_axiom_says_holds_with_it_and_fails_without_it(case: Case) -> None:
+    assert case.claim.holds(case.program.solver())
+    assert not case.claim.holds(case.program.solver(case.without))
+
+
+@pytest.mark.parametrize("case", CONDITIONS, ids=_name)
+def test_an_axiom_says_no_more_than_its_condition_allows(case: Case) -> None:
     assert case.claim.holds(case.program.solver())
     assert not case.claim.holds(case.program.solver(case.without))
 
