@@ -89,14 +89,18 @@ def test_an_interrupted_run_keeps_what_is_finished_and_goes_on() -> None:
     whole = [*arguments, "--quiet", "--out", "whole"]
     part = [*arguments, "--workers", "2", "--out", "part"]
     process = subprocess.Popen(
-        [*COMMAND, *part], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*COMMAND, *part],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
     )
     records = Path("part/trials.jsonl")
     while process.poll() is None and not (
         records.exists() and records.read_bytes().count(b"\n") > 2
     ):
         time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does it: to all of the group
     output, errors = process.communicate()
     assert process.returncode == 130
     assert "Traceback" not in errors
@@ -245,3 +249,18 @@ def test_help_shows_examples() -> None:
     overview = _testbed("--help").stdout
     for command in ("run", "check", "robot", "report", "replay", "translate"):
         assert command in overview
+
+
+def test_an_interrupt_while_workers_start_is_as_quiet_as_any() -> None:
+    process = subprocess.Popen(
+        [*COMMAND, "run", "office", "limit=2", "--workers", "2", "--out", "run"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    while process.poll() is None and not Path("run/trials.jsonl").exists():
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate()
+    assert (process.returncode, errors) == (130, "")

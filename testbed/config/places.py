@@ -21,7 +21,7 @@ class Places:
 
     def __init__(self, file: str | Path, text: str, overridden: Sequence[str]) -> None:
         self.file = str(file)
-        self._root = yaml.compose(text, Loader=yaml.SafeLoader)
+        self._root = _compose(text)
         self._overridden = tuple(overridden)
 
     def of(self, key: Key) -> str:
@@ -41,6 +41,15 @@ class Places:
                 return line
             node, line = found
         return line
+
+
+def _compose(text: str) -> yaml.Node | None:
+    # The two implementations of YAML differ about tabs; the text was accepted by the fast one.
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        return yaml.compose(text, Loader=loader)
+    except yaml.YAMLError:
+        return None
 
 
 def _covers(given: str, key: Key) -> bool:

@@ -13,6 +13,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 
+from testbed.experiment.interrupts import interrupts_later
 from testbed.experiment.plan import TrialSpec
 from testbed.experiment.trial import Result, lost_worker
 
@@ -51,7 +52,8 @@ class _Worker:
         context = get_context("spawn")
         self.pipe, far_end = context.Pipe()
         self.process: SpawnProcess = context.Process(target=_serve, args=(far_end, open_player))
-        self.process.start()
+        with interrupts_later():
+            self.process.start()
         far_end.close()
         self.position: int | None = None
 
@@ -121,7 +123,7 @@ class _Crew:
 
 def _serve(pipe: Connection, open_player: OpenPlayer) -> None:
     """A worker's life: until the pipe closes, which it also does when the driver dies."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is for the driver to handle
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     with suppress(EOFError, OSError), open_player() as play:
         while True:
             pipe.send(play(pipe.recv()))

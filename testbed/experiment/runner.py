@@ -22,11 +22,11 @@ from testbed.link.spawned import spawned_robot
 
 @dataclass
 class Tally:
-    """How a run stands: trials planned, on record, and failed in this session."""
+    """How a run stands: trials planned, finished, and of these failed; whether it was stopped."""
 
     planned: int
     done: int
-    failed: int = 0
+    failed: int
     interrupted: bool = False
 
 
@@ -45,7 +45,7 @@ def run_trials(config: ExperimentConfig, folder: Path, workers: int, notify: Not
     specs = plan_trials(config)
     with TrialWriter(folder) as writer:
         missing = [spec for spec in specs if spec.trial not in writer.done]
-        tally = Tally(planned=len(specs), done=len(specs) - len(missing))
+        tally = Tally(len(specs), done=len(specs) - len(missing), failed=writer.failed)
         notify(tally)
         if missing:
             _play_missing(missing, workers, config, _Filing(folder, writer, tally, notify))

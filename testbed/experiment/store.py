@@ -15,7 +15,7 @@ import yaml
 
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.experiment.errors import StoreError
-from testbed.experiment.record import TrialRecord, decode, encode
+from testbed.experiment.record import FAILURES, TrialRecord, decode, encode
 
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
 SUMMARY, REPORT, ERRORS = "summary.json", "report.html", "errors"
@@ -136,7 +136,8 @@ def read_records(folder: Path) -> Iterator[TrialRecord]:
 class TrialWriter:
     """Appends records to a run folder's `trials.jsonl`; at most one writer a folder.
 
-    Opening it drops a torn last line; `done` then holds the ids of the trials on record.
+    Opening it drops a torn last line; `done` then holds the ids of the trials on record, and
+    `failed` counts those that ended in error or lost their robot.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -148,13 +149,20 @@ class TrialWriter:
             self._file.close()
             raise StoreError(f"{folder}: another run is writing here") from None
         _drop_torn_line(folder / TRIALS)
-        self.done = {record.trial for record in read_records(folder)}
+        self.done: set[str] = set()
+        self.failed = 0
+        for record in read_records(folder):
+            self._count(record)
 
     def append(self, record: TrialRecord) -> None:
         """Write one record, visible to readers at once."""
         self._file.write(encode(record))
         self._file.flush()
+        self._count(record)
+
+    def _count(self, record: TrialRecord) -> None:
         self.done.add(record.trial)
+        self.failed += record.outcome in FAILURES
 
     def __enter__(self) -> Self:
         return self

@@ -73,6 +73,10 @@ def test_overrides_reach_into_the_depth_and_win(tmp_path: Path) -> None:
     assert (config.adversary.rate, config.limit) == (0.2, 5)
 
 
+def test_a_tab_before_a_comment_does_no_harm(tmp_path: Path) -> None:
+    assert load_config(_file(tmp_path, VALID.replace("seed: 3", "seed: 3\t# root"))).seed == 3
+
+
 def test_literals_need_no_quotes_and_no_exact_spacing(tmp_path: Path) -> None:
     text = VALID.replace('["loc(book1,library)"]', '[loc(book1, library), "-locked( library )"]')
     config = load_config(_file(tmp_path, text), ["scenario_settings.1.goal=[loc(book2,kitchen)]"])
