@@ -74,8 +74,8 @@ def first_model(
 ) -> tuple[Symbol, ...] | None:
     """The shown symbols of the first answer set, or None if there is none.
 
-    `deadline` is a time of `time.monotonic()`. Raises TimeLimitError there; the control stays usable.
-    The wait is polled, so that an interrupt from the keyboard reaches Python.
+    `deadline` is a time of `time.monotonic()`. Raises TimeLimitError there; the control stays
+    usable. The wait is polled, so that an interrupt from the keyboard reaches Python.
     """
     if any(not _is_known(control, atom) for atom, truth in assumptions if truth):
         return None

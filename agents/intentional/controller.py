@@ -3,20 +3,39 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
+from typing import Protocol
 
 from agents.intentional.intention import Intention
-from agents.intentional.logician import Logician
+from agents.intentional.kept import KeptLogician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
-from agents.shared.knowledge import knowledge
+from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.relevance import goal_fluents, relevant_literals
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
 
 
+class Reasoner(Protocol):
+    """The two phases of reasoning about one goal."""
+
+    def diagnose(self, history: History, adopted: Diagnosis) -> Explained: ...
+
+    def intend(self, history: History, explained: Explained) -> Intention: ...
+
+
 class IntentionalRobot:
-    """A robot that reasons with the adapted theory of intentions (ATI)."""
+    """A robot that reasons with the adapted theory of intentions (ATI).
+
+    `reasoner` makes, of a domain, a goal and the greatest length of a plan, what the robot reasons
+    with: kept controls (`KeptLogician`), or the theory solved from scratch (`Logician`).
+    """
+
+    def __init__(
+        self, reasoner: Callable[[Knowledge, tuple[str, ...], int], Reasoner] = KeptLogician
+    ) -> None:
+        self._reasoner = reasoner
 
     def begin(self, task: Task) -> None:
         """Selects the task's goal at step 0, where it knows `task.initial`."""
@@ -24,7 +43,7 @@ class IntentionalRobot:
         domain = knowledge(task.domain, task.source)
         self._description = domain.description
         self._goal_fluents = goal_fluents(domain.description, task.goal)
-        self._logician = Logician(domain, tuple(task.goal), task.plan_limit)
+        self._logician = self._reasoner(domain, tuple(task.goal), task.plan_limit)
         self._diagnosis = Diagnosis()
         self._history = History()
         self._history.observe(task.initial, 0)
@@ -32,7 +51,7 @@ class IntentionalRobot:
         self._attempted: str | None = None
 
     def act(self, percept: Percept) -> Decision:
-        """One round of the loop. Raises InconsistentHistoryError where nothing explains the percept."""
+        """One round of the loop. Raises InconsistentHistoryError."""
         self._observe(percept)
         began = time.perf_counter()
         explained = self._logician.diagnose(self._history, self._diagnosis)

@@ -1,0 +1,111 @@
+"""Trials played in the bare world, with an adversary that follows a script of wishes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from asp.loading import load_description, read_domain
+from testbed.environment.world import World
+from testbed.link.messages import Decision, Percept, Task
+from testbed.link.robot import Robot
+
+DOMAIN = "office"
+WORLD = World(load_description(DOMAIN))
+SOURCE = read_domain(DOMAIN)[1]
+ROBOT = WORLD.description.robots[0]
+BOTH_IN_THE_LIBRARY = (
+    "loc(book1,library)",
+    "loc(book2,library)",
+    "-in_hand(rob1,book1)",
+    "-in_hand(rob1,book2)",
+)
+
+
+@dataclass(frozen=True)
+class Wish:
+    """An exogenous action by its number among the possible ones, and whether it is reported."""
+
+    number: int
+    reported: bool = False
+
+
+@dataclass(frozen=True)
+class Life:
+    """How a trial ended: the decisions, and whether the goal truly holds."""
+
+    decisions: Sequence[Decision]
+    achieved: bool
+
+
+def live(
+    robot: Robot,
+    initial: int,
+    goal: Sequence[str] = BOTH_IN_THE_LIBRARY,
+    wishes: Mapping[int, Wish] | None = None,
+    steps: int = 40,
+) -> Life:
+    """Plays a trial in the state `initial`, with goal feedback, for at most so many steps."""
+    state, decisions = initial, list[Decision]()
+    robot.begin(_task(initial, goal))
+    percept = _percept(state, 1)
+    while percept.step < steps:
+        decision = robot.act(percept)
+        decisions.append(decision)
+        if decision.action == "finish":
+            done = WORLD.satisfies(state, goal)
+            if done or [d.action for d in decisions[-2:]] == ["finish", "finish"]:
+                return Life(decisions, done)
+            percept = _percept(state, percept.step + 1, goal_holds=False)
+            continue
+        attempt = None if decision.action == "wait" else decision.action
+        state, percept = _advance(state, percept.step, attempt, (wishes or {}).get(percept.step))
+    return Life(decisions, WORLD.satisfies(state, goal))
+
+
+def _advance(
+    state: int, step: int, attempt: str | None, wish: Wish | None
+) -> tuple[int, Percept]:
+    happened = None if attempt is None else WORLD.executable(state, [attempt])
+    actions = {attempt} if attempt is not None and happened else set[str]()
+    possible = [
+        event
+        for event in WORLD.exogenous_actions
+        if wish is not None and WORLD.executable(state, actions | {event})
+    ]
+    events = [possible[wish.number % len(possible)]] if wish is not None and possible else []
+    after = WORLD.successor(state, actions.union(events))
+    told = events if wish is not None and wish.reported else []
+    return after, _percept(after, step + 1, attempt, happened, told)
+
+
+def _percept(
+    state: int,
+    step: int,
+    attempted: str | None = None,
+    happened: bool | None = None,
+    events: Sequence[str] = (),
+    goal_holds: bool | None = None,
+) -> Percept:
+    return Percept(
+        trial="life",
+        step=step,
+        visible=list(WORLD.visible(state, ROBOT)),
+        attempted=attempted,
+        happened=happened,
+        events=list(events),
+        goal_holds=goal_holds,
+    )
+
+
+def _task(initial: int, goal: Sequence[str]) -> Task:
+    return Task(
+        trial="life",
+        robot="intentional",
+        domain=DOMAIN,
+        source=SOURCE,
+        goal=list(goal),
+        initial=list(WORLD.literals(initial)),
+        plan_limit=20,
+        seed=0,
+    )

@@ -1,0 +1,66 @@
+"""The kept controls give the answers of the theory solved from scratch, decision by decision."""
+
+from __future__ import annotations
+
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.intention import Intention
+from agents.intentional.kept import KeptLogician
+from agents.intentional.logician import Logician
+from agents.shared.diagnosis import Explained
+from agents.shared.history import Diagnosis, History
+from agents.shared.knowledge import Knowledge
+from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
+
+STATES = list(WORLD.initial_states())
+LITERALS = [
+    literal
+    for fluent in WORLD.fluents
+    if not fluent.startswith("locked")
+    for literal in (fluent, f"-{fluent}")
+]
+
+
+class Both:
+    """Reasons in both ways, and insists that they agree."""
+
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        self._kept = KeptLogician(knowledge, goal, plan_limit)
+        self._plain = Logician(knowledge, goal, plan_limit)
+
+    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
+        kept = self._kept.diagnose(history, adopted)
+        plain = self._plain.diagnose(history, adopted)
+        assert (kept.diagnosis, kept.kept) == (plain.diagnosis, plain.kept)
+        self._indices = plain.indices
+        return kept
+
+    def intend(self, history: History, explained: Explained) -> Intention:
+        kept = self._kept.intend(history, explained)
+        plain_view = Explained(explained.diagnosis, explained.kept, self._indices)
+        plain = self._plain.intend(history, plain_view)
+        assert kept == plain
+        return kept
+
+
+wishes = st.dictionaries(
+    st.integers(1, 25), st.builds(Wish, st.integers(0, 8), st.booleans()), max_size=3
+)
+
+
+@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(initial=st.sampled_from(STATES), wishes=wishes)
+def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wish]) -> None:
+    live(IntentionalRobot(Both), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
+
+
+@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(
+    initial=st.sampled_from(STATES),
+    goal=st.lists(st.sampled_from(LITERALS), min_size=1, max_size=2),
+    wishes=wishes,
+)
+def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish]) -> None:
+    live(IntentionalRobot(Both), initial, goal, wishes, steps=15)
