@@ -34,7 +34,7 @@ Config = Annotated[
 ]
 Overrides = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[KEY=VALUE]...", help="Keys to override, dotted where nested."),
+    typer.Argument(metavar="KEY=VALUE", help="Keys to override, dotted where nested."),
 ]
 
 

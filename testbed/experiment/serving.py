@@ -38,4 +38,6 @@ def _serve_configured(name: str, config: str) -> None:
 
 
 def _first_line(error: Exception) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0]
+    """What zenoh says, without the place in its source that it adds."""
+    line = (str(error).splitlines() or [type(error).__name__])[0]
+    return line.partition(" at /")[0]
