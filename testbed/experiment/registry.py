@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from agents.intentional import IntentionalRobot
+from agents.intentional.logician import Logician
 from agents.traditional import TraditionalRobot
 from testbed.config.errors import nearest
 from testbed.link.robot import Robot
 
 ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "intentional": IntentionalRobot,
+    "intentional-plain": partial(IntentionalRobot, Logician),
     "traditional": TraditionalRobot,
 }
 

@@ -63,9 +63,7 @@ def live(
     return Life(decisions, WORLD.satisfies(state, goal))
 
 
-def _advance(
-    state: int, step: int, attempt: str | None, wish: Wish | None
-) -> tuple[int, Percept]:
+def _advance(state: int, step: int, attempt: str | None, wish: Wish | None) -> tuple[int, Percept]:
     happened = None if attempt is None else WORLD.executable(state, [attempt])
     actions = {attempt} if attempt is not None and happened else set[str]()
     possible = [

@@ -1,0 +1,49 @@
+"""The distribution, installed away from the repository, carries all that it needs."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the installed wheel and nothing else of ours."""
+    wheels, site = tmp_path_factory.mktemp("wheels"), tmp_path_factory.mktemp("site")
+    pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--quiet"]
+    subprocess.run([*pip, "wheel", "--no-deps", "--wheel-dir", wheels, ROOT], check=True)
+    (wheel,) = wheels.iterdir()
+    subprocess.run([*pip, "install", "--no-deps", "--target", site, wheel], check=True)
+    return site
+
+
+def test_a_bare_name_finds_the_packaged_configuration_and_domain(
+    site: Path, tmp_path: Path
+) -> None:
+    environment = {**os.environ, "PYTHONPATH": str(site)}
+    arguments = ["run", "quickstart", "scenarios=[2]", "robots=[intentional]", "--out", "run"]
+    done = subprocess.run(
+        [sys.executable, "-m", "testbed", *arguments],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "exo_move(book2,library)" in done.stdout
+    where = subprocess.run(
+        [sys.executable, "-c", "import testbed; print(testbed.__file__)"],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert where.stdout.startswith(str(site))
