@@ -1,0 +1,1 @@
+"""Measurements of reasoning and planning, side by side; `python -m benchmarks --help`."""

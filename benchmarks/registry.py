@@ -1,0 +1,14 @@
+"""The benchmarks by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from benchmarks import decisions
+from benchmarks.sheets import Sheet
+
+SIZES = ("small", "full")
+
+BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
+    "decisions": decisions.main,
+}

@@ -1,0 +1,81 @@
+"""Trials of the published scenarios with a robot whose answers are timed."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.logician import Logician
+from testbed.config import load_config
+from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.trial import play_trial
+from testbed.link.inprocess import InProcessRobot
+from testbed.link.messages import Decision, Percept, Task
+from testbed.link.robot import Robot
+
+SCENARIOS = ("1", "2", "3", "4", "5", "6")
+ROBOTS: Mapping[str, Callable[[], Robot]] = {
+    "fast": IntentionalRobot,
+    "reference": partial(IntentionalRobot, Logician),
+}
+
+
+@dataclass
+class Played:
+    """What a robot's part in a trial took (ms), and what it decided."""
+
+    begin_ms: float = 0.0
+    decisions_ms: list[float] = field(default_factory=list)
+    decisions: list[Decision] = field(default_factory=list)
+
+    @property
+    def whole_ms(self) -> float:
+        return self.begin_ms + sum(self.decisions_ms)
+
+    @property
+    def answers(self) -> list[tuple[str, ...]]:
+        """Intention, plan and adopted explanation of each decision."""
+        return [(d.trace.intention, *d.trace.plan, str(d.trace.explanation)) for d in self.decisions]
+
+
+class Timed:
+    """A robot with a clock."""
+
+    def __init__(self, robot: Robot, played: Played) -> None:
+        self._robot = robot
+        self._played = played
+
+    def begin(self, task: Task) -> None:
+        began = time.perf_counter()
+        self._robot.begin(task)
+        self._played.begin_ms = (time.perf_counter() - began) * 1e3
+
+    def act(self, percept: Percept) -> Decision:
+        began = time.perf_counter()
+        decision = self._robot.act(percept)
+        self._played.decisions_ms.append((time.perf_counter() - began) * 1e3)
+        self._played.decisions.append(decision)
+        return decision
+
+
+def specs(scenario: str, number: int) -> list[TrialSpec]:
+    """Trials of a scenario from `number` of the initial states; events are those of its triggers."""
+    overrides = [
+        "robots=[intentional]",
+        f"scenarios=['{scenario}']",
+        f"limit={number}",
+    ]
+    return plan_trials(load_config("office", overrides))
+
+
+def play(spec: TrialSpec, side: str) -> Played:
+    """One trial. Raises RuntimeError if it failed."""
+    played = Played()
+    client = InProcessRobot(lambda _: Timed(ROBOTS[side](), played))
+    result = play_trial(spec, client)
+    if result.details is not None:
+        raise RuntimeError(result.details)
+    return played
