@@ -1,23 +1,45 @@
-"""Solving programs with clingo: grounding, one model, the smallest number that has one."""
+"""Solving programs with clingo: grounding, one model, many, a core; all within a time limit."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 import clingo
 from clingo import Symbol
 
 Assumption = tuple[Symbol, bool]
 
-_OPTIONS = ("--heuristic=Domain", "--warn=none")
+# A call of the solver that blocks answers in microseconds where one in the background takes a
+# millisecond, but it keeps signals from Python: it may only take some milliseconds.
+_BURST_CONFLICTS = "2000"
+_NO_LIMIT = "umax"
+_OPTIONS = ("--heuristic=Domain", "--warn=none", f"--solve-limit={_BURST_CONFLICTS}")
 _POLL_S = 0.2
+
+_deadline: ContextVar[float | None] = ContextVar("deadline", default=None)
 
 
 class TimeLimitError(RuntimeError):
-    """A solver call was interrupted at its deadline."""
+    """The time of a `time_limit` ran out; every control stays usable."""
+
+
+@contextmanager
+def time_limit(seconds: float | None) -> Iterator[None]:
+    """Whatever is solved inside ends in a TimeLimitError after so many seconds; None: never.
+
+    Grounding is not interrupted; what it took counts at the next call of the solver.
+    """
+    token = _deadline.set(None if seconds is None else time.monotonic() + seconds)
+    try:
+        yield
+    finally:
+        _deadline.reset(token)
 
 
 @cache
@@ -67,25 +89,124 @@ def ground(
     return control
 
 
+@contextmanager
+def solving(
+    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int] = ()
+) -> Iterator[clingo.Model | None]:
+    """The first model of a control made by `ground`, to be read while this is open; None: none.
+
+    Raises TimeLimitError. An interrupt from the keyboard reaches Python, whatever the solver does.
+    """
+    _check_time()
+    with control.solve(assumptions=assumptions, yield_=True) as handle:
+        model = handle.model()
+        if model is not None or not handle.get().unknown:
+            yield model
+            return
+    with _in_background(control, assumptions) as handle:
+        yield handle.model()
+
+
+def is_satisfiable(
+    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int] = ()
+) -> bool:
+    """Whether there is an answer set. Raises TimeLimitError."""
+    with solving(control, assumptions) as model:
+        return model is not None
+
+
+def models(
+    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int] = ()
+) -> Iterator[clingo.Model]:
+    """All models, one for each set of shown atoms; each is to be read before the next.
+
+    Raises TimeLimitError.
+    """
+    _check_time()
+    settings: Any = control.configuration.solve
+    before = settings.models, settings.project
+    settings.models, settings.project = "0", "show"
+    try:
+        with _in_background(control, assumptions) as handle:
+            while (model := handle.model()) is not None:
+                yield model
+                handle.resume()
+                _wait(handle)
+    finally:
+        settings.models, settings.project = before
+
+
+def core(
+    control: clingo.Control, assumptions: Sequence[int], optional: Sequence[int]
+) -> list[int] | None:
+    """A smallest part of `optional` that has no answer set beside `assumptions`; None: all have.
+
+    None of its members can be left out; where there is a choice it has the later ones of
+    `optional`. Raises TimeLimitError.
+    """
+    found: list[int] = []
+    left = list(optional)
+    if is_satisfiable(control, [*assumptions, *left]):
+        return None
+    while True:
+        # The shortest end of what is left that fails together with what was found: without its
+        # first member it would not fail, so that this member belongs to the core.
+        low, high = 0, len(left)
+        while low < high:
+            middle = (low + high) // 2 + 1
+            if is_satisfiable(control, [*assumptions, *found, *left[middle:]]):
+                high = middle - 1
+            else:
+                low = middle
+        if low == len(left):
+            return found
+        found.append(left[low])
+        left = left[low + 1 :]
+    return found
+
+
+@contextmanager
+def _in_background(
+    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int]
+) -> Iterator[clingo.SolveHandle]:
+    settings: Any = control.configuration.solve
+    settings.solve_limit = _NO_LIMIT
+    try:
+        with control.solve(assumptions=assumptions, yield_=True, async_=True) as handle:
+            _wait(handle)
+            yield handle
+    finally:
+        settings.solve_limit = _BURST_CONFLICTS
+
+
+def _wait(handle: clingo.SolveHandle) -> None:
+    """Polls, so that signals reach Python meanwhile."""
+    deadline = _deadline.get()
+    while True:
+        left = _POLL_S if deadline is None else min(_POLL_S, deadline - time.monotonic())
+        if handle.wait(max(0.0, left)):
+            return
+        if left <= 0.0:
+            handle.cancel()
+            raise TimeLimitError("the time limit for one decision ran out")
+
+
+def _check_time() -> None:
+    deadline = _deadline.get()
+    if deadline is not None and time.monotonic() > deadline:
+        raise TimeLimitError("the time limit for one decision ran out")
+
+
 def first_model(
-    control: clingo.Control,
-    assumptions: Sequence[Assumption] = (),
-    deadline: float | None = None,
+    control: clingo.Control, assumptions: Sequence[Assumption] = ()
 ) -> tuple[Symbol, ...] | None:
     """The shown symbols of the first answer set, or None if there is none.
 
-    `deadline` is a time of `time.monotonic()`. Raises TimeLimitError there; the control stays
-    usable. The wait is polled, so that an interrupt from the keyboard reaches Python.
+    Raises TimeLimitError.
     """
     if any(not _is_known(control, atom) for atom, truth in assumptions if truth):
         return None
-    with control.solve(assumptions=assumptions, yield_=True, async_=True) as handle:
-        handle.resume()
-        while not handle.wait(_POLL_S):
-            if deadline is not None and time.monotonic() > deadline:
-                handle.cancel()
-                raise TimeLimitError("the time limit for one decision ran out")
-        model = handle.model()
+    with solving(control, assumptions) as model:
         return None if model is None else tuple(model.symbols(shown=True))
 
 
