@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from asp import roles, syntax
-from asp.signature import Problems, Signature, suggestion
+from asp.reserved import is_reserved_constant
+from asp.signature import Problems, Signature, report_reserved, suggestion
 
 Domains = Mapping[str, tuple[str, ...]]
 """What each variable of one statement ranges over."""
@@ -13,19 +14,40 @@ Domains = Mapping[str, tuple[str, ...]]
 
 def check(source: syntax.Source, signature: Signature, problems: Problems) -> None:
     """Reports every mistake in the statements of a description."""
+    faulty: set[syntax.Statement | None] = {None}
     for statement in source.statements:
         found = len(problems)
         for use in roles.uses(statement):
             _check_use(use, signature, problems)
         _check_form(statement, signature, problems)
-        if len(problems) == found:
+        if len(problems) > found:
+            faulty.add(statement)
+    _check_defaults(source, problems)
+    for statement in source.statements:
+        default = getattr(statement, "of", statement)
+        if statement not in faulty and default not in faulty:
             _check_variables(statement, signature, problems)
+
+
+def _check_defaults(source: syntax.Source, problems: Problems) -> None:
+    lines: dict[str, int] = {}
+    for default in source.each(syntax.DefaultStatement):
+        if default.name in lines:
+            first = f"first in line {lines[default.name]}"
+            problems.report(default.place, f"two defaults have the name '{default.name}'; {first}")
+        if is_reserved_constant(default.name):
+            report_reserved(default.name, default.place, problems)
+        lines.setdefault(default.name, default.place.line)
+    for exception in source.each(syntax.ExceptionStatement):
+        if exception.of is None:
+            known = suggestion(exception.name, lines)
+            problems.report(exception.place, f"unknown default '{exception.name}'{known}")
 
 
 def variable_domains(statement: syntax.Statement, signature: Signature) -> Domains:
     """The members that each variable may take: common to the sorts of all its places."""
     domains: dict[str, tuple[str, ...]] = {}
-    for use in roles.uses(statement):
+    for use in roles.scope(statement):
         for term, members in zip(use.atom.args, _places(use.atom, signature), strict=True):
             if term.is_variable:
                 before = domains.get(term.name, members)
@@ -164,14 +186,16 @@ def _check_constant(term: syntax.Term, signature: Signature, problems: Problems)
 
 def _stands_nowhere(statement: syntax.Statement, variable: str) -> bool:
     """Whether a variable of a comparison, or named beside the atoms, stands in no atom."""
-    return not any(term.name == variable for use in roles.uses(statement) for term in use.atom.args)
+    return not any(
+        term.name == variable for use in roles.scope(statement) for term in use.atom.args
+    )
 
 
 def _may_be_empty(statement: syntax.Statement, name: str, signature: Signature) -> bool:
     """Whether another mistake is to blame: a sort without members, or a place in no atom."""
     return _stands_nowhere(statement, name) or any(
         term.name == name and not members
-        for use in roles.uses(statement)
+        for use in roles.scope(statement)
         for term, members in zip(use.atom.args, _places(use.atom, signature), strict=True)
     )
 

@@ -54,6 +54,19 @@ class Shows:
 
 
 @dataclass(frozen=True)
+class Default:
+    """`name: head if body`: in an initial state with the body the head usually holds.
+
+    `exceptions` are conditions under which the default says nothing, one enough.
+    """
+
+    name: str
+    head: str
+    body: Literals
+    exceptions: tuple[Literals, ...]
+
+
+@dataclass(frozen=True)
 class Trigger:
     """One way in which a scenario's exogenous action may fire.
 
@@ -90,6 +103,7 @@ class Description:
     shows: tuple[Shows, ...]
     costs: Mapping[str, int]
     initially: tuple[tuple[str, ...], ...]
+    defaults: tuple[Default, ...]
     triggers: tuple[Trigger, ...]
 
     @cached_property

@@ -6,16 +6,18 @@ from dataclasses import dataclass
 from itertools import product
 
 from asp import syntax
+from asp.checker import variable_domains
 from asp.description import (
     Causal,
     Constraint,
+    Default,
     Description,
     Executability,
     Sees,
     Shows,
     Trigger,
 )
-from asp.instances import Instances, atom_of, instances_of, literal_of, value_of
+from asp.instances import Binding, Instances, atom_of, instances_of, literal_of, value_of
 from asp.literals import ground
 from asp.signature import Signature
 
@@ -39,6 +41,7 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
         shows=grounder.shows(),
         costs=grounder.costs(),
         initially=grounder.initially(),
+        defaults=grounder.defaults(),
         triggers=grounder.triggers(),
     )
 
@@ -116,6 +119,24 @@ class _Grounder:
                 others = (v for name, v in binding.items() if name != statement.variable.name)
                 groups.setdefault((number, *others), []).append(atom_of(statement.fluent, binding))
         return tuple(map(tuple, groups.values()))
+
+    def defaults(self) -> tuple[Default, ...]:
+        """The defaults but those to which an exception applies whatever the state."""
+        exceptions: dict[str, list[tuple[str, ...]]] = {}
+        for statement in self.source.each(syntax.ExceptionStatement):
+            for binding, body in self.instances.of(statement):
+                exceptions.setdefault(self._name(statement.of, binding), []).append(body)
+        return tuple(
+            Default(name, literal_of(statement.head, binding), body, tuple(known))
+            for statement in self.source.each(syntax.DefaultStatement)
+            for binding, body in self.instances.of(statement)
+            if () not in (known := exceptions.get(name := self._name(statement, binding), []))
+        )
+
+    def _name(self, default: syntax.DefaultStatement | None, binding: Binding) -> str:
+        assert default is not None, "the checker has found every default"
+        variables = variable_domains(default, self.instances.signature)
+        return ground(default.name, (binding[variable] for variable in variables))
 
     def triggers(self) -> tuple[Trigger, ...]:
         return tuple(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -22,8 +23,17 @@ def parse(text: str, file: str = "<text>") -> syntax.Source:
     except UnexpectedInput as error:
         raise syntax_error(error, text, file) from None
     check_section_words(tree, text, file)
-    statements = _ToSyntax().transform(tree)
+    statements = _with_defaults(_ToSyntax().transform(tree))
     return syntax.Source(file, text, statements, _comments(text))
+
+
+def _with_defaults(statements: tuple[syntax.Statement, ...]) -> tuple[syntax.Statement, ...]:
+    """The statements, each exception with the default that it is one of."""
+    defaults = {s.name: s for s in statements if isinstance(s, syntax.DefaultStatement)}
+    return tuple(
+        replace(s, of=defaults.get(s.name)) if isinstance(s, syntax.ExceptionStatement) else s
+        for s in statements
+    )
 
 
 @cache
@@ -56,7 +66,7 @@ class _ToSyntax(Transformer[Token, Any]):
         return children[1:]
 
     sorts = statics = fluents = actions = laws = facts = costs = scenarios = _section
-    sees_section = shows_section = initially_section = _section
+    sees_section = shows_section = initially_section = defaults = _section
 
     def start(self, _: Meta, sections: list[list[syntax.Statement]]) -> Any:
         return tuple(statement for section in sections for statement in section)
@@ -116,6 +126,14 @@ class _ToSyntax(Transformer[Token, Any]):
 
     def initially(self, meta: Meta, children: list[Any]) -> syntax.InitiallyStatement:
         return syntax.InitiallyStatement(_place(meta), meta.end_line, *children)
+
+    def default(self, meta: Meta, children: list[Any]) -> syntax.DefaultStatement:
+        name, head, body = children
+        return syntax.DefaultStatement(_place(meta), meta.end_line, str(name), head, body or ())
+
+    def exception(self, meta: Meta, children: list[Any]) -> syntax.ExceptionStatement:
+        name, body = children
+        return syntax.ExceptionStatement(_place(meta), meta.end_line, str(name), body, None)
 
     def trigger(self, meta: Meta, children: list[Any]) -> syntax.TriggerStatement:
         scenario, event, upon, drawing, body, probability = children

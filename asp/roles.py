@@ -80,12 +80,30 @@ def _(statement: syntax.InitiallyStatement) -> Iterator[Use]:
 
 
 @uses.register
+def _(default: syntax.DefaultStatement) -> Iterator[Use]:
+    yield Use(default.head.atom, frozenset({"inertial"}), "an inertial fluent as the conclusion")
+    yield from _body(default.body)
+
+
+@uses.register
+def _(exception: syntax.ExceptionStatement) -> Iterator[Use]:
+    yield from _body(exception.body)
+
+
+@uses.register
 def _(statement: syntax.TriggerStatement) -> Iterator[Use]:
     yield Use(statement.event, EXOGENOUS, "an exogenous action as the event")
     if statement.upon is not None:
         yield Use(statement.upon, AGENT, "an agent action after 'upon'")
     yield from _body(statement.pool)
     yield from _body(statement.body)
+
+
+def scope(statement: syntax.Statement) -> Iterator[Use]:
+    """The atoms that bind the statement's variables: its own, and those of its default."""
+    if isinstance(statement, syntax.ExceptionStatement) and statement.of is not None:
+        yield from uses(statement.of)
+    yield from uses(statement)
 
 
 def noun(kinds: frozenset[str]) -> str:

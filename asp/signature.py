@@ -50,12 +50,12 @@ def signature_of(source: syntax.Source, problems: Problems) -> Signature:
         if isinstance(statement, syntax.SortDefinition):
             _claim(statement.name, statement, taken, problems)
             if is_reserved_sort(statement.name):
-                _report_reserved(statement.name, statement.place, problems)
+                report_reserved(statement.name, statement.place, problems)
             sorts[statement.name] = _members(statement, sorts, problems)
         elif isinstance(statement, syntax.Declaration):
             _claim(statement.name, statement, taken, problems)
             if is_reserved_symbol(statement.name, statement.kind):
-                _report_reserved(statement.name, statement.place, problems)
+                report_reserved(statement.name, statement.place, problems)
             _check_sorts(statement, sorts, problems)
             symbols[statement.name] = statement
     return Signature(sorts, symbols)
@@ -105,11 +105,12 @@ def _check_constants(
         if constant.name in seen:
             problems.report(constant.place, f"the name '{constant.name}' is used twice in one sort")
         elif is_reserved_constant(constant.name):
-            _report_reserved(constant.name, constant.place, problems)
+            report_reserved(constant.name, constant.place, problems)
         seen.add(constant.name)
 
 
-def _report_reserved(name: str, place: syntax.Place, problems: Problems) -> None:
+def report_reserved(name: str, place: syntax.Place, problems: Problems) -> None:
+    """Reports a name to which the programs give a meaning of their own."""
     problems.report(place, f"the name '{name}' means something else in programs; take another")
 
 

@@ -145,6 +145,27 @@ class InitiallyStatement(Statement):
 
 
 @dataclass(frozen=True)
+class DefaultStatement(Statement):
+    """`name: head if body`: in an initial state the head usually holds where the body does."""
+
+    name: str
+    head: Literal
+    body: Body
+
+
+@dataclass(frozen=True)
+class ExceptionStatement(Statement):
+    """`exception name if body`: where the body holds, the default says nothing.
+
+    The variables are those of the default, which is `of`; None where there is none of that name.
+    """
+
+    name: str
+    body: Body
+    of: DefaultStatement | None
+
+
+@dataclass(frozen=True)
 class TriggerStatement(Statement):
     """`scenario: event upon action drawing V with pool if body probability p`."""
 

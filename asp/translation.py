@@ -2,7 +2,8 @@
 
 The program speaks of steps `0..n`: `holds(F,I)`, `-holds(F,I)`, `occurs(A,I)`, `impossible(A,I)`.
 What a robot sees, what actions show and cost, and the scenarios are no part of the transition
-diagram; they stay out of it.
+diagram; they stay out of it. Defaults are told, as `default(D,F,B)` and `stated_exception(D)`, and
+bind nobody: what they do is up to the theory of defaults.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from itertools import chain, count
 
 from asp import roles, syntax
 from asp.checker import variable_domains
+from asp.literals import ground
 from asp.loading import analyse
 from asp.rules import condition, rule, term_text
 from asp.signature import Signature
@@ -42,7 +44,11 @@ action(A) :- exogenous_action(A)."""
 
 def translate(text: str, file: str = "<text>") -> str:
     """The program of an AL_d text. Raises SourceError."""
-    source, signature = analyse(text, file)
+    return translate_source(*analyse(text, file))
+
+
+def translate_source(source: syntax.Source, signature: Signature) -> str:
+    """The program of a checked description."""
     writer = _Writer(source)
     for statement in source.statements:
         writer.write(statement, _rules(statement, signature))
@@ -95,6 +101,8 @@ def _rules(statement: syntax.Statement, signature: Signature) -> list[str]:
             return [f"{term_text(literal.atom)}."]
         case syntax.CausalLaw() | syntax.StateConstraint() | syntax.ExecutabilityCondition():
             return [_law(statement, signature)]
+        case syntax.DefaultStatement() | syntax.ExceptionStatement():
+            return [_default(statement, signature)]
         case _:
             return []
 
@@ -133,6 +141,24 @@ def _law(law: syntax.Statement, signature: Signature) -> str:
     raise TypeError(f"{type(law).__name__} is not a law")
 
 
+def _default(
+    statement: syntax.DefaultStatement | syntax.ExceptionStatement, signature: Signature
+) -> str:
+    """default(D,F,B), or that a stated exception to D applies, in the state at step 0."""
+    body = [condition(c, signature, "0") for c in statement.body]
+    body += [f"{sort}({v})" for v, sort in _narrowest_sorts(statement, signature)]
+    if isinstance(statement, syntax.ExceptionStatement):
+        assert statement.of is not None, "the checker has found every default"
+        return rule(f"stated_exception({_default_name(statement.of, signature)})", body)
+    head, truth = statement.head, "true" if statement.head.positive else "false"
+    name = _default_name(statement, signature)
+    return rule(f"default({name},{term_text(head.atom)},{truth})", body)
+
+
+def _default_name(default: syntax.DefaultStatement, signature: Signature) -> str:
+    return ground(default.name, variable_domains(default, signature))
+
+
 def _step_variable(law: syntax.Statement, signature: Signature) -> str:
     """`I`, or where the law has a variable of that name `I1`, `I2`, ..."""
     taken = variable_domains(law, signature)
@@ -169,7 +195,7 @@ def _narrowest_sorts(statement: syntax.Statement, signature: Signature) -> list[
 def _sorts_of(variable: str, statement: syntax.Statement, signature: Signature) -> list[str]:
     return [
         sort
-        for use in roles.uses(statement)
+        for use in roles.scope(statement)
         if use.atom.name not in signature.sorts
         for term, sort in zip(
             use.atom.args,
