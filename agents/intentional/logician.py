@@ -18,7 +18,8 @@ class Logician:
 
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
-        self._base = (knowledge.program, theory("history"), theory("intentions"))
+        acting = (theory("history"), theory("intentions"), theory("persistence"))
+        self._base = (knowledge.program, *acting)
         self._given = (*knowledge.ranks, *goal_facts(goal))
         self._plan_limit = plan_limit
 
@@ -73,6 +74,7 @@ class Logician:
 
 def _read(model: tuple[Symbol, ...]) -> Intention:
     (action, _), *_ = select(model, "intended_action", 2)
-    plan = sorted((index.number, str(step)) for _, index, step in select(model, "plan", 3))
+    started = [symbol for symbol in model if action.match("start", 1) and symbol.match("plan", 3)]
+    plan = sorted((index.number, str(step)) for _, index, step in select(started, "plan", 3))
     believed = frozenset(str(fluent) for (fluent,) in select(model, "believed", 1))
     return Intention(str(action), tuple(step for _, step in plan), believed)

@@ -10,7 +10,7 @@ from clingo import Symbol
 
 from asp.kept.control import KeptControl, State, goal_externals
 from asp.literals import atom, is_positive
-from asp.solving import fact
+from asp.solving import fact, solving
 
 _FIRST_HORIZON = 16
 _MOST = 4
@@ -32,11 +32,11 @@ class Record:
 
 @dataclass(frozen=True)
 class Account:
-    """An explanation, the state it leads to, and whether the goal has held at some step."""
+    """An explanation, the state it leads to, and the steps at which the goal held."""
 
     events: tuple[tuple[int, str], ...]
     state: State
-    reached: bool
+    held: frozenset[int]
 
 
 class Explanations:
@@ -63,22 +63,23 @@ class Explanations:
         records: Mapping[int, Record],
         step: int,
         fewest: int,
+        since: int,
     ) -> Account | None:
         """The first of the smallest explanations of the records up to `step`.
 
-        `fewest` is a number of events below which there is none. None stands for "more than a
+        `fewest` is a number of events below which there is none, `since` the first step at which
+        one may have occurred. None stands for "more than a
         handful of events", which is left to the theory itself.
         """
         kept = self._reaching(step)
-        kept.switch_on(*goal_externals(goal), *_externals(records, step))
+        kept.switch_on(*goal_externals(goal), *_externals(records, since, step))
         given = self._assume(kept, initial, records, step)
         if given is None:
             return None
         for number in range(fewest, _MOST + 1):
             more = kept.literal("count", step, number + 1) if number < _MOST else None
             assumptions = given if more is None else [*given, -more]
-            with kept.control.solve(assumptions=assumptions, yield_=True) as handle:
-                model = handle.model()
+            with solving(kept.control, assumptions) as model:
                 if model is not None:
                     return self._read(kept, model, step)
         return None
@@ -127,12 +128,14 @@ class Explanations:
             for event in self._events
             if _true(model, kept.literal("unobserved", event, time))
         )
-        reached = any(_true(model, kept.literal("reached", time)) for time in range(step + 1))
-        return Account(events, kept.state(model, step), reached)
+        held = frozenset(
+            time for time in range(step + 1) if _true(model, kept.literal("reached", time))
+        )
+        return Account(events, kept.state(model, step), held)
 
 
-def _externals(records: Mapping[int, Record], step: int) -> list[Symbol]:
-    atoms = [fact("past", time) for time in range(step)]
+def _externals(records: Mapping[int, Record], since: int, step: int) -> list[Symbol]:
+    atoms = [fact("past", time) for time in range(since, step)]
     for time, record in records.items():
         if time < step:
             atoms += (fact("reported", event, time) for event in record.reported)

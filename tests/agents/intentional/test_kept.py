@@ -33,14 +33,12 @@ class Both:
     def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
         kept = self._kept.diagnose(history, adopted)
         plain = self._plain.diagnose(history, adopted)
-        assert (kept.diagnosis, kept.kept) == (plain.diagnosis, plain.kept)
-        self._indices = plain.indices
+        assert kept == plain
         return kept
 
     def intend(self, history: History, explained: Explained) -> Intention:
         kept = self._kept.intend(history, explained)
-        plain_view = Explained(explained.diagnosis, explained.kept, self._indices)
-        plain = self._plain.intend(history, plain_view)
+        plain = self._plain.intend(history, explained)
         assert kept == plain
         return kept
 
