@@ -85,8 +85,7 @@ def _rules(config: ExperimentConfig, max_cycles: int | None) -> Rules:
         goal=config.goal,
         steps=config.limits.steps if max_cycles is None else max_cycles,
         observability={
-            name: Observability(how.mode, how.probability)
-            for name, how in config.observability.items()
+            name: Observability(**dict(how)) for name, how in config.observability.items()
         },
         goal_feedback=config.goal_feedback,
         exogenous_while_thinking=config.exogenous_while_thinking,

@@ -77,7 +77,7 @@ class IntentionalRobot:
             success = percept.happened if self._attempted == percept.attempted else True
             history.happened(self._attempted, success is not False, history.step)
         for event in percept.events:
-            history.happened(event, True, history.step)
+            history.happened(event.action, True, event.step)
         if percept.goal_holds is not None:
             history.observe([GOAL if percept.goal_holds else f"-{GOAL}"], history.step)
         history.step = percept.step

@@ -84,7 +84,7 @@ class TraditionalRobot:
         if percept.attempted is not None:
             history.happened(percept.attempted, percept.happened is not False, history.step)
         for event in percept.events:
-            history.happened(event, True, history.step)
+            history.happened(event.action, True, event.step)
         history.step = percept.step
         outcome = outcome_literals(self._description, percept.attempted, percept.visible)
         history.observe(outcome, percept.step)

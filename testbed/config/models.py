@@ -57,10 +57,16 @@ class Section(BaseModel):
 
 
 class Observability(Section):
-    """Whether the robot is told of an exogenous action, and how often."""
+    """Whether the robot is told of an exogenous action, how often, how truly and how late.
+
+    `false_reports`: probability a step of a report of something that did not happen; `delay`:
+    steps by which every report is late.
+    """
 
     mode: Mode = "never"
     probability: Probability = 1.0
+    false_reports: Probability = 0.0
+    delay: Annotated[int, Field(strict=True, ge=0)] = 0
 
 
 class ScriptEntry(Section):

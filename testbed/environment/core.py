@@ -6,7 +6,7 @@ nothing in the world, so that a game begins at step 1, at which the robot gives 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from gymnasium.utils import seeding
@@ -16,7 +16,7 @@ from testbed.environment.errors import IllegalActionError
 from testbed.environment.rules import Observability, Rules
 from testbed.environment.situation import Ending, Situation, Snapshot
 from testbed.environment.world import World
-from testbed.link.messages import Percept
+from testbed.link.messages import Event, Percept
 
 WAIT, FINISH, NONE = "wait", "finish", "none"
 """The actions that are the environment's own: of the robot, and of the adversary."""
@@ -111,14 +111,17 @@ class Core:
         self._check(robot_action, event)
         effective = self._effective(robot_action)
         state = self._outcome(effective, event)
+        step = self.situation.step + 1
+        news = (*self.situation.pending, *self._news(robot_action, event, state))
         self.situation = Situation(
             trial=self.situation.trial,
-            step=self.situation.step + 1,
+            step=step,
             state=state,
             answer=robot_action,
             happened=None if robot_action in (WAIT, FINISH) else bool(effective),
             event=event,
-            told=self._told(effective, event, state),
+            told=tuple(report for due, report in news if due <= step),
+            pending=tuple((due, report) for due, report in news if due > step),
             goal_holds=False if self._answers(robot_action) else None,
             ending=self._ending(robot_action),
         )
@@ -161,13 +164,29 @@ class Core:
         compound = effective if event == NONE else (*effective, event)
         return self._draw(self.world.successors(self.situation.state, compound))
 
-    def _told(self, effective: tuple[str, ...], event: str, after: int) -> tuple[str, ...]:
+    def _news(self, robot_action: str, event: str, after: int) -> Iterator[tuple[int, Event]]:
+        """Reports of this step, true and false, with the steps at which they reach the robot."""
+        step = self.situation.step
+        told = [event] if self._is_told(self._effective(robot_action), event, after) else []
+        for action in (*told, *self._false_reports(robot_action, event)):
+            late = self.rules.observability[text.name(action)].delay
+            yield step + 1 + late, Event(step=step, action=action)
+
+    def _is_told(self, effective: tuple[str, ...], event: str, after: int) -> bool:
         how = self.rules.observability.get(text.name(event), Observability())
         if event == NONE or how.mode == "never":
-            return ()
+            return False
         if how.mode == "colocated" and not self._witnessed(effective, after):
-            return ()
-        return (event,) if self._generator.random() < how.probability else ()
+            return False
+        return bool(self._generator.random() < how.probability)
+
+    def _false_reports(self, robot_action: str, event: str) -> Iterator[str]:
+        for name, how in self.rules.observability.items():
+            if how.false_reports > 0.0 and self._generator.random() < how.false_reports:
+                possible = (e for e in self.events(robot_action) if text.name(e) == name)
+                others = [other for other in possible if other != event]
+                if others:
+                    yield others[int(self._generator.integers(len(others)))]
 
     def _witnessed(self, effective: tuple[str, ...], after: int) -> bool:
         """Whether the robot sees, before or after, what is as it is because of the event."""

@@ -14,10 +14,14 @@ class Observability:
     """Whether the robot is told of an exogenous action: `probability` is drawn each time.
 
     `colocated`: only if the robot sees, before or after the step, a fluent that the action changed.
+    With probability `false_reports` a step, the robot is told of one that did not happen, though it
+    was possible. News, true or false, comes `delay` steps late.
     """
 
     mode: Mode = "never"
     probability: float = 1.0
+    false_reports: float = 0.0
+    delay: int = 0
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
+from testbed.link.messages import Event
+
 
 class Ending(StrEnum):
     """How a game ended; the values are those of a trial's `outcome`."""
@@ -25,9 +27,9 @@ class Situation:
     """Everything about a running game that changes.
 
     `answer` and `event` are what both agents did at the step before (None at step 1), `happened`
-    whether the robot's physical action took effect (None if it waited or finished); `told` the
-    exogenous actions of that step that the robot hears of; `goal_holds` is False after a `finish`
-    that was answered, else None.
+    whether the robot's physical action took effect (None if it waited or finished); `told` is the
+    news that reaches the robot now, `pending` news with the step at which it will; `goal_holds` is
+    False after a `finish` that was answered, else None.
     """
 
     trial: str
@@ -36,7 +38,8 @@ class Situation:
     answer: str | None = None
     happened: bool | None = None
     event: str | None = None
-    told: tuple[str, ...] = ()
+    told: tuple[Event, ...] = ()
+    pending: tuple[tuple[int, Event], ...] = ()
     goal_holds: bool | None = None
     ending: Ending | None = None
 

@@ -12,7 +12,9 @@ from collections.abc import Iterator, Sequence
 import msgspec
 import numpy as np
 
-from testbed.config.models import ExperimentConfig, Mode, Observability
+from testbed.config.models import ExperimentConfig
+from testbed.config.models import Observability as ObservabilitySettings
+from testbed.environment.rules import Observability
 from testbed.environment.world import World
 from testbed.experiment.domains import load_world
 
@@ -22,14 +24,14 @@ LEVEL = "coarse"
 class Setting(msgspec.Struct, frozen=True, kw_only=True):
     """What holds in every trial of one scenario of a configuration.
 
-    `script` is `((step, action), ...)`, or None for the scenario's triggers; `observability`
-    is `{exogenous action: (mode, probability)}`.
+    `script` is `((step, action), ...)`, or None for the scenario's triggers; `observability` is by
+    the name of the exogenous action.
     """
 
     domain: str
     goal: tuple[str, ...]
     script: tuple[tuple[int, str], ...] | None
-    observability: dict[str, tuple[Mode, float]]
+    observability: dict[str, Observability]
     goal_feedback: bool
     exogenous_while_thinking: bool
     rate: float | None
@@ -122,8 +124,8 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
     )
 
 
-def _observability(settings: dict[str, Observability]) -> dict[str, tuple[Mode, float]]:
-    return {name: (own.mode, own.probability) for name, own in sorted(settings.items())}
+def _observability(settings: dict[str, ObservabilitySettings]) -> dict[str, Observability]:
+    return {name: Observability(**dict(own)) for name, own in sorted(settings.items())}
 
 
 def trial_seed(root: int, path: object) -> int:

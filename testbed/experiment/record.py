@@ -23,11 +23,20 @@ class Attempt(msgspec.Struct):
 
 
 class Occurrence(msgspec.Struct):
-    """An exogenous action that happened, and whether the robot was told of it."""
+    """An exogenous action that happened, and whether the robot was told of it, if only later."""
 
     step: int
     action: str
     observed: bool
+
+
+class Report(msgspec.Struct):
+    """News that reached the robot at step `told`: that `action` happened at `step`; is it true?"""
+
+    told: int
+    step: int
+    action: str
+    true: bool
 
 
 class At(msgspec.Struct):
@@ -80,6 +89,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     steps: int = 0
     actions: list[Attempt] = []
     exogenous: list[Occurrence] = []
+    reports: list[Report] = []
     explanations: list[Explained] = []
     mental: list[At] = []
     activities: list[Activity] = []

@@ -13,9 +13,10 @@ from testbed.experiment.record import (
     Explained,
     Occurrence,
     Outcome,
+    Report,
     TrialRecord,
 )
-from testbed.link.messages import Decision, Trace
+from testbed.link.messages import Decision, Event, Trace
 
 
 class Recorder:
@@ -65,9 +66,18 @@ class Recorder:
         elif not kind and trace.plans > len(activities):
             activities.append(Activity(trace.plans, step, list(trace.plan)))
 
-    def exogenous(self, step: int, action: str, observed: bool) -> None:
+    def exogenous(self, step: int, action: str) -> None:
         """An exogenous action that took effect at `step`."""
-        self.record.exogenous.append(Occurrence(step, action, observed))
+        self.record.exogenous.append(Occurrence(step, action, observed=False))
+
+    def report(self, told: int, event: Event) -> None:
+        """What the robot is told at step `told`; after what truly happened was recorded."""
+        happened = [
+            e for e in self.record.exogenous if (e.step, e.action) == (event.step, event.action)
+        ]
+        for occurrence in happened:
+            occurrence.observed = True
+        self.record.reports.append(Report(told, event.step, event.action, bool(happened)))
 
     def end(self, ending: Ending, achieved: bool) -> None:
         """The end of the game, and whether the goal truly holds there."""

@@ -66,7 +66,8 @@ def _lines(moment: Moment, world: World) -> Iterator[str]:
     if moment.percept.goal_holds is False:
         yield "  told         the goal does not hold"
     if moment.percept.events:
-        yield f"  told         {' '.join(moment.percept.events)}"
+        news = (f"{event.action} at step {event.step}" for event in moment.percept.events)
+        yield f"  told         {', '.join(news)}"
     yield f"  belief       {' '.join(sorted(trace.belief)) or '-'}"
     if trace.belief and sorted(trace.belief) != truth:
         yield f"               in truth {_difference(trace.belief, truth)}"

@@ -12,7 +12,6 @@ import numpy as np
 
 from testbed.environment.core import NONE, Core
 from testbed.environment.errors import IllegalActionError
-from testbed.environment.rules import Observability
 from testbed.environment.rules import Rules as GameRules
 from testbed.environment.world import World
 from testbed.experiment.adversaries import Adversary, AdversaryView, make_adversary
@@ -118,7 +117,9 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     recorder.step(decision, after.happened, core.world.description.costs)
     exogenous = None if event == NONE else event
     if exogenous is not None:
-        recorder.exogenous(before.step, exogenous, observed=exogenous in core.percept.events)
+        recorder.exogenous(before.step, exogenous)
+    for report in after.told:
+        recorder.report(after.step, report)
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state)
 
 
@@ -159,10 +160,7 @@ def _game_rules(spec: TrialSpec) -> GameRules:
     return GameRules(
         goal=setting.goal,
         steps=setting.step_limit,
-        observability={
-            name: Observability(mode, probability)
-            for name, (mode, probability) in setting.observability.items()
-        },
+        observability=setting.observability,
         goal_feedback=setting.goal_feedback,
         exogenous_while_thinking=setting.exogenous_while_thinking,
     )

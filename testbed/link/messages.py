@@ -43,13 +43,21 @@ class Task(Part, frozen=True, kw_only=True):
     seed: int
 
 
+class Event(Part, frozen=True, kw_only=True):
+    """An action at a step of the history."""
+
+    step: int
+    action: str
+
+
 class Percept(Part, frozen=True, kw_only=True):
     """What the robot is told at ``step``, before it decides what to attempt there.
 
     ``visible`` are the literals it sees now; ``attempted`` and ``happened`` its attempt at the
     previous step and whether it took effect (both None at step 1); ``events`` the exogenous
-    actions of the previous step it was told of; ``goal_holds`` is False after a ``finish`` that
-    the goal did not bear out, None when nothing is said about the goal.
+    actions that it is told of now, each with the earlier step at which it is said to have happened;
+    ``goal_holds`` is False after a ``finish`` that the goal did not bear out, None when nothing is
+    said about the goal.
     """
 
     trial: str
@@ -57,7 +65,7 @@ class Percept(Part, frozen=True, kw_only=True):
     visible: list[str]
     attempted: str | None = None
     happened: bool | None = None
-    events: list[str] = []
+    events: list[Event] = []
     goal_holds: bool | None = None
 
 
@@ -66,13 +74,6 @@ class Question(Message, frozen=True, kw_only=True):
 
     percept: Percept
     task: Task | None = None
-
-
-class Event(Part, frozen=True, kw_only=True):
-    """An action at a step of the history."""
-
-    step: int
-    action: str
 
 
 class Explanation(Part, frozen=True, kw_only=True):

@@ -26,6 +26,10 @@ def begin(rules: Rules = RULES, initial: Sequence[str] = IN_KITCHEN, seed: int =
     return core
 
 
+def _news(core: Core) -> list[tuple[int, str]]:
+    return [(event.step, event.action) for event in core.percept.events]
+
+
 def test_a_game_begins_at_step_1_with_nothing_attempted() -> None:
     core = begin()
     percept = core.percept
@@ -185,17 +189,54 @@ def test_who_is_told_of_an_event(mode: Mode, event: str, told: bool) -> None:
     core = Core(world, rules, ())
     core.reset(0, (*IN_KITCHEN, "loc(book3,office1)"))
     core.advance(TO_LIBRARY, event)
-    assert core.percept.events == ([event] if told else [])
+    assert _news(core) == ([(1, event)] if told else [])
 
 
 def test_a_lock_is_witnessed_from_the_rooms_beside_it_only() -> None:
     rules = replace(RULES, observability={"exo_lock": Observability("colocated")})
     near = begin(rules)
     near.advance("pickup(rob1,book2)", "exo_lock(library)")
-    assert near.percept.events == ["exo_lock(library)"]
+    assert _news(near) == [(1, "exo_lock(library)")]
     far = begin(rules, ("loc(rob1,office1)", "loc(book1,office2)", "loc(book2,kitchen)"))
     far.advance("pickup(rob1,book2)", "exo_lock(library)")
     assert far.percept.events == []
+
+
+def test_late_news_says_when_it_happened() -> None:
+    rules = replace(RULES, observability={"exo_lock": Observability("always", delay=2)})
+    core = begin(rules)
+    core.advance("pickup(rob1,book2)", "exo_lock(library)")
+    heard = []
+    for _ in range(4):
+        heard.append(_news(core))
+        core.advance(WAIT)
+    assert heard == [[], [], [(1, "exo_lock(library)")], []]
+
+
+def test_a_false_report_is_of_something_possible_that_did_not_happen() -> None:
+    how = {"exo_move": Observability("always", false_reports=0.3)}
+    core = begin(replace(RULES, observability=how))
+    start = core.situation
+    happened = "exo_move(book2,office1)"
+    possible = {event for event in core.events(TO_LIBRARY) if event.startswith("exo_move")}
+    reports = []
+    for _ in range(500):
+        core.situation = start
+        core.advance(TO_LIBRARY, happened)
+        (step, first), *others = _news(core)
+        assert (step, first) == (1, happened)
+        reports += others
+    assert {event for _, event in reports} == possible - {happened}
+    assert {step for step, _ in reports} == {1}
+    assert 0.2 < len(reports) / 500 < 0.4  # the standard deviation is 0.02
+
+
+def test_nothing_is_reported_of_steps_at_which_nothing_can_happen() -> None:
+    core = begin(replace(RULES, observability={"exo_lock": Observability(false_reports=1.0)}))
+    core.advance(WAIT)
+    assert _news(core) == []
+    core.advance("pickup(rob1,book2)")
+    assert _news(core) == [(2, "exo_lock(library)")]
 
 
 def test_an_event_is_told_with_its_probability() -> None:

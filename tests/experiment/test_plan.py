@@ -46,6 +46,8 @@ def test_what_no_result_depends_on_changes_no_id(override: str) -> None:
         "exogenous_while_thinking=true",
         "observability.exo_move.mode=always",
         "observability.exo_lock.probability=0.5",
+        "observability.exo_lock.false_reports=0.5",
+        "observability.exo_move.delay=1",
         "limits.steps=99",
         "limits.plan=29",
         "adversary.rate=0.1",

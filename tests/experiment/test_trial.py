@@ -176,7 +176,32 @@ def test_an_announced_event_is_told_and_recorded_as_observed(configure: Configur
     robot = Reciter(["wait", *PUBLISHED, "finish"])
     record = _play(spec, robot)
     assert [event.observed for event in record.exogenous] == [True]
-    assert robot.percepts[1].events == ["exo_move(book2,kitchen)"]
+    assert robot.percepts[1].events == [Event(step=1, action="exo_move(book2,kitchen)")]
+
+
+def test_late_news_is_on_record_with_when_it_came(configure: Configure) -> None:
+    spec = _spec(configure, "4", "observability.exo_move={mode: always, delay: 2}")
+    record = _play(spec, Reciter(["wait", *PUBLISHED, "finish"]))
+    assert [event.observed for event in record.exogenous] == [True]
+    assert [(r.told, r.step, r.action, r.true) for r in record.reports] == [
+        (4, 1, "exo_move(book2,kitchen)", True)
+    ]
+
+
+def test_news_that_comes_too_late_is_never_told(configure: Configure) -> None:
+    spec = _spec(configure, "4", "observability.exo_move={mode: always, delay: 50}")
+    record = _play(spec, Reciter(["wait", *PUBLISHED, "finish"]))
+    assert [event.observed for event in record.exogenous] == [False]
+    assert record.reports == []
+
+
+def test_a_false_report_is_on_record_as_such(configure: Configure) -> None:
+    spec = _spec(configure, "1", "observability.exo_lock={false_reports: 1.0}")
+    record = _play(spec, Reciter(["wait", PUBLISHED[0], "finish", "finish"]))
+    assert record.exogenous == []
+    assert [(r.told, r.step, r.action, r.true) for r in record.reports] == [
+        (3, 2, "exo_lock(library)", False)
+    ]
 
 
 def test_a_robot_is_given_the_task_with_complete_knowledge(configure: Configure) -> None:

@@ -38,6 +38,7 @@ TASKS = st.builds(
     plan_limit=WHOLE,
     seed=WHOLE,
 )
+EVENTS = st.builds(Event, step=WHOLE, action=TEXT)
 PERCEPTS = st.builds(
     Percept,
     trial=TEXT,
@@ -45,11 +46,10 @@ PERCEPTS = st.builds(
     visible=TEXTS,
     attempted=st.none() | TEXT,
     happened=MAYBE,
-    events=TEXTS,
+    events=st.lists(EVENTS),
     goal_holds=MAYBE,
 )
 QUESTIONS = st.builds(Question, percept=PERCEPTS, task=st.none() | TASKS)
-EVENTS = st.builds(Event, step=WHOLE, action=TEXT)
 EXPLANATIONS = st.builds(Explanation, step=WHOLE, unobserved=st.lists(EVENTS), exceptions=TEXTS)
 TRACES = st.builds(
     Trace,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from asp.loading import load_description, read_domain
 from testbed.environment.world import World
-from testbed.link.messages import Decision, Percept, Task
+from testbed.link.messages import Decision, Event, Percept, Task
 from testbed.link.robot import Robot
 
 DOMAIN = "office"
@@ -91,7 +91,7 @@ def _percept(
         visible=list(WORLD.visible(state, ROBOT)),
         attempted=attempted,
         happened=happened,
-        events=list(events),
+        events=[Event(step=step - 1, action=action) for action in events],
         goal_holds=goal_holds,
     )
 
