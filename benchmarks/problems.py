@@ -55,13 +55,13 @@ def prototypes() -> Iterator[Problem]:
         placed({"book1": "kitchen", "book2": "kitchen"}, "kitchen", "in_hand(rob1,book1)"),
         delivered(book_names(2)),
     )
-    for name, books in (("P2", 2), ("P3", 4)):
+    for name, books, lock in (("P2", 2, ["locked(library)"]), ("P3", 4, [])):
         where = dict.fromkeys(book_names(books), "office1")
-        initial = placed(where, "library", "locked(library)")
+        initial = placed(where, "library", *lock)
         yield Problem(name, office(books), initial, delivered(book_names(books)))
     rooms = room_names(4)
     spread = {book: rooms[number % 4] for number, book in enumerate(book_names(8))}
-    initial = placed(spread, "office1", "locked(library)")
+    initial = placed(spread, "library", "locked(library)")
     yield Problem("P4", office(8), initial, delivered(["book1", "book2", "book3"]))
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from benchmarks import decisions
+from benchmarks import decisions, growth
 from benchmarks.sheets import Sheet
 
 SIZES = ("small", "full")
 
 BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "decisions": decisions.main,
+    "growth": growth.main,
 }

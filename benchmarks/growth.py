@@ -1,0 +1,238 @@
+"""How a decision grows: with the history, the length of the plan, the books, the rooms."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from agents.intentional.controller import Reasoner
+from agents.intentional.intention import Intention
+from agents.intentional.kept import KeptLogician
+from agents.intentional.logician import Logician
+from agents.shared.history import GOAL, Diagnosis, History
+from agents.shared.knowledge import Knowledge, knowledge
+from benchmarks.measuring import forget, median, no_collection, timed, within
+from benchmarks.offices import book_names, office, room_names
+from benchmarks.problems import Problem, delivered, drawn, placed
+from benchmarks.sheets import DisagreementError, Row, Sheet, Value
+from benchmarks.sieges import Question, Siege, besiege
+
+Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
+
+PLAN_LIMIT = 30
+LIMIT_S = {"small": 60, "full": 40}
+STEPS = {"small": (5, 20), "full": (5, 10, 20, 50, 100, 200, 500, 1000)}
+WINDOW = {"small": 4, "full": 40}
+BOOKS = {"small": (2, 3), "full": (2, 4, 8, 16)}
+ROOMS = {"small": (4, 5), "full": (4, 8, 16, 32)}
+CARRIED = {"small": (1,), "full": (1, 2, 3, 4, 5)}
+CORRIDORS = {"small": (4,), "full": (4, 8, 12, 16, 20)}
+DRAWN = {"small": 2, "full": 6}
+
+
+def main(size: str) -> list[Sheet]:
+    """Sheets `books`, `rooms`, `carrying`, `corridor`, `largest` and `history`.
+
+    Raises DisagreementError.
+    """
+    number = DRAWN[size]
+    note = (
+        "first: the first problem of a process, with all grounding; fast: other problems after it;",
+        f"reference: on the last of these problems, given up after {LIMIT_S[size]} s",
+    )
+    families: dict[str, tuple[str, Iterator[tuple[Value, list[Problem]]]]] = {
+        "books": (
+            "The first decision, 4 rooms in a row, 2 books wanted of so many",
+            ((n, list(drawn(n, 4, "row", 2, 1, number))) for n in BOOKS[size]),
+        ),
+        "rooms": (
+            "The first decision, 2 books wanted of 2, so many rooms in a grid",
+            ((n, list(drawn(2, n, "grid", 2, 1, number))) for n in ROOMS[size]),
+        ),
+        "carrying": (
+            "The first decision, all of so many books are carried through 4 rooms in a row",
+            ((n, list(_carrying(n, 4))) for n in CARRIED[size]),
+        ),
+        "corridor": (
+            "The first decision, one book is carried through so many rooms in a row",
+            ((n, list(_carrying(1, n))) for n in CORRIDORS[size]),
+        ),
+    }
+    if size == "full":
+        largest = list(drawn(16, 32, "grid", 3, 1, 4))
+        title = "The first decision, 3 books wanted of 16, 32 rooms in a grid"
+        families["largest"] = (title, iter([("16 books, 32 rooms", largest)]))
+    sheets = [
+        Sheet(name, title, list(_family(name, points, LIMIT_S[size])), note)
+        for name, (title, points) in families.items()
+    ]
+    return [*sheets, _history(size)]  # last, for it grounds an office in this very process
+
+
+def _carrying(books: int, rooms: int) -> Iterator[Problem]:
+    """The books from the first room to the last; where the robot starts varies."""
+    names = room_names(rooms)
+    where = dict.fromkeys(book_names(books), names[0])
+    for robot in ("kitchen", names[0], "library"):
+        yield Problem(
+            f"{books} books through {rooms} rooms",
+            office(books, rooms),
+            placed(where, robot),
+            delivered(book_names(books)),
+        )
+
+
+@dataclass(frozen=True)
+class _Point:
+    """Times (ms) of the fast side on the problems of a point, and its plans."""
+
+    first_ms: float
+    took_ms: list[float]
+    plans: list[tuple[str, ...]]
+
+
+def _family(
+    name: str, points: Iterator[tuple[Value, list[Problem]]], limit_s: float
+) -> Iterator[Row]:
+    slow_before = fast_before = False
+    for value, problems in points:
+        fast = None if fast_before else within(limit_s * 3, lambda p=problems: _fast(p))  # type: ignore[misc]
+        slow = None if slow_before else within(limit_s, lambda p=problems: _slow(p[-1]))  # type: ignore[misc]
+        fast_before, slow_before = fast is None, slow is None
+        if fast is not None and slow is not None and fast.plans[-1] != slow[1]:
+            raise DisagreementError(f"{name} {value}: {fast.plans[-1]} and {slow[1]}")
+        yield {
+            name: value,
+            "longest_plan": max(map(len, fast.plans)) if fast else None,
+            "first_ms": fast.first_ms if fast else f"> {limit_s * 3} s",
+            "fast_median_ms": median(fast.took_ms) if fast else None,
+            "fast_worst_ms": max(fast.took_ms) if fast else None,
+            "reference_ms": slow[0] if slow else f"> {limit_s} s",
+            "times_faster": _ratio(slow and slow[0], fast and fast.took_ms[-1], limit_s),
+            "agree": True if fast and slow else None,
+        }
+
+
+def _ratio(slow: float | None, fast: float | None, limit_s: float) -> Value:
+    if fast is None:
+        return None
+    return f"> {limit_s * 1e3 / fast:,.0f}" if slow is None else slow / fast
+
+
+def _fast(problems: Sequence[Problem]) -> _Point:
+    """All problems but the last half are played before those that are measured."""
+    half = len(problems) // 2
+    warm, measured = problems[:half], problems[half:]
+    first, _ = timed(lambda: [first_decision(p, KeptLogician) for p in warm[:1]])
+    for problem in (*warm[1:], *(replace(p, initial=_moved(p)) for p in measured)):
+        first_decision(problem, KeptLogician)
+    took, plans = [], []
+    for problem in measured:
+        forget()
+        with no_collection():
+            ms, intention = timed(lambda p=problem: first_decision(p, KeptLogician))  # type: ignore[misc]
+        took.append(ms)
+        plans.append(intention.plan)
+    return _Point(first, took, plans)
+
+
+def _moved(problem: Problem) -> tuple[str, ...]:
+    """Another problem of about the same length: the library's lock is the other way round."""
+    lock = "locked(library)"
+    return tuple({*problem.initial} ^ {lock})
+
+
+def _slow(problem: Problem) -> tuple[float, tuple[str, ...]]:
+    took, intention = timed(lambda: first_decision(problem, Logician))
+    return took, intention.plan
+
+
+def first_decision(problem: Problem, make: Make) -> Intention:
+    """What a robot intends at step 1, which has seen nothing that it did not know."""
+    fluents = problem.description.fluents
+    history = History(step=1)
+    history.observe([f if f in problem.state else f"-{f}" for f in fluents], 0)
+    history.happened(f"select({GOAL})", True, 0)
+    reasoner = make(problem.knowledge, problem.goal, problem.limit)
+    return reasoner.intend(history, reasoner.diagnose(history, Diagnosis()))
+
+
+def _history(size: str) -> Sheet:
+    source = office()
+    initial = placed({"book1": "kitchen", "book2": "office1"}, "kitchen")
+    goal = delivered(book_names(2))
+    rows: list[Row] = []
+    given_up: dict[str, bool] = {"ordinary": False, "contradiction": False}
+    for step in STEPS[size]:
+        siege = _long_life(source, initial, goal, step, WINDOW[size])
+        for kind, (took, question) in _points(siege, step).items():
+            slow = None if given_up[kind] else _asked_again(source, goal, question, LIMIT_S[size])
+            given_up[kind] = slow is None
+            fast = median(took)
+            rows.append(
+                {
+                    "step": step,
+                    "decision": kind,
+                    "measured": len(took),
+                    "fast_median_ms": fast,
+                    "fast_worst_ms": max(took),
+                    "reference_ms": slow if slow is not None else f"> {LIMIT_S[size]} s",
+                    "times_faster": _ratio(slow, fast, LIMIT_S[size]),
+                    "agree": None if slow is None else True,
+                }
+            )
+    notes = (
+        "2 books, 4 rooms; an event undoes part of the goal in each step that would achieve it;",
+        "ordinary: the robot is told; contradiction: once, after the given step, it is not told;",
+        "answers are forgotten before each measured decision",
+    )
+    return Sheet("history", "A decision after a history of so many steps", rows, notes)
+
+
+def _long_life(
+    source: str, initial: Sequence[str], goal: Sequence[str], step: int, window: int
+) -> Siege:
+    """The life up to a contradiction after `step`, when all it needs has been grounded before."""
+    window_steps = range(max(1, step - window), step + 25)
+    for _ in range(2):
+        forget()
+        siege = besiege(
+            source,
+            initial,
+            goal,
+            step + 25,
+            silent=[step],
+            forgetful=window_steps,
+            recorded=window_steps,
+        )
+    return siege
+
+
+def _points(siege: Siege, step: int) -> Mapping[str, tuple[list[float], Question]]:
+    """Of each kind of decision: the times in the window, and one question."""
+    steps = sorted(siege.questions)
+    news = next(i for i in steps if i > step and siege.contradicted(i - 1))
+    ordinary = [siege.took_ms[i - 1] for i in steps if i < news]
+    return {
+        "ordinary": (ordinary, siege.questions[max(i for i in steps if i < news)]),
+        "contradiction": ([siege.took_ms[news - 1]], siege.questions[news]),
+    }
+
+
+def _asked_again(
+    source: str, goal: tuple[str, ...], question: Question, limit_s: float
+) -> float | None:
+    """How long the reference takes with a question (ms). Raises DisagreementError."""
+
+    def ask() -> tuple[float, bool]:
+        reference = Logician(knowledge("office", source), goal, PLAN_LIMIT)
+        history = question.history
+        diagnosis_ms, explained = timed(lambda: reference.diagnose(history, question.adopted))
+        planning_ms, intention = timed(lambda: reference.intend(history, explained))
+        agree = explained.diagnosis == question.explained.diagnosis
+        return diagnosis_ms + planning_ms, agree and intention == question.intention
+
+    answer = within(limit_s, ask)
+    if answer is not None and not answer[1]:
+        raise DisagreementError(f"at step {question.history.step}")
+    return None if answer is None else answer[0]

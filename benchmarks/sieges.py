@@ -1,0 +1,143 @@
+"""Long lives: a robot whose books are taken away again whenever it is about to be done."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field
+
+from agents.intentional.controller import IntentionalRobot, Reasoner
+from agents.intentional.intention import Intention
+from agents.intentional.kept import KeptLogician
+from agents.shared.diagnosis import Explained
+from agents.shared.history import Diagnosis, History
+from asp.loading import parse_description
+from benchmarks.measuring import forget, timed
+from testbed.environment.core import NONE, Core
+from testbed.environment.rules import Observability, Rules
+from testbed.environment.world import World
+from testbed.link.messages import Decision, Task
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a reasoner was asked at a step, and what it answered."""
+
+    history: History
+    adopted: Diagnosis
+    explained: Explained
+    intention: Intention
+
+
+@dataclass
+class Siege:
+    """A life in an office: how long each decision took (ms), and some of its questions."""
+
+    decisions: list[Decision] = field(default_factory=list)
+    took_ms: list[float] = field(default_factory=list)
+    questions: dict[int, Question] = field(default_factory=dict)
+
+    def contradicted(self, index: int) -> bool:
+        """Whether the decision explained anew what had been believed."""
+        return self.decisions[index].trace.explanation is not None
+
+
+class Recording:
+    """A reasoner that keeps the questions of some steps."""
+
+    def __init__(self, reasoner: Reasoner, steps: Collection[int], siege: Siege) -> None:
+        self._reasoner = reasoner
+        self._steps = steps
+        self._questions = siege.questions
+
+    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
+        wanted = history.step in self._steps
+        self._asked = (copy.deepcopy(history), adopted) if wanted else None
+        return self._reasoner.diagnose(history, adopted)
+
+    def intend(self, history: History, explained: Explained) -> Intention:
+        intention = self._reasoner.intend(history, explained)
+        if self._asked is not None:
+            self._questions[history.step] = Question(*self._asked, explained, intention)
+        return intention
+
+
+def besiege(
+    source: str,
+    initial: Sequence[str],
+    goal: Sequence[str],
+    steps: int,
+    silent: Collection[int] = (),
+    forgetful: Collection[int] = (),
+    recorded: Collection[int] = (),
+) -> Siege:
+    """Plays so many steps. An event undoes part of the goal in each step that would achieve it.
+
+    The robot is told of every event, except of one in place of the first after each step of
+    `silent`. At the steps of `forgetful` it has forgotten the answers that it gave before, and
+    of `recorded` ones the questions are kept.
+    """
+    world = World(parse_description(source, "office.al"))
+    siege = Siege()
+    robot = IntentionalRobot(
+        lambda knowledge, wanted, limit: Recording(
+            KeptLogician(knowledge, wanted, limit), recorded, siege
+        )
+    )
+    told, untold = (Core(world, _rules(goal, steps, mode), ()) for mode in ("always", "never"))
+    told.reset(seed=0, initial=initial, trial="siege")
+    untold.reset(seed=0, initial=initial, trial="siege")
+    robot.begin(_task(world, told.situation.state, source, goal))
+    pending = sorted(silent, reverse=True)
+    while told.situation.ending is None:
+        percept = told.percept
+        if percept.step in forgetful:
+            forget()
+        took, decision = timed(lambda percept=percept: robot.act(percept))  # type: ignore[misc]
+        siege.took_ms.append(took)
+        siege.decisions.append(decision)
+        event = _undoing(world, told, decision.action, goal)
+        unheard = event != NONE and bool(pending) and percept.step >= pending[-1]
+        untold.restore(told.snapshot())
+        core = untold if unheard else told
+        core.advance(decision.action, event)
+        if unheard:
+            pending.pop()
+            told.restore(untold.snapshot())
+    return siege
+
+
+def _undoing(world: World, core: Core, action: str, goal: Sequence[str]) -> str:
+    """The first event that keeps the action from achieving the goal; none where it does not."""
+    state = core.situation.state
+    after = world.successors(state, () if action in ("wait", "finish") else (action,))
+    if not after or not world.satisfies(after[0], goal):
+        return NONE
+    for event in core.events(action)[1:]:
+        if not world.satisfies(world.successor(state, (action, event)), goal):
+            return event
+    return NONE
+
+
+def _rules(goal: Sequence[str], steps: int, mode: str) -> Rules:
+    seen = Observability(mode, 1.0)  # type: ignore[arg-type]
+    return Rules(
+        goal=tuple(goal),
+        steps=steps,
+        observability={"exo_move": seen, "exo_lock": seen},
+        goal_feedback=True,
+        exogenous_while_thinking=False,
+    )
+
+
+def _task(world: World, state: int, source: str, goal: Sequence[str]) -> Task:
+    return Task(
+        trial="siege",
+        robot="intentional",
+        domain="office",
+        source=source,
+        goal=list(goal),
+        initial=list(world.literals(state)),
+        plan_limit=30,
+        seed=0,
+    )
