@@ -20,7 +20,7 @@ class Logician:
         """`plan_limit` is the greatest number of actions in a plan."""
         acting = (theory("history"), theory("intentions"), theory("persistence"))
         self._base = (knowledge.program, *acting)
-        self._given = (*knowledge.ranks, *goal_facts(goal))
+        self._given = (*knowledge.ranks, *knowledge.start, *goal_facts(goal))
         self._plan_limit = plan_limit
 
     def diagnose(self, history: History, adopted: Diagnosis) -> Explained:

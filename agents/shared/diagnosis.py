@@ -1,23 +1,25 @@
-"""Phase one: the smallest explanation of a history (spec 2, (25)-(27))."""
+"""Phase one: the smallest explanation of a history (spec 2, (25)-(27), and P 3.1.2)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import clingo
 from clingo import Symbol
 
 from agents.shared.history import Diagnosis, History
-from asp.solving import fact, first_model, ground, select, theory
+from asp.preferring import preferring
+from asp.solving import fact, ground, select, theory
 from testbed.link.messages import Event
 
 _KEEP = clingo.Function("keep")
+_KEEP_INITIAL = clingo.Function("keep_initial")
 _FIRST_TRY = 4
 
 
 class InconsistentHistoryError(RuntimeError):
-    """No set of exogenous actions explains what was observed."""
+    """No exceptions to defaults and no exogenous actions explain what was observed."""
 
 
 @dataclass(frozen=True)
@@ -38,23 +40,54 @@ def diagnose(
 ) -> Explained:
     """Explains the history up to its step; `texts` are the theories besides diagnosis itself.
 
-    The adopted diagnosis is kept if it still explains everything; else the first one, in the
-    stated order, with the fewest unobserved events. Raises InconsistentHistoryError.
+    The adopted diagnosis is kept if it still explains everything, at least its events and
+    exceptions; else the first one, in the stated order, with the fewest unobserved events and then
+    the fewest exceptions to defaults. Raises InconsistentHistoryError.
     """
     given = [*facts, fact("explaining", history.step), *adopted.facts("adopted")]
-    programs = [*texts, theory("diagnosis")]
+    programs = [*texts, theory("defaults"), theory("order"), theory("diagnosis")]
     for most in _limits(len(adopted.unobserved), history.step):
         control = ground(programs, {**constants, "max_unobserved": most}, given)
-        control.assign_external(_KEEP, True)
-        model = first_model(control)
-        if model is not None:
-            return _explained(model, kept=True)
-        control.assign_external(_KEEP, False)
-        for number in range(most + 1):
-            model = first_model(control, [(fact("number_unobserved", number, history.step), True)])
-            if model is not None:
-                return _explained(model, kept=False)
+        explained = _kept(control) or _smallest(control)
+        if explained is not None:
+            return explained
     raise InconsistentHistoryError(f"nothing explains the observations up to step {history.step}")
+
+
+def _kept(control: clingo.Control) -> Explained | None:
+    """The adopted explanation, with what was assumed of the initial state if that is possible."""
+    for initial in (True, False):
+        control.assign_external(_KEEP, True)
+        control.assign_external(_KEEP_INITIAL, initial)
+        explained = _preferred(control, (), kept=initial)
+        control.assign_external(_KEEP, False)
+        control.assign_external(_KEEP_INITIAL, False)
+        if explained is not None:
+            return explained
+    return None
+
+
+def _smallest(control: clingo.Control) -> Explained | None:
+    """As few unobserved events as possible, and then as few exceptions to defaults."""
+    for events in _atoms(control, "number_unobserved", 2):
+        for exceptions in _atoms(control, "number_exceptions", 1):
+            explained = _preferred(control, (events, exceptions), kept=False)
+            if explained is not None:
+                return explained
+    return None
+
+
+def _atoms(control: clingo.Control, predicate: str, arity: int) -> list[int]:
+    """The solver literals of predicate(N,...) in the order of N."""
+    atoms = control.symbolic_atoms.by_signature(predicate, arity)
+    return [atom.literal for atom in sorted(atoms, key=lambda atom: atom.symbol.arguments[0])]
+
+
+def _preferred(
+    control: clingo.Control, assumptions: tuple[int, ...], kept: bool
+) -> Explained | None:
+    with preferring(control, assumptions) as model:
+        return None if model is None else _explained(model.symbols(shown=True), kept)
 
 
 def _limits(adopted: int, step: int) -> Iterator[int]:
@@ -67,8 +100,17 @@ def _limits(adopted: int, step: int) -> Iterator[int]:
         most *= 4
 
 
-def _explained(model: tuple[Symbol, ...], kept: bool) -> Explained:
+def _explained(model: Sequence[Symbol], kept: bool) -> Explained:
     events = sorted((step.number, str(action)) for action, step in select(model, "unobserved", 2))
-    unobserved = tuple(Event(step=step, action=action) for step, action in events)
+    diagnosis = Diagnosis(
+        unobserved=tuple(Event(step=step, action=action) for step, action in events),
+        exceptions=tuple(sorted(str(name) for (name,) in select(model, "exception", 1))),
+        initial=tuple(
+            sorted(
+                str(fluent) if str(truth) == "true" else f"-{fluent}"
+                for fluent, truth in select(model, "initial", 2)
+            )
+        ),
+    )
     indices = {name.number: index.number for name, index in select(model, "index", 2)}
-    return Explained(Diagnosis(unobserved), kept, indices)
+    return Explained(diagnosis, kept, indices)

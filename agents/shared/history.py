@@ -88,14 +88,24 @@ class History:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """An explanation of a history: the exogenous events that nobody reported."""
+    """An explanation of a history: the exogenous events that nobody reported, and how it began.
+
+    `exceptions` are names of the domain's defaults, `initial` literals of the inertial fluents of
+    which nothing was observed at step 0; both are sorted.
+    """
 
     unobserved: tuple[Event, ...] = ()
+    exceptions: tuple[str, ...] = ()
+    initial: tuple[str, ...] = ()
 
     def facts(self, predicate: str) -> Iterator[Symbol]:
-        """predicate(PEA,I) for each event."""
+        """predicate(PEA,I) for each event, predicate_exception(D), predicate_initial(F,B)."""
         for event in self.unobserved:
             yield fact(predicate, event.action, event.step)
+        for default in self.exceptions:
+            yield fact(f"{predicate}_exception", default)
+        for literal in self.initial:
+            yield fact(f"{predicate}_initial", atom(literal), _boolean(is_positive(literal)))
 
 
 def _boolean(value: bool) -> str:

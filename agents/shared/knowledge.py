@@ -9,7 +9,7 @@ from functools import cache
 from clingo import Symbol
 
 from asp.description import Description
-from asp.literals import atom, is_positive
+from asp.literals import atom, complement, is_positive
 from asp.loading import parse_description
 from asp.solving import fact
 from asp.translation import translate
@@ -17,18 +17,34 @@ from asp.translation import translate
 
 @dataclass(frozen=True)
 class Knowledge:
-    """A domain as a robot uses it."""
+    """A domain as a robot uses it.
+
+    `ranks` are the places of actions in the order of declaration, `start` what the theory of
+    defaults is given: those of fluents and defaults, and what an initial state must have.
+    """
 
     description: Description
     program: str
     ranks: tuple[Symbol, ...]
+    start: tuple[Symbol, ...]
+
+    def against(self, exceptions: Iterable[str]) -> list[str]:
+        """The literals that hold at step 0 where these defaults, given by name, have exceptions."""
+        names = frozenset(exceptions)
+        heads = (d.head for d in self.description.defaults if d.name in names)
+        return list(dict.fromkeys(map(complement, heads)))
 
 
 @cache
 def knowledge(name: str, source: str) -> Knowledge:
     """The knowledge that an AL_d text holds. Raises asp.SourceError."""
     description = parse_description(source, f"{name}.al")
-    return Knowledge(description, translate(source, name), tuple(_ranks(description)))
+    return Knowledge(
+        description,
+        translate(source, name),
+        ranks=tuple(_ranks(description)),
+        start=tuple(_start(description)),
+    )
 
 
 def goal_facts(goal: Iterable[str]) -> Iterator[Symbol]:
@@ -44,3 +60,14 @@ def _ranks(description: Description) -> Iterator[Symbol]:
     for actions in kinds:
         for number, action in enumerate(actions):
             yield fact("rank", action, number)
+
+
+def _start(description: Description) -> Iterator[Symbol]:
+    """fluent_rank(F,R) of inertial fluents, default_rank(D,R), initially(N,F)."""
+    for number, fluent in enumerate(description.inertial):
+        yield fact("fluent_rank", fluent, number)
+    for number, default in enumerate(description.defaults):
+        yield fact("default_rank", default.name, number)
+    for number, some in enumerate(description.initially):
+        for fluent in some:
+            yield fact("initially", number, fluent)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import clingo
 from axioms import domain_text, theory_text
 from clingo import Symbol
-from stories import lines
+from stories import lines, theories_for
 
 from asp import load_description
 from asp.solving import fact, ground
@@ -29,6 +29,6 @@ def ground_story(
     ranked: Sequence[Symbol] | None = None,
 ) -> clingo.Control:
     """The ground program of a story; `ranked` stands in for the domain's own ranks."""
-    theories = map(theory_text, ("history", "intentions", theory))
+    theories = map(theory_text, theories_for(theory))
     texts = [domain_text(domain), *theories, lines(*rules)]
     return ground(texts, constants, ranks(domain) if ranked is None else ranked)

@@ -14,7 +14,11 @@ GATE_SHUT = "holds(at(left),0). holds(shut,0). -holds(lit,0)."
 OTHER_GOAL = "possible_goal(other)."
 
 _ACTING = ("history", "intentions")
-_THEORIES = {"acting": _ACTING, **{name: (*_ACTING, name) for name in ("diagnosis", "planning")}}
+_THEORIES = {
+    "acting": _ACTING,
+    "diagnosis": (*_ACTING, "defaults", "order", "diagnosis"),
+    "planning": (*_ACTING, "planning"),
+}
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,11 @@ class Case:
         else:
             theories = _THEORIES["planning"]
         return Program(domain_text(CART), theories, self.rules, constants)
+
+
+def theories_for(purpose: str) -> tuple[str, ...]:
+    """The theories that act, diagnose or plan."""
+    return _THEORIES[purpose]
 
 
 def lines(*facts: str) -> str:
