@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
+from typing import Protocol
 
-from clingo import Symbol
-
-from agents.shared.diagnosis import Explained, diagnose
+from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
-from agents.shared.knowledge import goal_facts, knowledge
+from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.relevance import outcome_literals
-from asp.solving import first_model, ground, select, theory
+from agents.traditional.kept import KeptPlanner
+from agents.traditional.planner import Plan
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
 
-@dataclass(frozen=True)
-class Plan:
-    """The actions that are left and what is believed now; `reachable` if they reach the goal."""
+class Reasoner(Protocol):
+    """Diagnosis and planning for one goal."""
 
-    actions: tuple[str, ...]
-    believed: tuple[str, ...]
-    reachable: bool
+    def diagnose(self, history: History, adopted: Diagnosis) -> Explained: ...
+
+    def plan(self, history: History, diagnosis: Diagnosis, /) -> Plan: ...
 
 
 class TraditionalRobot:
@@ -30,15 +28,21 @@ class TraditionalRobot:
 
     It has no intentions: its history holds physical actions only. When its plan is over it
     finishes, and does not heed what it is told of the goal afterwards.
+
+    `reasoner` makes, of a domain, a goal and the greatest length of a plan, what the robot reasons
+    with: kept controls (`KeptPlanner`), or programs solved from scratch (`Planner`).
     """
+
+    def __init__(
+        self, reasoner: Callable[[Knowledge, tuple[str, ...], int], Reasoner] = KeptPlanner
+    ) -> None:
+        self._make_reasoner = reasoner
 
     def begin(self, task: Task) -> None:
         """Takes the task on; the first plan is made with the first percept."""
         domain = knowledge(task.domain, task.source)
         self._description = domain.description
-        self._base = (domain.program, theory("history"))
-        self._given = (*domain.ranks, *goal_facts(task.goal))
-        self._plan_limit = task.plan_limit
+        self._reasoner = self._make_reasoner(domain, tuple(task.goal), task.plan_limit)
         self._history = History()
         self._history.observe(task.initial, 0)
         self._diagnosis = Diagnosis()
@@ -49,11 +53,11 @@ class TraditionalRobot:
         """The next action of the plan. Raises InconsistentHistoryError."""
         self._observe(percept)
         began = time.perf_counter()
-        explained = self._explain()
+        explained = self._reasoner.diagnose(self._history, self._diagnosis)
         diagnosed = time.perf_counter()
-        planned = self._plan is None or not explained.kept
-        plan = self._make_plan(explained.diagnosis) if planned else self._plan
-        assert plan is not None
+        plan, planned = self._plan, self._plan is None or not explained.kept
+        if plan is None or planned:
+            plan = self._reasoner.plan(self._history, explained.diagnosis)
         self._diagnosis = explained.diagnosis
         self._plans += planned and bool(plan.actions)
         ended = time.perf_counter()
@@ -89,29 +93,5 @@ class TraditionalRobot:
         outcome = outcome_literals(self._description, percept.attempted, percept.visible)
         history.observe(outcome, percept.step)
 
-    def _explain(self) -> Explained:
-        constants = {"n": self._history.step}
-        return diagnose(self._base, constants, self._facts(), self._history, self._diagnosis)
-
-    def _make_plan(self, diagnosis: Diagnosis) -> Plan:
-        """A shortest plan, by iterative deepening; an empty one where there is none."""
-        texts = [*self._base, theory("traditional")]
-        facts = [*self._facts(), *diagnosis.facts("explained")]
-        for length in range(self._plan_limit + 1):
-            model = first_model(ground(texts, {"n": self._history.step + length}, facts))
-            if model is not None:
-                return _read(model)
-        return Plan((), (), reachable=False)
-
-    def _facts(self) -> Iterator[Symbol]:
-        yield from self._given
-        yield from self._history.facts()
-
     def _explanation(self, step: int) -> Explanation:
         return Explanation(step=step, unobserved=list(self._diagnosis.unobserved), exceptions=[])
-
-
-def _read(model: tuple[Symbol, ...]) -> Plan:
-    steps = sorted((index.number, str(action)) for index, action in select(model, "plan", 2))
-    believed = tuple(str(fluent) for (fluent,) in select(model, "believed", 1))
-    return Plan(tuple(action for _, action in steps), believed, reachable=True)

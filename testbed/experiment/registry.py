@@ -8,6 +8,7 @@ from functools import partial
 from agents.intentional import IntentionalRobot
 from agents.intentional.logician import Logician
 from agents.traditional import TraditionalRobot
+from agents.traditional.planner import Planner
 from testbed.config.errors import nearest
 from testbed.link.robot import Robot
 
@@ -15,6 +16,7 @@ ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "intentional": IntentionalRobot,
     "intentional-plain": partial(IntentionalRobot, Logician),
     "traditional": TraditionalRobot,
+    "traditional-plain": partial(TraditionalRobot, Planner),
 }
 
 

@@ -1,0 +1,87 @@
+"""TP on kept controls decides as TP solved from scratch, decision by decision."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from agents.intentional.kept import KeptLogician
+from agents.intentional.logician import Logician
+from agents.shared.diagnosis import Explained, InconsistentHistoryError
+from agents.shared.history import Diagnosis, History
+from agents.shared.knowledge import Knowledge, knowledge
+from agents.traditional import TraditionalRobot
+from agents.traditional.kept import KeptPlanner
+from agents.traditional.planner import Plan, Planner
+from testbed.link.messages import Event
+from tests.agents.intentional.lives import (
+    BOTH_IN_THE_LIBRARY,
+    DOMAIN,
+    SOURCE,
+    WORLD,
+    Wish,
+    live,
+)
+
+STATES = list(WORLD.initial_states())
+LITERALS = [
+    literal
+    for fluent in WORLD.fluents
+    if not fluent.startswith("locked")
+    for literal in (fluent, f"-{fluent}")
+]
+
+
+class Both:
+    """Reasons in both ways, and insists that they agree."""
+
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        self._kept = KeptPlanner(knowledge, goal, plan_limit)
+        self._plain = Planner(knowledge, goal, plan_limit)
+
+    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
+        kept = self._kept.diagnose(history, adopted)
+        assert kept == self._plain.diagnose(history, adopted)
+        return kept
+
+    def plan(self, history: History, diagnosis: Diagnosis) -> Plan:
+        kept = self._kept.plan(history, diagnosis)
+        assert kept == self._plain.plan(history, diagnosis)
+        return kept
+
+
+wishes = st.dictionaries(
+    st.integers(1, 20), st.builds(Wish, st.integers(0, 8), st.booleans()), max_size=4
+)
+
+
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(initial=st.sampled_from(STATES), wishes=wishes)
+def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wish]) -> None:
+    live(TraditionalRobot(Both), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
+
+
+@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(
+    initial=st.sampled_from(STATES),
+    goal=st.lists(st.sampled_from(LITERALS), min_size=1, max_size=2),
+    wishes=wishes,
+)
+def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish]) -> None:
+    live(TraditionalRobot(Both), initial, goal, wishes, steps=15)
+
+
+def test_what_only_an_event_at_step_0_explains_is_explained_where_no_goal_is_selected() -> None:
+    history = History(step=1)
+    unlocked = next(state for state in STATES if WORLD.holds(state, "-locked(library)"))
+    history.observe(WORLD.literals(unlocked), 0)
+    history.observe(["locked(library)"], 1)
+    office = knowledge(DOMAIN, SOURCE)
+    for reasoner in (KeptPlanner, Planner):
+        explained = reasoner(office, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Diagnosis())
+        assert explained.diagnosis.unobserved == (Event(step=0, action="exo_lock(library)"),)
+    history.happened("select(my_goal)", True, 0)
+    for logician in (KeptLogician, Logician):
+        with pytest.raises(InconsistentHistoryError):
+            logician(office, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Diagnosis())
