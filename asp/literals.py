@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 
 _ATOM = re.compile(r"(-?)\s*([a-z_][A-Za-z0-9_]*)\s*(?:\(([^()]*)\))?\s*")
 
@@ -27,6 +28,7 @@ def name(literal: str) -> str:
     return atom(literal).partition("(")[0]
 
 
+@lru_cache(maxsize=100_000)
 def arguments(literal: str) -> tuple[str, ...]:
     """The argument constants: `("book1", "kitchen")` of `-loc(book1,kitchen)`."""
     inner = literal.partition("(")[2].removesuffix(")")

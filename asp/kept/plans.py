@@ -1,79 +1,102 @@
-"""Shortest plans."""
+"""Shortest plans, looked for in the part of the domain that matters to the goal."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from functools import lru_cache
+from pathlib import Path
 
-import clingo
-from clingo import Symbol
-
-from asp.kept.control import KeptControl, State, goal_externals
+from asp.grounding import ground_description
+from asp.kept.control import State
+from asp.kept.independence import Independence, symmetric_pairs
+from asp.kept.planner import Planner
+from asp.literals import arguments, ground, is_positive, name
+from asp.loading import analyse
+from asp.restriction import narrowed, restrict, without_exogenous
+from asp.translation import translate_source
 
 _REMEMBERED = 20_000
-_SHORTEST = clingo.Function("shortest")
 
 
 class Plans:
-    """Shortest plans of a domain, and what becomes of given ones; one control a length."""
+    """Shortest plans of a domain, and what becomes of given ones.
 
-    def __init__(
-        self,
-        program: str,
-        fluents: Sequence[str],
-        actions: Sequence[str],
-        ranks: Iterable[Symbol],
-    ) -> None:
-        self._program = program
-        self._fluents = fluents
-        self._actions = actions
-        self._ranks = tuple(ranks)
-        self._kept: dict[int, KeptControl] = {}
+    Constants that a goal can do without are left out (`Independence`); those that are left are
+    renamed to the first of their class, so that problems that differ in names alone share their
+    controls. Both leave the first shortest plan what it is.
+    """
+
+    def __init__(self, text: str, file: str) -> None:
+        """`text` is an AL_d text, `file` its name in errors. Raises SourceError."""
+        self._source, self._signature = analyse(text, file)
+        self._name = Path(file).stem
+        description = ground_description(self._source, self._signature, self._name)
+        self._independence = Independence(description, self._source, self._signature)
+        self._planners: dict[frozenset[str], Planner] = {}
         self.shortest = lru_cache(maxsize=_REMEMBERED)(self._shortest)
         self.succeeds = lru_cache(maxsize=_REMEMBERED)(self._succeeds)
 
     def _shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None."""
+        view = _View(self._independence, state, goal)
+        planner = self._planner(view.dropped)
+        pairs = symmetric_pairs(planner.classes, view.state, view.goal)
         for length in range(1, limit + 1):
-            kept = self._control(length)
-            kept.switch_on(_SHORTEST, *goal_externals(goal))
-            start = kept.assume_state(state, 0)
-            if start is None:
-                return None
-            with kept.control.solve(assumptions=start, yield_=True) as handle:
-                model = handle.model()
-                if model is not None:
-                    return self._read(kept, model, length)
+            plan = planner.plan(view.state, view.goal, length, pairs)
+            if plan is not None:
+                return view.back(plan)
         return None
 
     def _succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
-        return any(self._reaches(state, goal, plan[:length]) for length in range(1, len(plan) + 1))
-
-    def _reaches(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
-        kept = self._control(len(plan))
-        kept.switch_on(*goal_externals(goal))
-        start = kept.assume_state(state, 0)
-        steps = [kept.literal("occurs", action, step) for step, action in enumerate(plan)]
-        if start is None:
-            return False
-        assumptions = [*start, *(step for step in steps if step is not None)]
-        return None not in steps and kept.control.solve(assumptions=assumptions).satisfiable is True
-
-    def _control(self, length: int) -> KeptControl:
-        if length not in self._kept:
-            self._kept[length] = KeptControl(
-                self._program, "kept_planning", self._fluents, self._ranks, n=length
-            )
-        return self._kept[length]
-
-    def _read(self, kept: KeptControl, model: clingo.Model, length: int) -> tuple[str, ...]:
-        return tuple(
-            next(
-                action
-                for action in self._actions
-                if (literal := kept.literal("occurs", action, step)) is not None
-                and model.is_true(literal)
-            )
-            for step in range(length)
+        view = _View(self._independence, state, (*goal, *plan))
+        planner = self._planner(view.dropped)
+        goal, plan = view.goal[: len(goal)], view.goal[len(goal) :]
+        return any(
+            planner.reaches(view.state, goal, plan[:length]) for length in range(1, len(plan) + 1)
         )
+
+    def _planner(self, dropped: frozenset[str]) -> Planner:
+        if dropped not in self._planners:
+            source = restrict(without_exogenous(self._source, self._signature), dropped)
+            signature = narrowed(self._signature, dropped)
+            self._planners[dropped] = Planner(
+                ground_description(source, signature, self._name),
+                translate_source(source, signature),
+                [
+                    [constant for constant in members if constant not in dropped]
+                    for members in self._independence.classes
+                ],
+            )
+        return self._planners[dropped]
+
+
+class _View:
+    """A planning problem without the constants that it can do without, in canonical names."""
+
+    def __init__(self, independence: Independence, state: State, goal: tuple[str, ...]) -> None:
+        spare = independence.droppable(state, goal)
+        self._names: dict[str, str] = {}
+        dropped: list[str] = []
+        for members in independence.classes:
+            kept = [constant for constant in members if constant not in spare]
+            exchangeable = independence.candidates.issuperset(members)
+            names = members if exchangeable else kept
+            self._names.update(zip(kept, names, strict=False))
+            dropped += members[len(kept) :] if exchangeable else (c for c in members if c in spare)
+        self.dropped = frozenset(dropped)
+        self.state = frozenset(self._renamed(f) for f in state if not self._drops(f, spare))
+        self.goal = tuple(
+            self._renamed(literal) for literal in goal if not self._drops(literal, spare)
+        )
+
+    def back(self, plan: tuple[str, ...]) -> tuple[str, ...]:
+        """The plan in the names of the problem."""
+        self._names = {new: old for old, new in self._names.items()}
+        return tuple(self._renamed(action) for action in plan)
+
+    def _drops(self, literal: str, spare: frozenset[str]) -> bool:
+        return not spare.isdisjoint(arguments(literal))
+
+    def _renamed(self, literal: str) -> str:
+        constants = (self._names.get(constant, constant) for constant in arguments(literal))
+        return ("" if is_positive(literal) else "-") + ground(name(literal), constants)
