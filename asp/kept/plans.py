@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
@@ -50,7 +51,7 @@ class Plans:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         view = _View(self._independence, state, (*goal, *plan))
         planner = self._planner(view.dropped)
-        goal, plan = view.goal[: len(goal)], view.goal[len(goal) :]
+        goal, plan = view.seen(goal), view.seen(plan)
         return any(
             planner.reaches(view.state, goal, plan[:length]) for length in range(1, len(plan) + 1)
         )
@@ -84,18 +85,21 @@ class _View:
             self._names.update(zip(kept, names, strict=False))
             dropped += members[len(kept) :] if exchangeable else (c for c in members if c in spare)
         self.dropped = frozenset(dropped)
-        self.state = frozenset(self._renamed(f) for f in state if not self._drops(f, spare))
-        self.goal = tuple(
-            self._renamed(literal) for literal in goal if not self._drops(literal, spare)
-        )
+        self._spare = spare
+        self.state = frozenset(self.seen(state))
+        self.goal = self.seen(goal)
+
+    def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
+        """Those of the literals or actions that the problem is left with, in its names."""
+        return tuple(self._renamed(literal) for literal in literals if not self._drops(literal))
 
     def back(self, plan: tuple[str, ...]) -> tuple[str, ...]:
         """The plan in the names of the problem."""
         self._names = {new: old for old, new in self._names.items()}
         return tuple(self._renamed(action) for action in plan)
 
-    def _drops(self, literal: str, spare: frozenset[str]) -> bool:
-        return not spare.isdisjoint(arguments(literal))
+    def _drops(self, literal: str) -> bool:
+        return not self._spare.isdisjoint(arguments(literal))
 
     def _renamed(self, literal: str) -> str:
         constants = (self._names.get(constant, constant) for constant in arguments(literal))
