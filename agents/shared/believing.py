@@ -6,8 +6,8 @@ observation contradicts it; then the whole history is explained anew.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 
 from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
@@ -48,6 +48,8 @@ class Believer:
         self._since = since
         self._plain = plain
         self._belief: Belief | None = None
+        self._fewest = 0
+        self._late_news = 0
 
     @property
     def belief(self) -> Belief:
@@ -60,7 +62,11 @@ class Believer:
 
         Raises InconsistentHistoryError.
         """
-        carried = self._carry(history)
+        if history.late_news > self._late_news:
+            self._late_news = history.late_news
+            self._belief, self._fewest = None, 0
+            adopted = _without_reported(history, adopted)
+        carried = self._carry(history, adopted)
         if carried is not None:
             self._belief = carried
             return adopted, True
@@ -70,23 +76,27 @@ class Believer:
         """Whether the goal does."""
         return all((atom(literal) in state) == is_positive(literal) for literal in self._goal)
 
-    def _carry(self, history: History) -> Belief | None:
-        """The belief at this step, if what is new agrees with the belief at the last one."""
-        belief = self._belief or self._first(history)
-        if belief.step != history.step - 1:
-            return None
-        before, now = history.at(belief.step), history.at(history.step)
-        record = self._record(before)
+    def _carry(self, history: History, adopted: Diagnosis) -> Belief | None:
+        """The belief at this step, if what is new agrees with the adopted explanation."""
+        belief: Belief | None = self._belief or self._first(history)
+        while belief is not None and self._agrees(history.at(belief.step), belief.state):
+            if belief.step == history.step:
+                return belief
+            belief = self._advance(belief, history, adopted)
+        return None
+
+    def _advance(self, belief: Belief, history: History, adopted: Diagnosis) -> Belief | None:
+        """The belief a step later, if what happened there agrees with the explanation."""
+        step = belief.step
+        record = self._record(history.at(step))
         attempt = None if record.attempt is None else record.attempt[0]
-        after = self._tools.transitions.after(belief.state, attempt, record.reported)
-        if after is None or not self._agrees(before, belief.state):
+        events = _happened(record, adopted, step)
+        if events and step < self._since:
             return None
-        state, happened = after
-        if record.attempt is not None and record.attempt[1] != happened:
+        after = self._tools.transitions.after(belief.state, attempt, events)
+        if after is None or (record.attempt is not None and record.attempt[1] != after[1]):
             return None
-        if not self._agrees(now, state):
-            return None
-        return self._next(belief, state)
+        return self._next(belief, after[0])
 
     def _explain(self, history: History, adopted: Diagnosis) -> Diagnosis:
         """The smallest explanation of the whole history; the belief becomes what it implies."""
@@ -95,15 +105,17 @@ class Believer:
             self._goal,
             {step: self._record(moment) for step, moment in history.moments.items()},
             history.step,
-            fewest=len(adopted.unobserved),
+            fewest=self._fewest,
             since=self._since,
         )
         if account is None:
             diagnosis = self._plain(history, adopted)
             self._belief = self._replay(history, diagnosis)
-            return diagnosis
-        self._belief = Belief(history.step, account.state, account.held)
-        return Diagnosis(tuple(Event(step=step, action=name) for step, name in account.events))
+        else:
+            diagnosis = Diagnosis(_events(account.events), _events(account.distrusted))
+            self._belief = Belief(history.step, account.state, account.held)
+        self._fewest = diagnosis.size
+        return diagnosis
 
     def _first(self, history: History) -> Belief:
         """The belief at step 0, of which everything was observed."""
@@ -115,16 +127,12 @@ class Believer:
         return Belief(step, state, belief.held | {step} if self.holds(state) else belief.held)
 
     def _replay(self, history: History, diagnosis: Diagnosis) -> Belief:
-        """The belief at the history's step with these unobserved events."""
+        """The belief at the history's step with this explanation of it."""
         belief = self._first(history)
-        for step in range(history.step):
-            record = self._record(history.at(step))
-            unobserved = (event.action for event in diagnosis.unobserved if event.step == step)
-            attempt = None if record.attempt is None else record.attempt[0]
-            events = (*record.reported, *unobserved)
-            after = self._tools.transitions.after(belief.state, attempt, events)
+        while belief.step < history.step:
+            after = self._advance(belief, history, diagnosis)
             assert after is not None, "an explanation explains every step"
-            belief = self._next(belief, after[0])
+            belief = after
         return belief
 
     def _record(self, moment: Moment) -> Record:
@@ -149,3 +157,20 @@ class Believer:
             truth == (self.holds(state) if fluent == GOAL else fluent in state)
             for fluent, truth in moment.observed.items()
         )
+
+
+def _happened(record: Record, diagnosis: Diagnosis, step: int) -> tuple[str, ...]:
+    """The exogenous actions of a step, given an explanation."""
+    false = {report.action for report in diagnosis.distrusted if report.step == step}
+    unobserved = (event.action for event in diagnosis.unobserved if event.step == step)
+    return (*(event for event in record.reported if event not in false), *unobserved)
+
+
+def _without_reported(history: History, adopted: Diagnosis) -> Diagnosis:
+    """What is left to assume of an explanation where some of its events were reported since."""
+    unobserved = (e for e in adopted.unobserved if not history.at(e.step).happened.get(e.action))
+    return replace(adopted, unobserved=tuple(unobserved))
+
+
+def _events(pairs: Iterable[tuple[int, str]]) -> tuple[Event, ...]:
+    return tuple(Event(step=step, action=action) for step, action in sorted(pairs))

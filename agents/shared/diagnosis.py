@@ -46,7 +46,7 @@ def diagnose(
     """
     given = [*facts, fact("explaining", history.step), *adopted.facts("adopted")]
     programs = [*texts, theory("defaults"), theory("order"), theory("diagnosis")]
-    for most in _limits(len(adopted.unobserved), history.step):
+    for most in _limits(adopted.size, history.step):
         control = ground(programs, {**constants, "max_unobserved": most}, given)
         explained = _kept(control) or _smallest(control)
         if explained is not None:
@@ -87,7 +87,7 @@ def _preferred(
     control: clingo.Control, assumptions: tuple[int, ...], kept: bool
 ) -> Explained | None:
     with preferring(control, assumptions) as model:
-        return None if model is None else _explained(model.symbols(shown=True), kept)
+        return None if model is None else explained_by(model.symbols(shown=True), kept)
 
 
 def _limits(adopted: int, step: int) -> Iterator[int]:
@@ -100,10 +100,11 @@ def _limits(adopted: int, step: int) -> Iterator[int]:
         most *= 4
 
 
-def _explained(model: Sequence[Symbol], kept: bool) -> Explained:
-    events = sorted((step.number, str(action)) for action, step in select(model, "unobserved", 2))
+def explained_by(model: Sequence[Symbol], kept: bool) -> Explained:
+    """What an answer set of the theory of diagnosis says."""
     diagnosis = Diagnosis(
-        unobserved=tuple(Event(step=step, action=action) for step, action in events),
+        unobserved=_events(model, "unobserved"),
+        distrusted=_events(model, "distrusted"),
         exceptions=tuple(sorted(str(name) for (name,) in select(model, "exception", 1))),
         initial=tuple(
             sorted(
@@ -114,3 +115,8 @@ def _explained(model: Sequence[Symbol], kept: bool) -> Explained:
     )
     indices = {name.number: index.number for name, index in select(model, "index", 2)}
     return Explained(diagnosis, kept, indices)
+
+
+def _events(model: Sequence[Symbol], predicate: str) -> tuple[Event, ...]:
+    events = sorted((step.number, str(action)) for action, step in select(model, predicate, 2))
+    return tuple(Event(step=step, action=action) for step, action in events)

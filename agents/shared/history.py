@@ -42,6 +42,7 @@ class History:
     step: int = 0
     activities: list[Activity] = field(default_factory=list)
     moments: dict[int, Moment] = field(default_factory=dict)
+    late_news: int = 0
 
     def at(self, step: int) -> Moment:
         """What is recorded of a step; made when it is first asked for."""
@@ -54,7 +55,8 @@ class History:
             moment.observed[atom(literal)] = is_positive(literal)
 
     def happened(self, action: str, truth: bool, step: int) -> None:
-        """hpd(A,B,I)."""
+        """hpd(A,B,I). News of a step before the last one is counted in `late_news`."""
+        self.late_news += step < self.step
         self.at(step).happened[action] = truth
 
     def attempt(self, action: str, step: int) -> None:
@@ -88,24 +90,36 @@ class History:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """An explanation of a history: the exogenous events that nobody reported, and how it began.
+    """An explanation of a history: exogenous events that nobody reported, and how it began.
 
+    `distrusted` are reports of events that did not happen;
     `exceptions` are names of the domain's defaults, `initial` literals of the inertial fluents of
     which nothing was observed at step 0; both are sorted.
     """
 
     unobserved: tuple[Event, ...] = ()
+    distrusted: tuple[Event, ...] = ()
     exceptions: tuple[str, ...] = ()
     initial: tuple[str, ...] = ()
 
     def facts(self, predicate: str) -> Iterator[Symbol]:
-        """predicate(PEA,I) for each event, predicate_exception(D), predicate_initial(F,B)."""
+        """predicate(PEA,I) for each event, and predicate_distrusted(PEA,I) for each report.
+
+        Also predicate_exception(D), predicate_initial(F,B).
+        """
         for event in self.unobserved:
             yield fact(predicate, event.action, event.step)
+        for report in self.distrusted:
+            yield fact(f"{predicate}_distrusted", report.action, report.step)
         for default in self.exceptions:
             yield fact(f"{predicate}_exception", default)
         for literal in self.initial:
             yield fact(f"{predicate}_initial", atom(literal), _boolean(is_positive(literal)))
+
+    @property
+    def size(self) -> int:
+        """How many events and false reports it assumes (27)."""
+        return len(self.unobserved) + len(self.distrusted)
 
 
 def _boolean(value: bool) -> str:

@@ -32,9 +32,13 @@ class Record:
 
 @dataclass(frozen=True)
 class Account:
-    """An explanation, the state it leads to, and the steps at which the goal held."""
+    """An explanation, the state it leads to, and the steps at which the goal held.
+
+    `events` are unobserved, `distrusted` reports of what did not happen.
+    """
 
     events: tuple[tuple[int, str], ...]
+    distrusted: tuple[tuple[int, str], ...]
     state: State
     held: frozenset[int]
 
@@ -122,16 +126,19 @@ class Explanations:
         return start + [lit if truth else -lit for lit, truth in wanted if lit is not None]
 
     def _read(self, kept: KeptControl, model: clingo.Model, step: int) -> Account:
-        events = tuple(
-            (time, event)
-            for time in range(step)
-            for event in self._events
-            if _true(model, kept.literal("unobserved", event, time))
+        unobserved, distrusted = (
+            tuple(
+                (time, event)
+                for time in range(step)
+                for event in self._events
+                if _true(model, kept.literal(predicate, event, time))
+            )
+            for predicate in ("unobserved", "distrusted")
         )
         held = frozenset(
             time for time in range(step + 1) if _true(model, kept.literal("reached", time))
         )
-        return Account(events, kept.state(model, step), held)
+        return Account(unobserved, distrusted, kept.state(model, step), held)
 
 
 def _externals(records: Mapping[int, Record], since: int, step: int) -> list[Symbol]:

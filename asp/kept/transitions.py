@@ -8,7 +8,7 @@ from functools import lru_cache
 from clingo import Symbol
 
 from asp.kept.control import KeptControl, State
-from asp.solving import fact
+from asp.solving import fact, solving
 
 _REMEMBERED = 50_000
 
@@ -36,8 +36,7 @@ class Transitions:
         if assumptions is None:
             return None
         happened = None if attempt is None else kept.literal("occurs", attempt, 0)
-        with kept.control.solve(assumptions=assumptions, yield_=True) as handle:
-            model = handle.model()
+        with solving(kept.control, assumptions) as model:
             if model is None:
                 return None
             return kept.state(model, 1), happened is not None and model.is_true(happened)

@@ -135,6 +135,15 @@ CASES = (
         condition="I < I1",
     ),
     Case(
+        19,
+        "what is reported did not happen if the report is distrusted",
+        lines(_OPEN, "current_step(1). distrusted(shut_gate,0).", happened(0, "shut_gate")),
+        Always("-holds(shut,1)"),
+        n=1,
+        rule=1,
+        condition="not distrusted(A,I)",
+    ),
+    Case(
         25,
         "no event is assumed where nothing is being explained",
         lines(_OPEN, "current_step(1)."),

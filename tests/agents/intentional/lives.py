@@ -24,10 +24,15 @@ BOTH_IN_THE_LIBRARY = (
 
 @dataclass(frozen=True)
 class Wish:
-    """An exogenous action by its number among the possible ones, and whether it is reported."""
+    """An exogenous action by its number among the possible ones, and whether it is reported.
+
+    One that does not happen makes the report false. A report comes `late` steps late.
+    """
 
     number: int
     reported: bool = False
+    happens: bool = True
+    late: int = 0
 
 
 @dataclass(frozen=True)
@@ -46,7 +51,7 @@ def live(
     steps: int = 40,
 ) -> Life:
     """Plays a trial in the state `initial`, with goal feedback, for at most so many steps."""
-    state, decisions = initial, list[Decision]()
+    state, decisions, news = initial, list[Decision](), list[tuple[int, Event]]()
     robot.begin(_task(initial, goal))
     percept = _percept(state, 1)
     while percept.step < steps:
@@ -56,14 +61,17 @@ def live(
             done = WORLD.satisfies(state, goal)
             if done or [d.action for d in decisions[-2:]] == ["finish", "finish"]:
                 return Life(decisions, done)
-            percept = _percept(state, percept.step + 1, goal_holds=False)
+            percept = _percept(state, percept.step + 1, _due(news, percept.step), goal_holds=False)
             continue
         attempt = None if decision.action == "wait" else decision.action
-        state, percept = _advance(state, percept.step, attempt, (wishes or {}).get(percept.step))
+        wish = (wishes or {}).get(percept.step)
+        state, percept = _advance(state, percept.step, attempt, wish, news)
     return Life(decisions, WORLD.satisfies(state, goal))
 
 
-def _advance(state: int, step: int, attempt: str | None, wish: Wish | None) -> tuple[int, Percept]:
+def _advance(
+    state: int, step: int, attempt: str | None, wish: Wish | None, news: list[tuple[int, Event]]
+) -> tuple[int, Percept]:
     happened = None if attempt is None else WORLD.executable(state, [attempt])
     actions = {attempt} if attempt is not None and happened else set[str]()
     possible = [
@@ -72,17 +80,25 @@ def _advance(state: int, step: int, attempt: str | None, wish: Wish | None) -> t
         if wish is not None and WORLD.executable(state, actions | {event})
     ]
     events = [possible[wish.number % len(possible)]] if wish is not None and possible else []
+    if wish is not None and wish.reported:
+        news += ((step + wish.late, Event(step=step, action=event)) for event in events)
+    if wish is not None and not wish.happens:
+        events = []
     after = WORLD.successor(state, actions.union(events))
-    told = events if wish is not None and wish.reported else []
-    return after, _percept(after, step + 1, attempt, happened, told)
+    return after, _percept(after, step + 1, _due(news, step), attempt, happened)
+
+
+def _due(news: list[tuple[int, Event]], step: int) -> list[Event]:
+    """The news that comes after this step."""
+    return [event for due, event in news if due == step]
 
 
 def _percept(
     state: int,
     step: int,
+    events: Sequence[Event] = (),
     attempted: str | None = None,
     happened: bool | None = None,
-    events: Sequence[str] = (),
     goal_holds: bool | None = None,
 ) -> Percept:
     return Percept(
@@ -91,7 +107,7 @@ def _percept(
         visible=list(WORLD.visible(state, ROBOT)),
         attempted=attempted,
         happened=happened,
-        events=[Event(step=step - 1, action=action) for action in events],
+        events=list(events),
         goal_holds=goal_holds,
     )
 

@@ -44,7 +44,9 @@ class Both:
 
 
 wishes = st.dictionaries(
-    st.integers(1, 25), st.builds(Wish, st.integers(0, 8), st.booleans()), max_size=3
+    st.integers(1, 25),
+    st.builds(Wish, st.integers(0, 8), st.booleans(), st.booleans(), st.integers(0, 3)),
+    max_size=3,
 )
 
 
