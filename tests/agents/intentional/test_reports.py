@@ -1,0 +1,163 @@
+"""What the robot makes of news: true, false and late, in both ways of reasoning."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pytest
+
+from agents.intentional.controller import Reasoner
+from agents.intentional.kept import KeptLogician
+from agents.intentional.logician import Logician
+from agents.shared.history import GOAL, Diagnosis, History
+from agents.shared.knowledge import Knowledge, knowledge
+
+SOURCE = (Path(__file__).parents[2] / "asp" / "cart.al").read_text(encoding="utf-8")
+CART = knowledge("cart", SOURCE)
+START = ("at(left)", "-at(right)", "-shut", "-lit")
+Happening = tuple[int, str]
+
+both = pytest.mark.parametrize("reasoner", [Logician, KeptLogician])
+Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
+
+
+class Mind:
+    """A history that grows, and the explanation that is held of it."""
+
+    def __init__(self, reasoner: Make) -> None:
+        self.history = History()
+        self.history.observe(START, 0)
+        self.history.happened(f"select({GOAL})", True, 0)
+        self._reasoner = reasoner(CART, ("at(right)", "lit"), 3)
+        self.held = Diagnosis()
+        self.kept = True
+
+    def next(self, news: Sequence[Happening] = (), seen: Sequence[str] = ()) -> None:
+        for step, event in news:
+            self.history.happened(event, True, step)
+        self.history.step += 1
+        self.history.observe(seen, self.history.step)
+        explained = self._reasoner.diagnose(self.history, self.held)
+        self.held, self.kept = explained.diagnosis, explained.kept
+
+    @property
+    def assumed(self) -> tuple[list[Happening], list[Happening]]:
+        unobserved = [(e.step, e.action) for e in self.held.unobserved]
+        return unobserved, [(e.step, e.action) for e in self.held.distrusted]
+
+    @property
+    def believed(self) -> frozenset[str]:
+        explained = self._reasoner.diagnose(self.history, self.held)
+        return self._reasoner.intend(self.history, explained).believed
+
+
+@both
+def test_what_is_reported_is_believed_and_needs_no_explanation(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(news=[(1, "shut_gate")])
+    assert mind.assumed == ([], [])
+    assert "shut" in mind.believed
+    mind.next(seen=["shut"])
+    assert mind.assumed == ([], [])
+    assert mind.kept
+
+
+@both
+def test_a_report_that_is_seen_to_be_false_is_distrusted(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(news=[(1, "shut_gate")], seen=["-shut"])
+    assert mind.assumed == ([], [(1, "shut_gate")])
+    assert "shut" not in mind.believed
+    mind.next(seen=["-shut"])
+    assert mind.assumed == ([], [(1, "shut_gate")])
+    assert mind.kept
+
+
+@both
+def test_a_report_of_what_cannot_have_happened_is_distrusted(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(news=[(1, "push(left)")])
+    assert mind.assumed == ([], [(1, "push(left)")])
+
+
+@both
+def test_where_an_event_explains_as_well_the_report_is_believed(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(news=[(1, "push(right)")])
+    mind.next(seen=["at(left)"])
+    assert mind.assumed == ([(2, "push(left)")], [])
+
+
+@both
+def test_one_false_report_is_preferred_to_two_events(reasoner: Make) -> None:
+    """It was told that the cart went right and back again, and sees it on the right."""
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(news=[(1, "push(right)")], seen=["at(right)"])
+    mind.next(news=[(2, "push(left)")], seen=["at(right)"])
+    assert mind.assumed == ([], [(2, "push(left)")])
+
+
+@both
+def test_of_two_reports_the_later_one_is_believed(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(news=[(1, "shut_gate")])
+    mind.next(news=[(2, "shut_gate")], seen=["shut"])
+    assert mind.assumed == ([], [(1, "shut_gate")])
+
+
+@both
+def test_late_news_replaces_what_was_assumed(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(seen=["shut"])
+    mind.next(seen=["at(right)"])
+    assert mind.assumed == ([(1, "shut_gate"), (2, "push(right)")], [])
+    mind.next(news=[(1, "shut_gate")])
+    assert mind.assumed == ([(2, "push(right)")], [])
+    assert mind.kept
+
+
+@both
+def test_late_news_of_another_time_makes_the_assumption_needless(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next()
+    mind.next(seen=["shut"])
+    assert mind.assumed == ([(2, "shut_gate")], [])
+    mind.next(news=[(1, "shut_gate")])
+    assert mind.assumed == ([], [])
+    assert not mind.kept
+
+
+@both
+def test_late_news_that_past_observations_refute_is_distrusted(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(seen=["-shut"])
+    mind.next()
+    mind.next(news=[(1, "shut_gate")])
+    assert mind.assumed == ([], [(1, "shut_gate")])
+
+
+@both
+def test_late_news_is_heeded_in_what_is_believed_now(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next()
+    mind.next(news=[(1, "push(right)")])
+    assert mind.assumed == ([], [])
+    assert "at(right)" in mind.believed
+
+
+@both
+def test_news_of_the_step_at_which_the_goal_is_selected_is_false(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next(news=[(0, "shut_gate")])
+    assert mind.assumed == ([], [(0, "shut_gate")])
