@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 from agents.intentional.intention import Intention
@@ -58,6 +59,9 @@ class IntentionalRobot:
         diagnosed = time.perf_counter()
         intention = self._logician.intend(self._history, explained)
         planned = time.perf_counter()
+        if intention.under is not None:
+            kept = intention.under == self._diagnosis
+            explained = replace(explained, diagnosis=intention.under, kept=kept)
         self._diagnosis = explained.diagnosis
         self._attempt(intention)
         trace = self._trace(intention, explained, diagnosed - began, planned - diagnosed)

@@ -56,7 +56,7 @@ class Logician:
             *more,
         ]
         model = first_model(ground([*self._base, theory("planning")], constants, facts))
-        return None if model is None else _read(model)
+        return None if model is None else read_intention(model)
 
     def _facts(self, history: History) -> Iterator[Symbol]:
         yield from self._given
@@ -72,7 +72,8 @@ class Logician:
         return max((plans[name] - index for name, index in explained.indices.items()), default=0)
 
 
-def _read(model: tuple[Symbol, ...]) -> Intention:
+def read_intention(model: tuple[Symbol, ...]) -> Intention:
+    """What an answer set of the theory of planning says."""
     (action, _), *_ = select(model, "intended_action", 2)
     started = [symbol for symbol in model if action.match("start", 1) and symbol.match("plan", 3)]
     plan = sorted((index.number, str(step)) for _, index, step in select(started, "plan", 3))

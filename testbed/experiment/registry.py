@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 from agents.intentional import IntentionalRobot
+from agents.intentional.joint import JointLogician
 from agents.intentional.logician import Logician
 from agents.traditional import TraditionalRobot
 from agents.traditional.planner import Planner
@@ -15,6 +16,7 @@ from testbed.link.robot import Robot
 ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "intentional": IntentionalRobot,
     "intentional-plain": partial(IntentionalRobot, Logician),
+    "intentional-joint": partial(IntentionalRobot, JointLogician),
     "traditional": TraditionalRobot,
     "traditional-plain": partial(TraditionalRobot, Planner),
 }

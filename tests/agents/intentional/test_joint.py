@@ -1,0 +1,97 @@
+"""TI: one program for diagnosis and planning, with every smallest explanation considered."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.intention import Intention
+from agents.intentional.joint import JointLogician
+from agents.intentional.logician import Logician
+from agents.shared.diagnosis import Explained
+from agents.shared.history import GOAL, Activity, Diagnosis, History
+from agents.shared.knowledge import Knowledge, knowledge
+from testbed.config import load_config
+from testbed.experiment.runner import run_trials
+from testbed.experiment.store import read_records
+from testbed.link.messages import Event
+from tests.agents.intentional.lives import (
+    DOMAIN,
+    SOURCE,
+    WORLD,
+    Wish,
+    live,
+)
+
+OFFICE = knowledge(DOMAIN, SOURCE)
+
+
+class Compared(JointLogician):
+    """TI that insists, at each decision, on what it has in common with ATI."""
+
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        super().__init__(knowledge, goal, plan_limit)
+        self._ati = Logician(knowledge, goal, plan_limit)
+        self.plans = list[int]()
+
+    def intend(self, history: History, explained: Explained) -> Intention:
+        intention = super().intend(history, explained)
+        assert intention.under is not None
+        smallest = self._ati.diagnose(history, Diagnosis())
+        assert intention.under.size == smallest.diagnosis.size
+        held = self._ati.diagnose(history, intention.under)
+        assert held.kept, "it believes in an explanation"
+        again = self._ati.intend(history, held)
+        assert (again.action, again.believed) == (intention.action, intention.believed)
+        plans = [activity.plan for activity in history.activities]
+        assert len(plans) == len(set(plans)), "activities are unique (28)"
+        if intention.action.startswith("start(") and not explained.indices:
+            ati = self._ati.intend(history, smallest)
+            assert ati.action == "finish" or len(intention.plan) <= len(ati.plan)
+        return intention
+
+
+@pytest.mark.parametrize(
+    "wishes", [{2: Wish(0)}, {2: Wish(4)}, {1: Wish(5), 3: Wish(3)}, {3: Wish(1)}]
+)
+def test_its_explanations_are_as_small_as_those_of_ati(wishes: dict[int, Wish]) -> None:
+    initial = WORLD.state(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
+    life = live(IntentionalRobot(Compared), initial, ["loc(book2,library)"], wishes)
+    assert life.achieved
+
+
+def test_it_achieves_the_six_published_scenarios(tmp_path: Path) -> None:
+    config = load_config("quickstart", ["link=inprocess", "robots=[intentional-joint]"])
+    run_trials(config, tmp_path, 1, lambda _: None)
+    outcomes = {record.scenario: record.outcome for record in read_records(tmp_path)}
+    assert outcomes == dict.fromkeys("123456", "achieved")
+
+
+def test_of_all_explanations_the_one_with_the_shortest_plan_counts() -> None:
+    """Book2 is gone from the kitchen, to a room next to it or to the one beyond."""
+    history = History(step=3)
+    start = WORLD.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
+    history.observe(WORLD.literals(start), 0)
+    history.happened(f"select({GOAL})", True, 0)
+    history.activities.append(Activity(1, ("pickup(rob1,book2)",)))
+    for step, mental in ((1, "start(1)"), (2, "stop(1)")):
+        history.attempt(mental, step)
+        history.happened(mental, True, step)
+    history.observe(["-loc(book2,kitchen)"], 2)
+    goal = ("in_hand(rob1,book2)",)
+
+    def planned(room: str) -> int:
+        event = Event(step=1, action=f"exo_move(book2,{room})")
+        explained = Explained(Diagnosis(unobserved=(event,)), False, {})
+        return len(Logician(OFFICE, goal, 9).intend(history, explained).plan)
+
+    assert (planned("library"), planned("office2"), planned("office1")) == (2, 2, 3)
+    for room in ("office1", "office2", "library"):
+        event = Event(step=1, action=f"exo_move(book2,{room})")
+        first = Explained(Diagnosis(unobserved=(event,)), False, {})
+        intention = JointLogician(OFFICE, goal, 9).intend(history, first)
+        assert (intention.action, len(intention.plan)) == ("start(2)", 2)
+        assert intention.under is not None
+        assert intention.under.size == 1
