@@ -10,7 +10,7 @@ import clingo
 from asp.description import Description
 from asp.kept.control import KeptControl, State, goal_externals
 from asp.literals import arguments
-from asp.solving import fact
+from asp.solving import fact, is_satisfiable, solving
 
 _SHORTEST = clingo.Function("shortest")
 
@@ -58,8 +58,7 @@ class Planner:
         start = kept.assume_state(state, 0)
         if start is None:
             return None
-        with kept.control.solve(assumptions=start, yield_=True) as handle:
-            model = handle.model()
+        with solving(kept.control, start) as model:
             return None if model is None else self._read(kept, model, length)
 
     def reaches(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
@@ -71,7 +70,7 @@ class Planner:
         if start is None:
             return False
         assumptions = [*start, *(step for step in steps if step is not None)]
-        return None not in steps and kept.control.solve(assumptions=assumptions).satisfiable is True
+        return None not in steps and is_satisfiable(kept.control, assumptions)
 
     def _control(self, length: int) -> KeptControl:
         if length not in self._kept:
