@@ -10,7 +10,7 @@ import clingo
 from asp.description import Description
 from asp.kept.control import KeptControl, State, goal_externals
 from asp.literals import arguments
-from asp.solving import fact, is_satisfiable, solving, is_satisfiable, solving
+from asp.solving import fact, is_satisfiable, solving
 
 _SHORTEST = clingo.Function("shortest")
 
