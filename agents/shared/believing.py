@@ -13,7 +13,7 @@ from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.tools import tools_of
 from asp.kept.control import State
-from asp.kept.explanations import Record
+from asp.kept.explanations import Account, Assumed, Past, Record
 from asp.literals import atom, is_positive
 from testbed.link.messages import Event
 
@@ -44,11 +44,13 @@ class Believer:
         self._tools = tools_of(knowledge)
         self._actions = frozenset(knowledge.description.agent_actions)
         self._events = frozenset(knowledge.description.exogenous_actions)
+        self._inertial = knowledge.description.inertial
+        self._has_defaults = bool(knowledge.description.defaults)
         self._goal = goal
         self._since = since
         self._plain = plain
         self._belief: Belief | None = None
-        self._fewest = 0
+        self._fewest = (0, 0)
         self._late_news = 0
 
     @property
@@ -64,13 +66,14 @@ class Believer:
         """
         if history.late_news > self._late_news:
             self._late_news = history.late_news
-            self._belief, self._fewest = None, 0
+            self._belief, self._fewest = None, (0, 0)
             adopted = _without_reported(history, adopted)
         carried = self._carry(history, adopted)
         if carried is not None:
             self._belief = carried
             return adopted, True
-        return self._explain(history, adopted), False
+        diagnosis = self._explain(history, adopted)
+        return diagnosis, diagnosis == adopted
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
@@ -78,7 +81,7 @@ class Believer:
 
     def _carry(self, history: History, adopted: Diagnosis) -> Belief | None:
         """The belief at this step, if what is new agrees with the adopted explanation."""
-        belief: Belief | None = self._belief or self._first(history)
+        belief: Belief | None = self._belief or self._first(history, adopted)
         while belief is not None and self._agrees(history.at(belief.step), belief.state):
             if belief.step == history.step:
                 return belief
@@ -99,27 +102,55 @@ class Believer:
         return self._next(belief, after[0])
 
     def _explain(self, history: History, adopted: Diagnosis) -> Diagnosis:
-        """The smallest explanation of the whole history; the belief becomes what it implies."""
-        account = self._tools.explanations.smallest(
-            self._first(history).state,
-            self._goal,
-            {step: self._record(moment) for step, moment in history.moments.items()},
-            history.step,
-            fewest=self._fewest,
-            since=self._since,
-        )
+        """The explanation of the whole history; the belief becomes what it implies."""
+        explanations, past = self._tools.explanations, self._past(history)
+        unknown = self._unknown(history)
+        if unknown:
+            account = explanations.keeping(past, _assumed(adopted))
+            if account is not None:
+                return self._adopt(account, history, unknown)
+        account = explanations.smallest(past, self._fewest)
         if account is None:
             diagnosis = self._plain(history, adopted)
             self._belief = self._replay(history, diagnosis)
         else:
-            diagnosis = Diagnosis(_events(account.events), _events(account.distrusted))
-            self._belief = Belief(history.step, account.state, account.held)
-        self._fewest = diagnosis.size
+            diagnosis = self._adopt(account, history, unknown)
+        if _assumed(diagnosis) != _assumed(adopted):
+            self._fewest = (diagnosis.size, len(diagnosis.exceptions))
         return diagnosis
 
-    def _first(self, history: History) -> Belief:
-        """The belief at step 0, of which everything was observed."""
-        state = frozenset(f for f, truth in history.at(0).observed.items() if truth)
+    def _adopt(self, account: Account, history: History, unknown: Iterable[str]) -> Diagnosis:
+        """The account as an explanation; the belief becomes what it leads to."""
+        self._belief = Belief(history.step, account.state, account.held)
+        assumed = account.assumed
+        return Diagnosis(
+            _events(assumed.events),
+            _events(assumed.distrusted),
+            tuple(sorted(assumed.exceptions)),
+            tuple(sorted(f if f in account.initial else f"-{f}" for f in unknown)),
+        )
+
+    def _past(self, history: History) -> Past:
+        records = {step: self._record(moment) for step, moment in history.moments.items()}
+        return Past(self._goal, records, history.step, self._since)
+
+    def _unknown(self, history: History) -> list[str]:
+        """The inertial fluents of which nothing was observed at step 0."""
+        known = history.at(0).observed
+        return [fluent for fluent in self._inertial if fluent not in known]
+
+    def _first(self, history: History, adopted: Diagnosis) -> Belief | None:
+        """The belief at step 0, if the adopted explanation says how it began."""
+        if {atom(literal) for literal in adopted.initial} != set(self._unknown(history)):
+            return None
+        observed = self._record(history.at(0)).observed
+        state = frozenset(filter(is_positive, observed))
+        if adopted.initial or self._has_defaults:
+            records = {0: Record(observed=(*observed, *adopted.initial))}
+            began = self._tools.explanations.smallest(Past(self._goal, records, 0, 0))
+            if began is None or set(began.assumed.exceptions) != set(adopted.exceptions):
+                return None
+            state = began.initial
         return Belief(0, state, frozenset([0]) if self.holds(state) else frozenset())
 
     def _next(self, belief: Belief, state: State) -> Belief:
@@ -128,7 +159,8 @@ class Believer:
 
     def _replay(self, history: History, diagnosis: Diagnosis) -> Belief:
         """The belief at the history's step with this explanation of it."""
-        belief = self._first(history)
+        belief = self._first(history, diagnosis)
+        assert belief is not None, "an explanation says how it began"
         while belief.step < history.step:
             after = self._advance(belief, history, diagnosis)
             assert after is not None, "an explanation explains every step"
@@ -170,6 +202,15 @@ def _without_reported(history: History, adopted: Diagnosis) -> Diagnosis:
     """What is left to assume of an explanation where some of its events were reported since."""
     unobserved = (e for e in adopted.unobserved if not history.at(e.step).happened.get(e.action))
     return replace(adopted, unobserved=tuple(unobserved))
+
+
+def _assumed(diagnosis: Diagnosis) -> Assumed:
+    """An explanation without how it began."""
+    return Assumed(
+        tuple((event.step, event.action) for event in diagnosis.unobserved),
+        tuple((report.step, report.action) for report in diagnosis.distrusted),
+        diagnosis.exceptions,
+    )
 
 
 def _events(pairs: Iterable[tuple[int, str]]) -> tuple[Event, ...]:

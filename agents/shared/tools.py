@@ -29,7 +29,13 @@ def tools_of(knowledge: Knowledge) -> Tools:
         fluents = description.fluents
         _TOOLS[knowledge.program] = Tools(
             Transitions(program, fluents, ranks),
-            Explanations(program, fluents, description.exogenous_actions, ranks),
+            Explanations(
+                program,
+                fluents,
+                description.exogenous_actions,
+                [default.name for default in description.defaults],
+                (*ranks, *knowledge.start),
+            ),
             Plans(description.source, f"{description.name}.al"),
         )
     return _TOOLS[knowledge.program]

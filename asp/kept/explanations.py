@@ -1,4 +1,4 @@
-"""Smallest explanations of a history by exogenous actions that nobody reported."""
+"""Smallest explanations of a history: exceptions to defaults, events that nobody reported."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from clingo import Symbol
 
 from asp.kept.control import KeptControl, State, goal_externals
 from asp.literals import atom, is_positive
-from asp.solving import fact, solving
+from asp.preferring import preferring
+from asp.solving import fact, theory
 
 _FIRST_HORIZON = 16
 _MOST = 4
@@ -31,14 +32,33 @@ class Record:
 
 
 @dataclass(frozen=True)
-class Account:
-    """An explanation, the state it leads to, and the steps at which the goal held.
+class Past:
+    """What there is to explain: the records up to `step`, with a goal that some of them tell of.
 
-    `events` are unobserved, `distrusted` reports of what did not happen.
+    `since` is the first step at which an event may have occurred.
     """
 
-    events: tuple[tuple[int, str], ...]
-    distrusted: tuple[tuple[int, str], ...]
+    goal: tuple[str, ...]
+    records: Mapping[int, Record]
+    step: int
+    since: int
+
+
+@dataclass(frozen=True)
+class Assumed:
+    """An explanation: unobserved events, reports of what did not happen, defaults by name."""
+
+    events: tuple[tuple[int, str], ...] = ()
+    distrusted: tuple[tuple[int, str], ...] = ()
+    exceptions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Account:
+    """An explanation, the initial state, the state at the last step, when the goal held."""
+
+    assumed: Assumed
+    initial: State
     state: State
     held: frozenset[int]
 
@@ -51,42 +71,67 @@ class Explanations:
         program: str,
         fluents: Sequence[str],
         events: Sequence[str],
+        defaults: Sequence[str],
         ranks: Iterable[Symbol],
     ) -> None:
-        self._program = program
+        """`ranks` are the facts that `order.lp` and `defaults.lp` are given from outside."""
+        self._program = "\n".join([program, theory("defaults"), theory("order")])
         self._fluents = fluents
         self._events = events
+        self._defaults = defaults
         self._ranks = tuple(ranks)
         self._kept: KeptControl | None = None
         self._horizon = _FIRST_HORIZON
 
-    def smallest(
-        self,
-        initial: State,
-        goal: tuple[str, ...],
-        records: Mapping[int, Record],
-        step: int,
-        fewest: int,
-        since: int,
-    ) -> Account | None:
-        """The first of the smallest explanations of the records up to `step`.
+    def smallest(self, past: Past, fewest: tuple[int, int] = (0, 0)) -> Account | None:
+        """The first of the smallest explanations of the past.
 
-        `fewest` is a number of events below which there is none, `since` the first step at which
-        one may have occurred. None stands for "more than a
-        handful of events", which is left to the theory itself.
+        None has fewer events and distrusted reports than the first number of `fewest`, or as many
+        and fewer exceptions than the second. None stands for "more than a handful of events",
+        which is left to the theory itself.
         """
-        kept = self._reaching(step)
-        kept.switch_on(*goal_externals(goal), *_externals(records, since, step))
-        given = self._assume(kept, initial, records, step)
-        if given is None:
-            return None
-        for number in range(fewest, _MOST + 1):
-            more = kept.literal("count", step, number + 1) if number < _MOST else None
-            assumptions = given if more is None else [*given, -more]
-            with solving(kept.control, assumptions) as model:
-                if model is not None:
-                    return self._read(kept, model, step)
+        kept, given = self._given(past)
+        for events in range(fewest[0], _MOST + 1):
+            least = fewest[1] if events == fewest[0] else 0
+            for exceptions in range(least, len(self._defaults) + 1):
+                account = self._first(kept, given, past, events, exceptions)
+                if account is not None:
+                    return account
         return None
+
+    def keeping(self, past: Past, assumed: Assumed) -> Account | None:
+        """The first account with exactly this explanation; None: there is none, or it is long."""
+        kept, given = self._given(past)
+        events = [kept.literal("unobserved", name, step) for step, name in assumed.events]
+        events += [kept.literal("distrusted", name, step) for step, name in assumed.distrusted]
+        exceptions = [kept.literal("exception", name) for name in assumed.exceptions]
+        exactly = _assumptions((literal, True) for literal in (*events, *exceptions))
+        if given is None or exactly is None or len(events) > _MOST:
+            return None
+        return self._first(kept, given + exactly, past, len(events), len(exceptions))
+
+    def _given(self, past: Past) -> tuple[KeptControl, list[int] | None]:
+        """The control with the past's externals, and assumptions for everything observed."""
+        kept = self._reaching(past.step)
+        kept.switch_on(*goal_externals(past.goal), *_externals(past))
+        return kept, self._assume(kept, past)
+
+    def _first(
+        self,
+        kept: KeptControl,
+        given: list[int] | None,
+        past: Past,
+        events: int,
+        exceptions: int,
+    ) -> Account | None:
+        """The preferred explanation with at most so many events and exactly so many exceptions."""
+        more = kept.literal("count", past.step, events + 1) if events < _MOST else None
+        number = kept.literal("number_exceptions", exceptions)
+        if given is None or number is None:
+            return None
+        fewest = [number] if more is None else [number, -more]
+        with preferring(kept.control, [*given, *fewest]) as model:
+            return None if model is None else self._read(kept, model, past.step)
 
     def _reaching(self, step: int) -> KeptControl:
         while self._horizon < step:
@@ -103,14 +148,11 @@ class Explanations:
             )
         return self._kept
 
-    def _assume(
-        self, kept: KeptControl, initial: State, records: Mapping[int, Record], step: int
-    ) -> list[int] | None:
+    def _assume(self, kept: KeptControl, past: Past) -> list[int] | None:
         """Assumptions for everything observed; None where an atom that must be true cannot be."""
-        start = kept.assume_state(initial, 0)
         wanted: list[tuple[int | None, bool]] = []
-        for time, record in records.items():
-            if time > step:
+        for time, record in past.records.items():
+            if time > past.step:
                 continue
             wanted += (
                 (kept.holds(atom(literal), time), is_positive(literal))
@@ -118,12 +160,10 @@ class Explanations:
             )
             if record.goal is not None:
                 wanted.append((kept.literal("reached", time), record.goal))
-            if record.attempt is not None and time < step:
+            if record.attempt is not None and time < past.step:
                 action, happened = record.attempt
                 wanted.append((kept.literal("occurs", action, time), happened))
-        if start is None or any(lit is None and truth for lit, truth in wanted):
-            return None
-        return start + [lit if truth else -lit for lit, truth in wanted if lit is not None]
+        return _assumptions(wanted)
 
     def _read(self, kept: KeptControl, model: clingo.Model, step: int) -> Account:
         unobserved, distrusted = (
@@ -135,20 +175,32 @@ class Explanations:
             )
             for predicate in ("unobserved", "distrusted")
         )
+        exceptions = tuple(
+            name for name in self._defaults if _true(model, kept.literal("exception", name))
+        )
         held = frozenset(
             time for time in range(step + 1) if _true(model, kept.literal("reached", time))
         )
-        return Account(unobserved, distrusted, kept.state(model, step), held)
+        assumed = Assumed(unobserved, distrusted, exceptions)
+        return Account(assumed, kept.state(model, 0), kept.state(model, step), held)
 
 
-def _externals(records: Mapping[int, Record], since: int, step: int) -> list[Symbol]:
-    atoms = [fact("past", time) for time in range(since, step)]
-    for time, record in records.items():
-        if time < step:
+def _externals(past: Past) -> list[Symbol]:
+    atoms = [fact("past", time) for time in range(past.since, past.step)]
+    for time, record in past.records.items():
+        if time < past.step:
             atoms += (fact("reported", event, time) for event in record.reported)
             if record.attempt is not None:
                 atoms.append(fact("attempted", record.attempt[0], time))
     return atoms
+
+
+def _assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:
+    """Truth values of solver literals as assumptions; None where one cannot be true."""
+    known = list(wanted)
+    if any(literal is None and truth for literal, truth in known):
+        return None
+    return [lit if truth else -lit for lit, truth in known if lit is not None]
 
 
 def _true(model: clingo.Model, literal: int | None) -> bool:
