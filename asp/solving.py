@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
@@ -115,10 +115,12 @@ def is_satisfiable(
         return model is not None
 
 
-def models(
-    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int] = ()
-) -> Iterator[clingo.Model]:
-    """All models, one for each set of shown atoms; each is to be read before the next.
+def answer_sets(
+    control: clingo.Control,
+    assumptions: Sequence[Assumption] | Sequence[int] = (),
+    most: int | None = None,
+) -> tuple[list[tuple[Symbol, ...]], bool]:
+    """The shown symbols of the answer sets, each once, and whether there are more than `most`.
 
     Raises TimeLimitError.
     """
@@ -127,13 +129,27 @@ def models(
     before = settings.models, settings.project
     settings.models, settings.project = "0", "show"
     try:
+        with control.solve(assumptions=assumptions, yield_=True) as handle:
+            found, more = _collect(handle, most, lambda: None)
+            if more or not handle.get().unknown:
+                return found, more
         with _in_background(control, assumptions) as handle:
-            while (model := handle.model()) is not None:
-                yield model
-                handle.resume()
-                _wait(handle)
+            return _collect(handle, most, lambda: _wait(handle))
     finally:
         settings.models, settings.project = before
+
+
+def _collect(
+    handle: clingo.SolveHandle, most: int | None, wait: Callable[[], None]
+) -> tuple[list[tuple[Symbol, ...]], bool]:
+    found: list[tuple[Symbol, ...]] = []
+    while (model := handle.model()) is not None:
+        if len(found) == most:
+            return found, True
+        found.append(tuple(model.symbols(shown=True)))
+        handle.resume()
+        wait()
+    return found, False
 
 
 def core(

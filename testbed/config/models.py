@@ -77,11 +77,15 @@ class ScriptEntry(Section):
 
 
 class Limits(Section):
-    """Bounds of a trial: environment steps, length of a plan, seconds for an answer."""
+    """Bounds of a trial: environment steps, length of a plan, seconds for an answer.
+
+    `decision_s` are seconds of reasoning, after which a robot waits for a step; None: no limit.
+    """
 
     steps: Count = 100
     plan: Count = 30
     answer_s: Annotated[float, Field(strict=True, gt=0.0)] = 60.0
+    decision_s: Annotated[float, Field(strict=True, gt=0.0)] | None = None
 
 
 class AdversarySettings(Section):

@@ -37,6 +37,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True):
     rate: float | None
     step_limit: int
     plan_limit: int
+    decision_s: float | None
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -121,6 +122,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         rate=config.adversary.rate,
         step_limit=config.limits.steps,
         plan_limit=config.limits.plan,
+        decision_s=config.limits.decision_s,
     )
 
 

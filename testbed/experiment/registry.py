@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 from agents.intentional import IntentionalRobot
+from agents.intentional.checking import CheckingRobot
 from agents.intentional.joint import JointLogician
 from agents.intentional.logician import Logician
 from agents.traditional import TraditionalRobot
@@ -17,6 +18,7 @@ ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "intentional": IntentionalRobot,
     "intentional-plain": partial(IntentionalRobot, Logician),
     "intentional-joint": partial(IntentionalRobot, JointLogician),
+    "intentional-checking": CheckingRobot,
     "traditional": TraditionalRobot,
     "traditional-plain": partial(TraditionalRobot, Planner),
 }

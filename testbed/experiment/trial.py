@@ -20,7 +20,7 @@ from testbed.experiment.oracle import minimal_actions
 from testbed.experiment.plan import TrialSpec
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import Recorder
-from testbed.link.errors import RobotLost
+from testbed.link.errors import RobotLost, RobotStopped
 from testbed.link.messages import Decision, Percept, Task
 from testbed.link.robot import RobotClient
 
@@ -58,6 +58,8 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
     details: str | None = None
     try:
         _play(spec, client, recorder, watch)
+    except RobotStopped as stop:
+        recorder.fail("error", stop.reason)
     except RobotLost as loss:
         recorder.fail("robot_lost", loss.reason)
         details = loss.details or None
@@ -152,6 +154,7 @@ def _task(spec: TrialSpec, world: World, state: int, seed: int) -> Task:
         initial=list(world.literals(state)),
         plan_limit=spec.setting.plan_limit,
         seed=seed,
+        decision_s=spec.setting.decision_s,
     )
 
 

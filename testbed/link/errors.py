@@ -18,5 +18,13 @@ class RobotLost(Exception):  # noqa: N818 - an outcome of a trial, by the name r
         self.details = details
 
 
+class RobotStops(Exception):  # noqa: N818 - what a robot does, not what went wrong with it
+    """A robot's own reason, in one line, not to go on with a trial; it can begin another one."""
+
+
+class RobotStopped(RobotLost):
+    """The robot did not want to go on with the trial, for its ``reason``; it is not lost itself."""
+
+
 class RobotGone(RobotLost):
     """The robot is not there any more, or was never there."""

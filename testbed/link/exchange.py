@@ -5,8 +5,8 @@ driver's side (:func:`read_decision`) accepts nothing but the decision it asked 
 and over zenoh both are the same.
 """
 
-from testbed.link.errors import LinkError, RobotLost
-from testbed.link.messages import Decision, Percept, Question, Task, decode, encode
+from testbed.link.errors import LinkError, RobotLost, RobotStopped, RobotStops
+from testbed.link.messages import Decision, Percept, Question, Task, Trace, decode, encode
 from testbed.link.robot import Robot, RobotFactory
 
 
@@ -27,7 +27,12 @@ class Desk:
         question = decode(payload, Question)
         if question.task is not None:
             self._begin(question.task)
-        return encode(self._robot_of(question.percept).act(question.percept))
+        percept = question.percept
+        robot = self._robot_of(percept)
+        try:
+            return encode(robot.act(percept))
+        except RobotStops as reason:
+            return encode(_stopped(percept, str(reason)))
 
     def _begin(self, task: Task) -> None:
         self._trial, self._robot = task.trial, None
@@ -44,7 +49,8 @@ class Desk:
 def read_decision(payload: bytes, percept: Percept) -> Decision:
     """Return the decision in an answer to ``percept``.
 
-    Raises RobotLost when it is not understood, or belongs to another trial or step.
+    Raises RobotLost when it is not understood, or belongs to another trial or step, and
+    RobotStopped when the robot does not go on.
     """
     try:
         decision = decode(payload, Decision)
@@ -53,6 +59,8 @@ def read_decision(payload: bytes, percept: Percept) -> Decision:
     given, asked = (decision.trial, decision.step), (percept.trial, percept.step)
     if given != asked:
         raise RobotLost(f"answer is for {_place(*given)}, the question was for {_place(*asked)}")
+    if decision.stopped is not None:
+        raise RobotStopped(decision.stopped)
     return decision
 
 
@@ -64,6 +72,17 @@ def in_one_line(error: Exception) -> str:
 def failed(text: str) -> RobotLost:
     """Return the loss of a robot that raised an exception with this text."""
     return RobotLost(f"robot failed: {text}")
+
+
+def _stopped(percept: Percept, reason: str) -> Decision:
+    return Decision(
+        trial=percept.trial,
+        step=percept.step,
+        action="finish",
+        believes_goal=False,
+        trace=Trace(),
+        stopped=reason,
+    )
 
 
 def _place(trial: str, step: int) -> str:

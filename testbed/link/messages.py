@@ -30,7 +30,8 @@ class Task(Part, frozen=True, kw_only=True):
 
     ``domain`` and ``source`` are the name and the AL_d text of the domain, ``goal`` a list of
     literals, ``initial`` every literal the robot knows to hold at step 0, ``plan_limit`` the
-    greatest number of actions in a plan.
+    greatest number of actions in a plan, ``decision_s`` the seconds that a decision may take, None
+    if it may take any time.
     """
 
     trial: str
@@ -41,6 +42,7 @@ class Task(Part, frozen=True, kw_only=True):
     initial: list[str]
     plan_limit: int
     seed: int
+    decision_s: float | None = None
 
 
 class Event(Part, frozen=True, kw_only=True):
@@ -111,13 +113,17 @@ class Trace(Part, frozen=True, kw_only=True):
 
 
 class Decision(Message, frozen=True, kw_only=True):
-    """The robot's answer at a step: a ground physical action, ``"wait"`` or ``"finish"``."""
+    """The robot's answer at a step: a ground physical action, ``"wait"`` or ``"finish"``.
+
+    ``stopped`` is the reason, in one line, of a robot that cannot go on: the trial is over then.
+    """
 
     trial: str
     step: int
     action: str
     believes_goal: bool
     trace: Trace
+    stopped: str | None = None
 
 
 class _Envelope(msgspec.Struct):

@@ -6,7 +6,7 @@ from itertools import count
 
 import zenoh
 
-from testbed.link.errors import RobotGone, RobotLost
+from testbed.link.errors import RobotGone, RobotLost, RobotStopped
 from testbed.link.messages import Decision, Percept, Task
 from testbed.link.process import COMMAND, RobotProcess
 from testbed.link.remote import RemoteRobot
@@ -77,6 +77,8 @@ class SpawnedRobot:
     def _ending_on_loss(self) -> Iterator[None]:
         try:
             yield
+        except RobotStopped:
+            raise
         except RobotLost as loss:
             post_mortem = self._post_mortem(loss)
             self.close()

@@ -1,0 +1,118 @@
+"""Goals that no plan of any length achieves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+
+import clingo
+from clingo import Symbol
+
+from asp.description import Causal, Constraint, Description
+from asp.kept.control import KeptControl, State
+from asp.literals import atom, is_positive
+from asp.solving import answer_sets, fact, ground, is_satisfiable, symbol, theory
+
+_MOST_STATES = 2_000
+_REMEMBERED = 1_000
+
+
+class Reach:
+    """Proves that a goal is out of reach of the agent's own actions, where it can.
+
+    It is if no state satisfies it, or if one of its literals can never become true even where laws
+    ask for no more than each condition by itself, or if every state that can be reached has been
+    looked at. Of a state with more than some thousand of those nothing is said.
+    """
+
+    def __init__(self, description: Description, program: str) -> None:
+        self._fluents = description.fluents
+        self._laws = list(_laws(description))
+        self._program = program
+        self._kept: KeptControl | None = None
+        self._all_from = lru_cache(maxsize=16)(self._explore)
+        self.out_of_reach = lru_cache(maxsize=_REMEMBERED)(self._out_of_reach)
+
+    def _out_of_reach(self, state: State, goal: tuple[str, ...]) -> bool:
+        """Whether it is proved that no plan leads from the state to the goal.
+
+        Raises TimeLimitError.
+        """
+        return self._contradictory(goal) or self._relaxed(state, goal) or self._looked(state, goal)
+
+    def _contradictory(self, goal: tuple[str, ...]) -> bool:
+        literals = [
+            (self._control.holds(atom(literal), 0), is_positive(literal)) for literal in goal
+        ]
+        if any(number is None and truth for number, truth in literals):
+            return True
+        assumed = [number if truth else -number for number, truth in literals if number is not None]
+        return not is_satisfiable(self._control.control, assumed)
+
+    def _relaxed(self, state: State, goal: tuple[str, ...]) -> bool:
+        facts = [fact("wanted", _term(literal)) for literal in goal]
+        facts += (
+            fact("initially", _term(fluent if fluent in state else f"-{fluent}"))
+            for fluent in self._fluents
+        )
+        found, _ = answer_sets(ground([theory("reach")], {}, [*self._laws, *facts]), most=1)
+        return any(shown for shown in found)
+
+    def _looked(self, state: State, goal: tuple[str, ...]) -> bool:
+        states = self._all_from(state)
+        return states is not None and not any(
+            all((atom(literal) in other) == is_positive(literal) for literal in goal)
+            for other in states
+        )
+
+    def _explore(self, state: State) -> frozenset[State] | None:
+        """Every state that can be reached; None where these are too many."""
+        found, left = {state}, [state]
+        while left:
+            new = self._successors(left.pop()) - found
+            found |= new
+            left += new
+            if len(found) > _MOST_STATES:
+                return None
+        return frozenset(found)
+
+    def _successors(self, state: State) -> set[State]:
+        assumptions = self._control.assume_state(state, 0)
+        if assumptions is None:
+            return set()
+        found, _ = answer_sets(self._control.control, assumptions)
+        return {frozenset(str(shown.arguments[0]) for shown in answer) for answer in found}
+
+    @property
+    def _control(self) -> KeptControl:
+        if self._kept is None:
+            self._kept = KeptControl(self._program, "kept_successors", self._fluents, (), n=1)
+        return self._kept
+
+
+def _laws(description: Description) -> Iterator[Symbol]:
+    for fluent in description.fluents:
+        yield fact("fluent", fluent)
+    for fluent in description.defined:
+        yield fact("defined", fluent)
+    laws: list[Causal | Constraint] = [*description.causal, *description.constraints]
+    for number, law in enumerate(laws):
+        yield fact("law", number, _term(law.head))
+        yield from _conditions("needs", number, law.body)
+    own = frozenset(description.agent_actions)
+    for number, causal in enumerate(description.causal):
+        # What others do is no part of a plan: their laws have an action that cannot occur.
+        yield fact("causes", causal.action if causal.action in own else "nobody", number)
+    yield fact("hinders", -1, "nobody")
+    for number, condition in enumerate(description.executability):
+        for action in condition.actions if len(condition.actions) == 1 else ():
+            yield fact("hinders", number, action)
+            yield from _conditions("while", number, condition.body)
+
+
+def _conditions(predicate: str, number: int, body: Iterable[str]) -> Iterator[Symbol]:
+    return (fact(predicate, number, _term(literal)) for literal in body)
+
+
+def _term(literal: str) -> Symbol:
+    return clingo.Function("yes" if is_positive(literal) else "no", [symbol(atom(literal))])
