@@ -37,10 +37,16 @@ class Wish:
 
 @dataclass(frozen=True)
 class Life:
-    """How a trial ended: the decisions, and whether the goal truly holds."""
+    """How a trial went: the decisions, whether the goal holds in the end, states from step 1."""
 
     decisions: Sequence[Decision]
     achieved: bool
+    states: Sequence[int]
+
+    @property
+    def finished(self) -> bool:
+        """Whether the robot ended it, rather than the limit of steps."""
+        return self.decisions[-1].action == "finish"
 
 
 def live(
@@ -49,8 +55,10 @@ def live(
     goal: Sequence[str] = BOTH_IN_THE_LIBRARY,
     wishes: Mapping[int, Wish] | None = None,
     steps: int = 40,
+    feedback: bool = True,
 ) -> Life:
-    """Plays a trial in the state `initial`, with goal feedback, for at most so many steps."""
+    """Plays a trial in the state `initial`, with or without goal feedback, for so many steps."""
+    states = [initial]
     state, decisions, news = initial, list[Decision](), list[tuple[int, Event]]()
     robot.begin(_task(initial, goal))
     percept = _percept(state, 1)
@@ -59,14 +67,16 @@ def live(
         decisions.append(decision)
         if decision.action == "finish":
             done = WORLD.satisfies(state, goal)
-            if done or [d.action for d in decisions[-2:]] == ["finish", "finish"]:
-                return Life(decisions, done)
+            if done or not feedback or [d.action for d in decisions[-2:]] == ["finish", "finish"]:
+                return Life(decisions, done, states)
             percept = _percept(state, percept.step + 1, _due(news, percept.step), goal_holds=False)
+            states.append(state)
             continue
         attempt = None if decision.action == "wait" else decision.action
         wish = (wishes or {}).get(percept.step)
         state, percept = _advance(state, percept.step, attempt, wish, news)
-    return Life(decisions, WORLD.satisfies(state, goal))
+        states.append(state)
+    return Life(decisions, WORLD.satisfies(state, goal), states)
 
 
 def _advance(

@@ -1,0 +1,108 @@
+"""A robot that goes and looks at what it only assumes before it finishes.
+
+Where explanations are equally small a goal may hold by assumption alone, and finishing would be a
+guess. This robot pursues a stronger goal: that its goal holds, and that it is sure of it. It is
+sure of a literal that it has seen to be true, or was told of at the start, for as long as it
+believes that it has not changed since. Being sure is a fluent of the robot's own, with state
+constraints that follow from the domain's `sees` statements; diagnosis and planning are ATI's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+
+import msgspec
+
+from agents.intentional.controller import IntentionalRobot
+from agents.shared.knowledge import knowledge
+from asp.description import Description, Literals
+from asp.literals import atom, complement
+from testbed.link.messages import Decision, Percept, Task
+from testbed.link.robot import Robot
+
+
+class CheckingRobot:
+    """Plays a task as another robot plays the task of being sure (`to_be_sure`)."""
+
+    def __init__(self, robot: Robot | None = None) -> None:
+        self._robot = robot or IntentionalRobot()
+
+    def begin(self, task: Task) -> None:
+        """Takes the task on, with what the robot has to be sure of added to its goal."""
+        self._fluents = frozenset(knowledge(task.domain, task.source).description.fluents)
+        self._robot.begin(to_be_sure(task))
+
+    def act(self, percept: Percept) -> Decision:
+        """One round of the loop. Raises InconsistentHistoryError."""
+        decision = self._robot.act(percept)
+        # What it is sure of is no fluent of the domain.
+        belief = [fluent for fluent in decision.trace.belief if fluent in self._fluents]
+        return msgspec.structs.replace(
+            decision, trace=msgspec.structs.replace(decision.trace, belief=belief)
+        )
+
+
+def to_be_sure(task: Task) -> Task:
+    """The task of achieving the goal and being sure of it.
+
+    A literal that no `sees` statement ever shows cannot be checked, and is left as it is.
+    """
+    description = knowledge(task.domain, task.source).description
+    prefix = _free_prefix(task.source)
+    names, laws = dict[str, str](), list[str]()
+    for number, literal in enumerate(dict.fromkeys(task.goal), start=1):
+        views = list(_views(description, literal))
+        if views:
+            name = names[literal] = f"{prefix}{number}"
+            laws += (f"{name} if {', '.join(view)}." for view in views)
+            laws.append(f"-{name} if {complement(literal)}.")
+    if not names:
+        return task
+    fluents = [f"inertial {name}." for name in names.values()]
+    known = frozenset(task.initial)
+    sure = [name for literal, name in names.items() if literal in known]
+    unsure = [f"-{name}" for literal, name in names.items() if complement(literal) in known]
+    return msgspec.structs.replace(
+        task,
+        source="\n".join([task.source, "fluents", *fluents, "laws", *laws, ""]),
+        goal=[*task.goal, *names.values()],
+        initial=[*task.initial, *sure, *unsure],
+    )
+
+
+def _views(description: Description, literal: str) -> Iterator[Literals]:
+    """Conditions under which the robot sees that a literal is true.
+
+    It sees the literal itself, or all conditions of a state constraint from which it follows: a
+    book that is seen in one room is seen not to be in another.
+    """
+    for condition in _sights(description, literal):
+        yield _together(literal, condition)
+    for law in description.constraints:
+        if law.head == literal and law.body:
+            for conditions in product(*(_sights(description, part) for part in law.body)):
+                yield _together(*law.body, *(part for each in conditions for part in each))
+
+
+def _sights(description: Description, literal: str) -> list[Literals]:
+    """Conditions under which the robot sees whether a literal is true."""
+    robot = description.robots[0]
+    return [
+        statement.body
+        for statement in description.sees
+        if (statement.robot, statement.fluent) == (robot, atom(literal))
+    ]
+
+
+def _together(*literals: str | Literals) -> Literals:
+    parts = ((part,) if isinstance(part, str) else part for part in literals)
+    return tuple(dict.fromkeys(literal for part in parts for literal in part))
+
+
+def _free_prefix(source: str) -> str:
+    """The beginning of names that do not occur in the source."""
+    prefix = "sure_"
+    while prefix in source:
+        prefix = f"very_{prefix}"
+    return prefix
