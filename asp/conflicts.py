@@ -27,8 +27,10 @@ def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...
 
 def cannot_hold(observations: tuple[str, ...]) -> str:
     """One sentence about a conflict."""
-    if len(observations) < 2:
-        return f"{' '.join(observations)} cannot hold"
+    if not observations:
+        return "whatever is observed, the domain has no initial state"
+    if len(observations) == 1:
+        return f"{observations[0]} cannot hold"
     together = "both" if len(observations) == 2 else "all"
     return f"{', '.join(observations[:-1])} and {observations[-1]} cannot {together} hold"
 

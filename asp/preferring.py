@@ -18,6 +18,9 @@ def preferring(
 
     Raises TimeLimitError.
     """
+    if control.is_conflicting:  # grounding alone found that there is none
+        yield None
+        return
     fixed = list(assumptions)
     groups = _groups(control)
     for group in groups[:-1]:

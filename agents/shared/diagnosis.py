@@ -9,8 +9,10 @@ import clingo
 from clingo import Symbol
 
 from agents.shared.history import Diagnosis, History
+from asp.conflicts import cannot_hold, conflict
 from asp.preferring import preferring
 from asp.solving import fact, ground, select, theory
+from testbed.link.errors import RobotStops
 from testbed.link.messages import Event
 
 _KEEP = clingo.Function("keep")
@@ -18,7 +20,7 @@ _KEEP_INITIAL = clingo.Function("keep_initial")
 _FIRST_TRY = 4
 
 
-class InconsistentHistoryError(RuntimeError):
+class InconsistentHistoryError(RobotStops):
     """No exceptions to defaults and no exogenous actions explain what was observed."""
 
 
@@ -38,7 +40,7 @@ def diagnose(
     history: History,
     adopted: Diagnosis,
 ) -> Explained:
-    """Explains the history up to its step; `texts` are the theories besides diagnosis itself.
+    """Explains the history up to its step; `texts` are the domain, and theories besides diagnosis.
 
     The adopted diagnosis is kept if it still explains everything, at least its events and
     exceptions; else the first one, in the stated order, with the fewest unobserved events and then
@@ -51,6 +53,9 @@ def diagnose(
         explained = _kept(control) or _smallest(control)
         if explained is not None:
             return explained
+        found = conflict(programs[0], given, history.step)
+        if found is not None:
+            raise InconsistentHistoryError(f"inconsistent history: {cannot_hold(found)}")
     raise InconsistentHistoryError(f"nothing explains the observations up to step {history.step}")
 
 

@@ -1,0 +1,75 @@
+"""A history that nothing explains: the robot says which observations cannot all hold."""
+
+from __future__ import annotations
+
+import pytest
+
+from agents.shared.diagnosis import InconsistentHistoryError
+from agents.shared.history import History
+from agents.shared.knowledge import goal_facts
+from asp.conflicts import cannot_hold, conflict
+from tests.agents.intentional.test_reports import CART, Make, Mind, both
+
+
+@both
+def test_a_gate_that_nobody_can_have_opened(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(seen=["shut", "at(left)"])
+    mind.next(seen=["shut", "at(left)"])
+    with pytest.raises(InconsistentHistoryError) as error:
+        mind.next(seen=["-shut", "at(left)"])
+    assert str(error.value) == (
+        "inconsistent history: obs(shut) at 3 and obs(-shut) at 4 cannot both hold"
+    )
+
+
+@both
+def test_the_result_of_an_attempt_may_belong_to_the_conflict(reasoner: Make) -> None:
+    """Nothing opens the gate, and the robot, on the right, was told that it went there."""
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(seen=["shut"])
+    mind.history.attempt("go(right)", 2)
+    mind.history.happened("go(right)", True, 2)
+    with pytest.raises(
+        InconsistentHistoryError, match=r"hpd\(go\(right\)\) at 2 and obs\(shut\) at 2"
+    ):
+        mind.next()
+
+
+def test_an_attempt_that_cannot_have_succeeded_is_a_conflict_with_the_start() -> None:
+    history = History()
+    history.observe(["at(left)", "-at(right)", "-shut", "-lit"], 0)
+    history.attempt("open", 1)
+    history.happened("open", True, 1)
+    history.attempt("open", 2)
+    history.happened("open", False, 2)
+    history.step = 3
+    facts = [*history.facts(), *goal_facts(["lit"])]
+    # What is open already cannot be opened.
+    assert conflict(CART.program, facts, 3) is None
+    history.observe(["shut"], 2)
+    facts = [*history.facts(), *goal_facts(["lit"])]
+    assert conflict(CART.program, facts, 3) == ("hpd(-open) at 2", "obs(shut) at 2")
+
+
+def test_what_is_told_of_the_goal_may_belong_to_the_conflict() -> None:
+    history = History()
+    history.observe(["my_goal"], 2)
+    history.observe(["-lit"], 2)
+    history.step = 2
+    facts = [*history.facts(), *goal_facts(["lit"])]
+    assert conflict(CART.program, facts, 2) == ("obs(-lit) at 2", "obs(my_goal) at 2")
+
+
+@pytest.mark.parametrize(
+    ("observations", "sentence"),
+    [
+        (("a",), "a cannot hold"),
+        (("a", "b"), "a and b cannot both hold"),
+        (("a", "b", "c"), "a, b and c cannot all hold"),
+    ],
+)
+def test_a_conflict_in_words(observations: tuple[str, ...], sentence: str) -> None:
+    assert cannot_hold(observations) == sentence
