@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import lru_cache
 from pathlib import Path
 
 from asp.grounding import ground_description
@@ -14,8 +13,6 @@ from asp.literals import arguments, ground, is_positive, name
 from asp.loading import analyse
 from asp.restriction import narrowed, restrict, without_exogenous
 from asp.translation import translate_source
-
-_REMEMBERED = 20_000
 
 
 class Plans:
@@ -33,10 +30,8 @@ class Plans:
         description = ground_description(self._source, self._signature, self._name)
         self._independence = Independence(description, self._source, self._signature)
         self._planners: dict[frozenset[str], Planner] = {}
-        self.shortest = lru_cache(maxsize=_REMEMBERED)(self._shortest)
-        self.succeeds = lru_cache(maxsize=_REMEMBERED)(self._succeeds)
 
-    def _shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
+    def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None."""
         view = _View(self._independence, state, goal)
         planner = self._planner(view.dropped)
@@ -47,13 +42,14 @@ class Plans:
                 return view.back(plan)
         return None
 
-    def _succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
+    def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         view = _View(self._independence, state, (*goal, *plan))
         planner = self._planner(view.dropped)
         goal, plan = view.seen(goal), view.seen(plan)
+        # Most plans reach their goal with the last action, so that the longest part comes first.
         return any(
-            planner.reaches(view.state, goal, plan[:length]) for length in range(1, len(plan) + 1)
+            planner.reaches(view.state, goal, plan[:length]) for length in range(len(plan), 0, -1)
         )
 
     def _planner(self, dropped: frozenset[str]) -> Planner:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import lru_cache
 
 from clingo import Symbol
 
 from asp.kept.control import KeptControl, State
 from asp.solving import fact, solving
-
-_REMEMBERED = 50_000
 
 
 class Transitions:
@@ -18,9 +15,8 @@ class Transitions:
 
     def __init__(self, program: str, fluents: Sequence[str], ranks: Iterable[Symbol]) -> None:
         self._kept = KeptControl(program, "kept_transition", fluents, ranks, n=1)
-        self.after = lru_cache(maxsize=_REMEMBERED)(self._after)
 
-    def _after(
+    def after(
         self, state: State, attempt: str | None, reported: tuple[str, ...]
     ) -> tuple[State, bool] | None:
         """The next state, and whether the attempt took effect; None where nothing fits.
