@@ -20,13 +20,21 @@ def check(source: syntax.Source, signature: Signature, problems: Problems) -> No
         for use in roles.uses(statement):
             _check_use(use, signature, problems)
         _check_form(statement, signature, problems)
-        if len(problems) > found:
+        if len(problems) > found or _uses_unknown_sort(statement, signature):
             faulty.add(statement)
     _check_defaults(source, problems)
     for statement in source.statements:
         default = getattr(statement, "of", statement)
         if statement not in faulty and default not in faulty:
             _check_variables(statement, signature, problems)
+
+
+def _uses_unknown_sort(statement: syntax.Statement, signature: Signature) -> bool:
+    """Whether an atom's declaration is in error, so that no more can be said of its places."""
+    names = {use.atom.name for use in roles.uses(statement)} & signature.symbols.keys()
+    return any(
+        sort.name not in signature.sorts for name in names for sort in signature.symbols[name].sorts
+    )
 
 
 def _check_defaults(source: syntax.Source, problems: Problems) -> None:

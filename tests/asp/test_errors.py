@@ -87,3 +87,20 @@ def test_the_cycles_of_a_text_are_all_told() -> None:
 def test_an_unknown_domain_is_told_with_the_known_ones() -> None:
     with pytest.raises(FileNotFoundError, match=r"offce: no such domain.*office"):
         load_description("offce")
+
+
+USES_OF_A_FAULTY_DECLARATION = {
+    "in laws": "laws\n  blow causes -shut(R) if shut(R).\n  impossible blow if -shut(R), R != hall.",
+    "in a default": "defaults\n  d: shut(R) if shut(Q).\n  exception d if lit, R != hall.",
+    "where it is seen and shown": "sees\n  R sees shut(R).\nshows\n  carry(T, R) shows shut(R).",
+    "at first and when an event fires": (
+        "initially\n  shut(R) for some R.\nscenarios\n  2: blow upon any drawing R with shut(R)."
+    ),
+}
+
+
+@pytest.mark.parametrize("uses", USES_OF_A_FAULTY_DECLARATION.values())
+def test_a_misspelt_sort_is_told_once_however_its_fluent_is_used(uses: str) -> None:
+    text = f"fluents\n  inertial shut(rom).\n{uses}\n"
+    found = [str(mistake) for mistake in mistakes_in(text)]
+    assert found == ["house.al:17:17: unknown sort 'rom'; did you mean 'room'?"]
