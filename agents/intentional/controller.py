@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Protocol
@@ -13,6 +12,7 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.relevance import goal_fluents, relevant_literals
+from asp.kept.clock import reasoning_clock
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
@@ -41,7 +41,7 @@ class IntentionalRobot:
     def begin(self, task: Task) -> None:
         """Selects the task's goal at step 0, where it knows `task.initial`."""
         self._task = task
-        domain = knowledge(task.domain, task.source)
+        self._domain = domain = knowledge(task.domain, task.source)
         self._description = domain.description
         self._goal_fluents = goal_fluents(domain.description, task.goal)
         self._logician = self._reasoner(domain, tuple(task.goal), task.plan_limit)
@@ -54,11 +54,11 @@ class IntentionalRobot:
     def act(self, percept: Percept) -> Decision:
         """One round of the loop. Raises InconsistentHistoryError."""
         self._observe(percept)
-        began = time.perf_counter()
+        began = reasoning_clock()
         explained = self._logician.diagnose(self._history, self._diagnosis)
-        diagnosed = time.perf_counter()
+        diagnosed = reasoning_clock()
         intention = self._logician.intend(self._history, explained)
-        planned = time.perf_counter()
+        planned = reasoning_clock()
         if intention.under is not None:
             kept = intention.under == self._diagnosis
             explained = replace(explained, diagnosis=intention.under, kept=kept)
@@ -110,13 +110,16 @@ class IntentionalRobot:
             activity=max(explained.indices, default=None),
             plan=list(intention.plan),
             belief=sorted(intention.believed - {GOAL}),
-            explanation=None if explained.kept else _explanation(explained.diagnosis, step),
+            explanation=None if explained.kept else self._explanation(explained.diagnosis),
             futile_at=step if intention.action.startswith("stop(") else None,
             plans=len(self._history.activities),
             planning_time_s=planning_s,
             diagnosis_time_s=diagnosis_s,
         )
 
-
-def _explanation(diagnosis: Diagnosis, step: int) -> Explanation:
-    return Explanation(step=step, unobserved=list(diagnosis.unobserved), exceptions=[])
+    def _explanation(self, diagnosis: Diagnosis) -> Explanation:
+        return Explanation(
+            step=self._history.step,
+            unobserved=list(diagnosis.unobserved),
+            exceptions=self._domain.against(diagnosis.exceptions),
+        )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Protocol
 
@@ -12,6 +11,7 @@ from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.relevance import outcome_literals
 from agents.traditional.kept import KeptPlanner
 from agents.traditional.planner import Plan
+from asp.kept.clock import reasoning_clock
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
 
@@ -40,7 +40,7 @@ class TraditionalRobot:
 
     def begin(self, task: Task) -> None:
         """Takes the task on; the first plan is made with the first percept."""
-        domain = knowledge(task.domain, task.source)
+        self._domain = domain = knowledge(task.domain, task.source)
         self._description = domain.description
         self._reasoner = self._make_reasoner(domain, tuple(task.goal), task.plan_limit)
         self._history = History()
@@ -52,15 +52,16 @@ class TraditionalRobot:
     def act(self, percept: Percept) -> Decision:
         """The next action of the plan. Raises InconsistentHistoryError."""
         self._observe(percept)
-        began = time.perf_counter()
+        began = reasoning_clock()
         explained = self._reasoner.diagnose(self._history, self._diagnosis)
-        diagnosed = time.perf_counter()
-        plan, planned = self._plan, self._plan is None or not explained.kept
+        diagnosed = reasoning_clock()
+        failed = percept.happened is False
+        plan, planned = self._plan, self._plan is None or failed or not explained.kept
         if plan is None or planned:
             plan = self._reasoner.plan(self._history, explained.diagnosis)
         self._diagnosis = explained.diagnosis
         self._plans += planned and bool(plan.actions)
-        ended = time.perf_counter()
+        ended = reasoning_clock()
         action = plan.actions[0] if plan.actions else "finish"
         if plan.actions:
             self._history.attempt(action, percept.step)
@@ -94,4 +95,7 @@ class TraditionalRobot:
         history.observe(outcome, percept.step)
 
     def _explanation(self, step: int) -> Explanation:
-        return Explanation(step=step, unobserved=list(self._diagnosis.unobserved), exceptions=[])
+        exceptions = self._domain.against(self._diagnosis.exceptions)
+        return Explanation(
+            step=step, unobserved=list(self._diagnosis.unobserved), exceptions=exceptions
+        )

@@ -13,6 +13,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 Mode = Literal["never", "colocated", "always"]
 LinkKind = Literal["zenoh", "inprocess"]
+KnowledgeKind = Literal["complete", "seen"]
 
 
 def _tidy(text: object) -> object:
@@ -108,7 +109,8 @@ class ExperimentConfig(Section):
     """A whole experiment: which trials, in which domain, under which rules.
 
     `initial` absent means every state that the domain's `initially` allows. A `script` replaces
-    the scenario's triggers; an empty one means that nothing exogenous happens.
+    the scenario's triggers; an empty one means that nothing exogenous happens. `knowledge` is what
+    robots know of the initial state: all of it, or only what they see.
     """
 
     name: Annotated[Name, Field(pattern=r"^[A-Za-z0-9][\w.-]*$", examples=["name: quickstart"])]
@@ -123,6 +125,7 @@ class ExperimentConfig(Section):
     robots: Annotated[tuple[Name, ...], Field(min_length=1)] = ("intentional", "traditional")
     limit: Count | None = None
     link: LinkKind = "zenoh"
+    knowledge: KnowledgeKind = "complete"
     observability: dict[str, Observability] = Field(default_factory=dict)
     goal_feedback: Flag = True
     exogenous_while_thinking: Flag = False

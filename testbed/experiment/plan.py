@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import msgspec
 import numpy as np
 
-from testbed.config.models import ExperimentConfig
+from testbed.config.models import ExperimentConfig, KnowledgeKind
 from testbed.config.models import Observability as ObservabilitySettings
 from testbed.environment.rules import Observability
 from testbed.environment.world import World
@@ -32,6 +32,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True):
     goal: tuple[str, ...]
     script: tuple[tuple[int, str], ...] | None
     observability: dict[str, Observability]
+    knowledge: KnowledgeKind
     goal_feedback: bool
     exogenous_while_thinking: bool
     rate: float | None
@@ -117,6 +118,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         goal=own.goal,
         script=None if own.script is None else tuple((e.step, e.action) for e in own.script),
         observability=_observability(config.observability),
+        knowledge=config.knowledge,
         goal_feedback=bool(own.goal_feedback),
         exogenous_while_thinking=bool(own.exogenous_while_thinking),
         rate=config.adversary.rate,

@@ -151,11 +151,18 @@ def _task(spec: TrialSpec, world: World, state: int, seed: int) -> Task:
         domain=spec.domain,
         source=world.description.source,
         goal=list(spec.setting.goal),
-        initial=list(world.literals(state)),
+        initial=list(_known(spec, world, state)),
         plan_limit=spec.setting.plan_limit,
         seed=seed,
         decision_s=spec.setting.decision_s,
     )
+
+
+def _known(spec: TrialSpec, world: World, state: int) -> tuple[str, ...]:
+    """What the robot knows of the initial state."""
+    if spec.setting.knowledge == "complete":
+        return world.literals(state)
+    return world.visible(state, world.description.robots[0])
 
 
 def _game_rules(spec: TrialSpec) -> GameRules:

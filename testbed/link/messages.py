@@ -29,9 +29,9 @@ class Task(Part, frozen=True, kw_only=True):
     """What a robot is told once, before its first percept of a trial.
 
     ``domain`` and ``source`` are the name and the AL_d text of the domain, ``goal`` a list of
-    literals, ``initial`` every literal the robot knows to hold at step 0, ``plan_limit`` the
-    greatest number of actions in a plan, ``decision_s`` the seconds that a decision may take, None
-    if it may take any time.
+    literals, ``initial`` what the robot knows to hold at step 0, perhaps not everything,
+    ``plan_limit`` the greatest number of actions in a plan, ``decision_s`` the seconds that a
+    decision may take, None if it may take any time.
     """
 
     trial: str
@@ -79,15 +79,28 @@ class Question(Message, frozen=True, kw_only=True):
 
 
 class Explanation(Part, frozen=True, kw_only=True):
-    """What the robot adopted to make its history consistent (spec 2, phase one).
+    """What makes a history consistent (spec 2, phase one), found at ``step``.
 
     ``unobserved`` are exogenous actions, ``exceptions`` the literals that hold at step 0 against
-    a default.
+    a default, ``distrusted`` reports of what did not happen.
     """
 
     step: int
     unobserved: list[Event]
     exceptions: list[str]
+    distrusted: list[Event] = []
+
+
+class Contradiction(Part, frozen=True, kw_only=True):
+    """Something observed at a step against what was believed of it.
+
+    Both are literals; for the result of an attempt, and for news, ``hpd(ACTION)``, ``hpd(-ACTION)``
+    where it did not happen, or ``impossible(ACTION)``.
+    """
+
+    step: int
+    observed: str
+    believed: str
 
 
 class Trace(Part, frozen=True, kw_only=True):
@@ -95,8 +108,11 @@ class Trace(Part, frozen=True, kw_only=True):
 
     ``mental`` is the mental action of the step (``"start(1)"``, ``"stop(1)"``), ``plan`` the
     physical actions still ahead, ``belief`` the atoms believed true, ``explanation`` is given at
-    the step at which it is newly adopted, ``futile_at`` the step at which the activity was
-    declared futile, ``plans`` the number of activities so far. Times are seconds for this step.
+    the step at which it is newly adopted; with it come ``contradictions``, which made it needed,
+    and ``alternatives``, the other explanations that are as small (``more_alternatives`` if not
+    all are given). ``reason`` says why the intention is what it is; where an activity is stopped,
+    ``futile_at`` is the first step at which its plan, projected from now on, breaks. ``plans`` is
+    the number of activities so far. Times are seconds for this step, without those for reasons.
     """
 
     mental: str | None = None
@@ -105,6 +121,9 @@ class Trace(Part, frozen=True, kw_only=True):
     plan: list[str] = []
     belief: list[str] = []
     explanation: Explanation | None = None
+    contradictions: list[Contradiction] = []
+    alternatives: list[Explanation] = []
+    more_alternatives: bool = False
     futile_at: int | None = None
     reason: str = ""
     plans: int = 0

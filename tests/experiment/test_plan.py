@@ -43,6 +43,7 @@ def test_what_no_result_depends_on_changes_no_id(override: str) -> None:
     [
         "seed=2",
         "goal_feedback=false",
+        "knowledge=seen",
         "exogenous_while_thinking=true",
         "observability.exo_move.mode=always",
         "observability.exo_lock.probability=0.5",

@@ -216,6 +216,17 @@ def test_a_robot_is_given_the_task_with_complete_knowledge(configure: Configure)
     assert "move(R, L)     causes loc(R, L)." in task.source
 
 
+def test_a_robot_may_be_given_only_what_it_sees(configure: Configure) -> None:
+    spec = _spec(configure, "1", "knowledge=seen")
+    robot = Reciter(["finish", "finish"])
+    _play(spec, robot)
+    (task,) = robot.tasks
+    seen = set(task.initial)
+    assert {"loc(rob1,kitchen)", "loc(book2,kitchen)", "-locked(library)"} <= seen
+    assert "-loc(rob1,library)" in seen
+    assert not seen & {"-loc(book2,library)", "-loc(book2,office1)", "-loc(book2,office2)"}
+
+
 def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
     explanation = Explanation(step=3, unobserved=[Event(step=1, action="e")], exceptions=["x"])
     plan = list(PUBLISHED)
