@@ -8,6 +8,7 @@ from functools import lru_cache
 import clingo
 from clingo import Symbol
 
+from asp.kept.clock import standing_still
 from asp.solving import fact, ground, theory
 
 State = frozenset[str]
@@ -25,7 +26,10 @@ class KeptControl:
         ranks: Iterable[Symbol],
         **constants: int,
     ) -> None:
-        self.control = ground([program, theory(theory_name)], constants, ranks)
+        with standing_still():
+            self.control = ground([program, theory(theory_name)], constants, ranks)
+            # The first call prepares the solver, whatever it is asked.
+            self.control.solve()
         self._fluents = tuple(fluents)
         self._externals: set[Symbol] = set()
         self._literals: dict[tuple[int | str, ...], int | None] = {}

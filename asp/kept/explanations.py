@@ -11,7 +11,7 @@ from clingo import Symbol
 from asp.kept.control import KeptControl, State, goal_externals
 from asp.literals import atom, is_positive
 from asp.preferring import preferring
-from asp.solving import fact, theory
+from asp.solving import answer_sets, fact, theory
 
 _FIRST_HORIZON = 16
 _MOST = 4
@@ -110,6 +110,21 @@ class Explanations:
             return None
         return self._first(kept, given + exactly, past, len(events), len(exceptions))
 
+    def alternatives(
+        self, past: Past, size: tuple[int, int], most: int
+    ) -> tuple[list[Assumed], bool]:
+        """Explanations of the past with so many events and distrusted reports, and exceptions.
+
+        With them, whether there are more than `most`; True also where the control cannot tell. If
+        `size` is the smallest, these are all smallest explanations.
+        """
+        kept, given = self._given(past)
+        assumptions = self._at_most(kept, given, past, *size)
+        if assumptions is None or size[0] > _MOST:
+            return [], True
+        found, more = answer_sets(kept.control, assumptions, most)
+        return [_assumed(shown) for shown in found], more
+
     def _given(self, past: Past) -> tuple[KeptControl, list[int] | None]:
         """The control with the past's externals, and assumptions for everything observed."""
         kept = self._reaching(past.step)
@@ -125,13 +140,25 @@ class Explanations:
         exceptions: int,
     ) -> Account | None:
         """The preferred explanation with at most so many events and exactly so many exceptions."""
+        assumptions = self._at_most(kept, given, past, events, exceptions)
+        if assumptions is None:
+            return None
+        with preferring(kept.control, assumptions) as model:
+            return None if model is None else self._read(kept, model, past.step)
+
+    def _at_most(
+        self,
+        kept: KeptControl,
+        given: list[int] | None,
+        past: Past,
+        events: int,
+        exceptions: int,
+    ) -> list[int] | None:
         more = kept.literal("count", past.step, events + 1) if events < _MOST else None
         number = kept.literal("number_exceptions", exceptions)
         if given is None or number is None:
             return None
-        fewest = [number] if more is None else [number, -more]
-        with preferring(kept.control, [*given, *fewest]) as model:
-            return None if model is None else self._read(kept, model, past.step)
+        return [*given, number] if more is None else [*given, number, -more]
 
     def _reaching(self, step: int) -> KeptControl:
         while self._horizon < step:
@@ -183,6 +210,19 @@ class Explanations:
         )
         assumed = Assumed(unobserved, distrusted, exceptions)
         return Account(assumed, kept.state(model, 0), kept.state(model, step), held)
+
+
+def _assumed(shown: Iterable[Symbol]) -> Assumed:
+    """The explanation that the shown atoms of an answer set are."""
+    found: dict[str, list[list[Symbol]]] = {}
+    for symbol in shown:
+        found.setdefault(symbol.name, []).append(symbol.arguments)
+    unobserved, distrusted = (
+        tuple(sorted((step.number, str(event)) for event, step in found.get(name, [])))
+        for name in ("unobserved", "distrusted")
+    )
+    exceptions = sorted(str(default) for (default,) in found.get("exception", []))
+    return Assumed(unobserved, distrusted, tuple(exceptions))
 
 
 def _externals(past: Past) -> list[Symbol]:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from asp.grounding import ground_description
+from asp.kept.clock import standing_still
 from asp.kept.control import State
 from asp.kept.independence import Independence, symmetric_pairs
 from asp.kept.planner import Planner
@@ -54,17 +55,21 @@ class Plans:
 
     def _planner(self, dropped: frozenset[str]) -> Planner:
         if dropped not in self._planners:
-            source = restrict(without_exogenous(self._source, self._signature), dropped)
-            signature = narrowed(self._signature, dropped)
-            self._planners[dropped] = Planner(
-                ground_description(source, signature, self._name),
-                translate_source(source, signature),
-                [
-                    [constant for constant in members if constant not in dropped]
-                    for members in self._independence.classes
-                ],
-            )
+            with standing_still():
+                self._planners[dropped] = self._make_planner(dropped)
         return self._planners[dropped]
+
+    def _make_planner(self, dropped: frozenset[str]) -> Planner:
+        source = restrict(without_exogenous(self._source, self._signature), dropped)
+        signature = narrowed(self._signature, dropped)
+        return Planner(
+            ground_description(source, signature, self._name),
+            translate_source(source, signature),
+            [
+                [constant for constant in members if constant not in dropped]
+                for members in self._independence.classes
+            ],
+        )
 
 
 class _View:

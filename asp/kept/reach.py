@@ -11,7 +11,7 @@ from clingo import Symbol
 from asp.description import Causal, Constraint, Description
 from asp.kept.control import KeptControl, State
 from asp.literals import atom, is_positive
-from asp.solving import answer_sets, fact, ground, is_satisfiable, symbol, theory
+from asp.solving import answer_sets, core, fact, ground, is_satisfiable, symbol, theory
 
 _MOST_STATES = 2_000
 _REMEMBERED = 1_000
@@ -39,6 +39,23 @@ class Reach:
         Raises TimeLimitError.
         """
         return self._contradictory(goal) or self._relaxed(state, goal) or self._looked(state, goal)
+
+    def hindrance(self, state: State, action: str) -> tuple[str, ...]:
+        """Literals of a state that make an action impossible, none of which can be left out.
+
+        Empty if it is possible there, or impossible everywhere. True fluents are preferred.
+        """
+        occurs = self._control.literal("occurs", action, 0)
+        if occurs is None:
+            return ()
+        literals = {
+            number if fluent in state else -number: fluent if fluent in state else f"-{fluent}"
+            for fluent in self._fluents
+            if (number := self._control.holds(fluent, 0)) is not None
+        }
+        in_order = sorted(literals, key=lambda number: is_positive(literals[number]))
+        found = core(self._control.control, [occurs], in_order)
+        return tuple(sorted(literals[number] for number in found or ()))
 
     def _contradictory(self, goal: tuple[str, ...]) -> bool:
         literals = [

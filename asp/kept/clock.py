@@ -1,0 +1,29 @@
+"""A clock of reasoning that stands still while a kept control is grounded."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_stood_still = 0.0
+
+
+def reasoning_clock() -> float:
+    """Seconds, as `time.perf_counter`, without those spent on grounding kept controls.
+
+    A control is grounded once in a process, by whichever trial needs it first; counted in, it would
+    make the cost of a trial depend on what was played before.
+    """
+    return time.perf_counter() - _stood_still
+
+
+@contextmanager
+def standing_still() -> Iterator[None]:
+    """The clock stands still inside."""
+    global _stood_still
+    began = time.perf_counter()
+    try:
+        yield
+    finally:
+        _stood_still += time.perf_counter() - began
