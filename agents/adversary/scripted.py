@@ -22,8 +22,9 @@ class Triggered:
     """Fires a scenario's exogenous action when one of its triggers applies, once a trial.
 
     Where the triggers draw a value, one of those that could be drawn is drawn first, and fires
-    only if its own triggers apply: a draw may come to nothing, and is repeated at the next action
-    of the robot (spec 1). Where nothing is drawn, the first possible event in order is taken.
+    only if its own triggers apply: a draw may come to nothing, and is repeated at the next step
+    (spec 1). Where nothing is drawn, the first possible event in order is taken. A trigger upon any
+    action fires at every step that the environment leaves open, also while the robot waits.
     """
 
     def __init__(self, description: Description, scenario: str) -> None:
@@ -32,7 +33,6 @@ class Triggered:
         if scenario not in known:
             raise ValueError(f"no scenario {scenario}; there are {', '.join(known)}")
         self._triggers = [t for t in description.triggers if t.scenario == scenario]
-        self._physical = frozenset(description.agent_actions)
         self.reset(0)
 
     def reset(self, seed: int) -> None:
@@ -40,7 +40,7 @@ class Triggered:
         self._fired = False
 
     def act(self, view: AdversaryView) -> str:
-        if self._fired or view.robot_action not in self._physical:
+        if self._fired or view.legal == (NONE,):
             return NONE
         triggers = [t for t in self._triggers if t.upon in (None, view.robot_action)]
         if not self._tries(triggers):

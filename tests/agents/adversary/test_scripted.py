@@ -6,7 +6,7 @@ from agents.adversary.base import NONE, AdversaryView
 from agents.adversary.scripted import Script, Triggered
 from asp import literals as text
 from asp import load_description
-from testbed.environment.core import WAIT, Core
+from testbed.environment.core import FINISH, WAIT, Core
 from testbed.environment.rules import Rules
 from testbed.environment.world import World
 
@@ -107,14 +107,50 @@ def test_the_table(scenario: str, initial: list[str], action: str, expected: set
     assert answers(scenario, initial, action) == expected
 
 
+def waited(scenario: str, thinking: bool, robot_action: str = WAIT) -> set[str]:
+    """Every answer over many seeds beside a robot that thinks in the library."""
+    core = Core(WORLD, Rules(goal=(), exogenous_while_thinking=thinking), ())
+    core.reset(seed=0, initial=DELIVERS_2)
+    adversary, found = Triggered(WORLD.description, scenario), set()
+    for seed in range(60):
+        adversary.reset(seed)
+        found.add(adversary.act(view(core, robot_action)))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("scenario", "expected"),
+    [
+        # These need an action of the robot, of which waiting is none.
+        ("2", {NONE}),
+        ("3", {NONE}),
+        ("4", {NONE}),
+        # These fire upon any.
+        ("5", moves("book1", "kitchen")),
+        ("6", {"exo_lock(library)"}),
+        ("random", {NONE, "exo_lock(library)", *moves("book1", *ROOMS[:3])}),
+    ],
+)
+def test_a_thinking_robot_is_open_to_triggers_upon_any(scenario: str, expected: set[str]) -> None:
+    assert waited(scenario, thinking=True) == expected
+
+
 @pytest.mark.parametrize("scenario", SCENARIOS)
-def test_nothing_happens_while_the_robot_only_thinks(scenario: str) -> None:
-    core = Core(WORLD, Rules(goal=(), exogenous_while_thinking=True), WORLD.initial_states())
-    adversary = Triggered(WORLD.description, scenario)
+def test_nothing_happens_at_steps_that_the_rules_close(scenario: str) -> None:
+    assert waited(scenario, thinking=False) == {NONE}
+    assert waited(scenario, thinking=True, robot_action=FINISH) == {NONE}
+
+
+def test_a_closed_step_draws_nothing() -> None:
+    core = Core(WORLD, Rules(goal=()), ())
+    core.reset(seed=0, initial=DELIVERS_1)
+    adversary = Triggered(WORLD.description, "random")
     for seed in range(40):
-        core.reset(seed)
         adversary.reset(seed)
         assert adversary.act(view(core, WAIT)) == NONE
+        after_waiting = adversary.act(view(core, "move(rob1,kitchen)"))
+        adversary.reset(seed)
+        assert adversary.act(view(core, "move(rob1,kitchen)")) == after_waiting
 
 
 @pytest.mark.parametrize("scenario", SCENARIOS)
