@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from rich.table import Table
 
 from testbed.experiment.record import FAILURES, TrialRecord
+from testbed.experiment.wording import counted
 
 COLUMNS = (
     "scenario",
@@ -52,7 +53,7 @@ class Row:
         self.actions += record.action_count
         self.units += record.execution_units
         self.planning_s += record.planning_time_s
-        self.explanations.update(set(explained(record)))
+        self.explanations.update(explained(record))
 
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the order of `COLUMNS`."""
@@ -84,22 +85,26 @@ class Row:
         return f"{1000 * self.planning_s / self._played:.0f} ms" if self._played else "-"
 
     def _explained(self) -> str:
-        common = self.explanations.most_common(MOST_COMMON)
+        counts = list(self.explanations.items())
+        if self.trials > 1:
+            counts.sort(key=lambda item: (-item[1], item[0]))
+        common = counts[:MOST_COMMON]
         texts = [text if self.trials == 1 else f"{text} x{count}" for text, count in common]
         rest = len(self.explanations) - len(common)
-        return ", ".join([*texts, f"{rest} others"] if rest else texts) or "-"
+        if rest:
+            texts.append(counted(rest, "other"))
+        return ", ".join(texts) or "-"
 
 
 def explained(record: TrialRecord) -> list[str]:
-    """What the robot explained: the exogenous actions it assumed and the exceptions, in order."""
-    return [
-        text
-        for explanation in record.explanations
-        for text in [
-            *(event.action for event in explanation.unobserved),
-            *(f"exception {literal}" for literal in explanation.exceptions),
-        ]
-    ]
+    """What the robot explained, each once, in the order of its steps.
+
+    These are the exogenous actions that it assumed, and the exceptions, which hold from step 0 on.
+    """
+    explanations = record.explanations
+    events = [(event.step, event.action) for own in explanations for event in own.unobserved]
+    exceptions = [f"exception {literal}" for own in explanations for literal in own.exceptions]
+    return list(dict.fromkeys([*sorted(exceptions), *(action for _, action in sorted(events))]))
 
 
 def rows_of(records: Iterable[TrialRecord]) -> list[Row]:

@@ -90,7 +90,7 @@ def test_an_unknown_domain_is_told_with_the_known_ones() -> None:
 
 
 USES_OF_A_FAULTY_DECLARATION = {
-    "in laws": "laws\n  blow causes -shut(R) if shut(R).\n  impossible blow if -shut(R), R != hall.",
+    "in laws": "laws\n  blow causes -shut(R) if shut(R).\n  impossible blow if -shut(R).",
     "in a default": "defaults\n  d: shut(R) if shut(Q).\n  exception d if lit, R != hall.",
     "where it is seen and shown": "sees\n  R sees shut(R).\nshows\n  carry(T, R) shows shut(R).",
     "at first and when an event fires": (

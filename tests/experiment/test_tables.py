@@ -69,9 +69,21 @@ def test_a_row_of_failures_alone_has_no_means() -> None:
     assert (cells["achieved"], cells["plans"], cells["planning"]) == ("0/1, 1 failed", "-", "-")
 
 
-def test_what_was_explained_is_listed_in_order() -> None:
-    explanations = [Explained(3, [At(2, "e"), At(1, "f")], []), Explained(9, [], ["g"])]
-    assert explained(a_record(explanations=explanations)) == ["e", "f", "exception g"]
+def test_what_was_explained_is_listed_once_in_the_order_of_its_steps() -> None:
+    later = Explained(9, [At(2, "e"), At(7, "d"), At(1, "z")], ["g"])
+    record = a_record(explanations=[Explained(3, [At(2, "e"), At(1, "z")], []), later])
+    assert explained(record) == ["exception g", "z", "e", "d"]
+    (row,) = rows_of([record])
+    assert row.cells()[-1] == "exception g, z, e, 1 other"
+
+
+def test_explanations_of_many_trials_come_by_count_then_by_name() -> None:
+    told = [["b"], ["c"], ["c", "a"], ["e", "d"]]
+    rows = rows_of(
+        a_record(str(n), explanations=[Explained(9, [At(n, name) for name in names], [])])
+        for n, names in enumerate(told)
+    )
+    assert rows[0].cells()[-1] == "c x2, a x1, b x1, 2 others"
 
 
 def test_ratios_are_means_of_the_pairs_ratios() -> None:
