@@ -79,13 +79,16 @@ class Recorder:
             occurrence.observed = True
         self.record.reports.append(Report(told, event.step, event.action, bool(happened)))
 
-    def end(self, ending: Ending, achieved: bool) -> None:
-        """The end of the game, and whether the goal truly holds there."""
+    def achieved(self, truly: bool) -> None:
+        """Whether the goal holds in the world where the trial stops, whatever stops it."""
+        self.record.achieved = truly
+
+    def end(self, ending: Ending) -> None:
+        """The end of the game; after it is known whether the goal was achieved."""
         record = self.record
-        record.achieved = achieved
         record.finished = ending is not Ending.STEP_LIMIT
         record.outcome = self._outcome(ending)
-        record.correct = achieved and record.finished and self._minimal_if_undisturbed()
+        record.correct = record.achieved and record.finished and self._minimal_if_undisturbed()
 
     def _outcome(self, ending: Ending) -> Outcome:
         if ending is Ending.STEP_LIMIT:

@@ -100,12 +100,15 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     recorder.minimal_actions(minimal_actions(world, core.situation.state, spec.setting.goal))
     adversary = make_adversary(spec, world.description)
     adversary.reset(for_adversary)
-    client.begin(_task(spec, world, core.situation.state, for_robot))
-    while core.situation.ending is None:
-        moment = _step(core, client, adversary, recorder)
-        if watch is not None:
-            watch(moment)
-    recorder.end(core.situation.ending, core.achieved)
+    try:
+        client.begin(_task(spec, world, core.situation.state, for_robot))
+        while core.situation.ending is None:
+            moment = _step(core, client, adversary, recorder)
+            if watch is not None:
+                watch(moment)
+    finally:
+        recorder.achieved(core.achieved)
+    recorder.end(core.situation.ending)
 
 
 def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recorder) -> Moment:

@@ -139,6 +139,21 @@ def test_an_answer_that_is_no_action_loses_the_robot(configure: Configure) -> No
     assert [attempt.action for attempt in record.actions] == [PUBLISHED[0]]
 
 
+@pytest.mark.parametrize("played", [0, 5, 6])
+@pytest.mark.parametrize(
+    ("trouble", "outcome"),
+    [("fly(rob1,library)", "robot_lost"), ("put_down(rob1,book2)", "error")],
+)
+def test_what_the_world_says_counts_also_where_a_trial_breaks_off(
+    configure: Configure, played: int, trouble: str, outcome: str
+) -> None:
+    impossible = f"script=[{{step: {played + 1}, action: 'exo_move(book1,library)'}}]"
+    spec = _spec(configure, "1", *([impossible] if outcome == "error" else []))
+    record = _play(spec, Reciter([*PUBLISHED[:played], trouble]))
+    assert (record.outcome, record.achieved) == (outcome, played == 6)
+    assert (record.finished, record.correct) == (False, False)
+
+
 def test_a_robot_that_fails_is_lost_with_its_words(configure: Configure) -> None:
     class Failing(Reciter):
         def act(self, percept: Percept) -> Decision:
