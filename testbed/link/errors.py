@@ -8,8 +8,8 @@ class LinkError(ValueError):
 class RobotLost(Exception):  # noqa: N818 - an outcome of a trial, by the name records give it
     """The robot will not answer this trial any more.
 
-    ``reason`` is one line that says why, the same whenever the same happens; ``details`` is what
-    the robot's process wrote to its standard error, if anything.
+    ``reason`` is one line that says why, the same whenever the same happens; ``details`` is the
+    robot's traceback, or whatever its process wrote to its standard error, if anything.
     """
 
     def __init__(self, reason: str, details: str = "") -> None:

@@ -69,9 +69,9 @@ def in_one_line(error: Exception) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())
 
 
-def failed(text: str) -> RobotLost:
+def failed(text: str, details: str = "") -> RobotLost:
     """Return the loss of a robot that raised an exception with this text."""
-    return RobotLost(f"robot failed: {text}")
+    return RobotLost(f"robot failed: {text}", details)
 
 
 def _stopped(percept: Percept, reason: str) -> Decision:

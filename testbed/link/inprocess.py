@@ -1,5 +1,7 @@
 """A robot in the driver's own process: no zenoh, the same messages."""
 
+import traceback
+
 from testbed.link.exchange import Desk, failed, in_one_line, read_decision
 from testbed.link.messages import Decision, Percept, Question, Task, encode
 from testbed.link.robot import RobotFactory
@@ -33,4 +35,4 @@ class InProcessRobot:
         try:
             return self._desk.answer(question)
         except Exception as error:
-            raise failed(in_one_line(error)) from error
+            raise failed(in_one_line(error), traceback.format_exc()) from error

@@ -42,6 +42,15 @@ def test_a_fault_loses_the_robot_for_one_trial(client: RobotClient, fault: str) 
     assert client.ask(percept(1, "t2")).step == 1
 
 
+def test_the_details_of_a_failure_are_the_robots_traceback(client: RobotClient) -> None:
+    client.begin(task("raising"))
+    with pytest.raises(RobotLost) as lost:
+        client.ask(percept())
+    assert lost.value.details.startswith("Traceback")
+    assert "in _raise" in lost.value.details  # the place in the robot's own code
+    assert lost.value.details.rstrip().endswith("ideas")
+
+
 def test_a_trial_that_has_not_begun_is_not_answered(client: RobotClient) -> None:
     client.begin(task("sound", "t1"))
     client.ask(percept(1, "t1"))

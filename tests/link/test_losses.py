@@ -86,10 +86,6 @@ def test_a_robot_killed_between_trials_is_lost_and_replaced(spawned: SpawnedRobo
     assert _works(spawned)
 
 
-def test_the_details_of_a_loss_are_the_robots_own_words(spawned: SpawnedRobot) -> None:
-    assert "Traceback" in _lose(spawned, "raising").details
-
-
 def test_a_robot_that_cannot_start_says_why() -> None:
     command = (sys.executable, "-c", "raise SystemExit('no such robot')")
     with open_driver() as session, closing(SpawnedRobot(session, "run", 1.0, command)) as robot:
