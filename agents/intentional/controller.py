@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Protocol
+
+from msgspec import structs
 
 from agents.intentional.intention import Intention
 from agents.intentional.kept import KeptLogician
+from agents.intentional.reasons import OUT_OF_TIME, Reasons
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.relevance import goal_fluents, relevant_literals
 from asp.kept.clock import reasoning_clock
-from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
+from asp.literals import is_positive
+from asp.solving import TimeLimitError, time_limit
+from testbed.link.messages import Decision, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
 
@@ -50,28 +55,48 @@ class IntentionalRobot:
         self._history.observe(task.initial, 0)
         self._history.happened(f"select({GOAL})", True, 0)
         self._attempted: str | None = None
+        start = frozenset(filter(is_positive, task.initial))
+        self._believed: tuple[int, frozenset[str]] = (0, start)
+        self._reasons = Reasons(domain, tuple(task.goal), task.plan_limit, task.decision_s)
 
     def act(self, percept: Percept) -> Decision:
-        """One round of the loop. Raises InconsistentHistoryError."""
+        """One round of the loop; where the time for a decision runs out, the robot waits a step.
+
+        Raises InconsistentHistoryError.
+        """
         self._observe(percept)
-        began = reasoning_clock()
-        explained = self._logician.diagnose(self._history, self._diagnosis)
-        diagnosed = reasoning_clock()
-        intention = self._logician.intend(self._history, explained)
-        planned = reasoning_clock()
-        if intention.under is not None:
-            kept = intention.under == self._diagnosis
-            explained = replace(explained, diagnosis=intention.under, kept=kept)
-        self._diagnosis = explained.diagnosis
+        thought = _Thought(self._diagnosis, began=reasoning_clock())
+        try:
+            with time_limit(self._task.decision_s):
+                self._think(thought)
+        except TimeLimitError:
+            thought.stop(reasoning_clock())
+        trace = self._trace(thought)
+        intention = thought.intention
         self._attempt(intention)
-        trace = self._trace(intention, explained, diagnosed - began, planned - diagnosed)
+        if intention is not None:
+            self._believed = (percept.step, intention.believed)
+        waits = intention is None or intention.action.startswith(_MENTAL)
         return Decision(
             trial=percept.trial,
             step=percept.step,
-            action="wait" if intention.action.startswith(_MENTAL) else intention.action,
-            believes_goal=GOAL in intention.believed,
+            action="wait" if intention is None or waits else intention.action,
+            believes_goal=intention is not None and GOAL in intention.believed,
             trace=trace,
         )
+
+    def _think(self, thought: _Thought) -> None:
+        """Both phases. Raises TimeLimitError, after which what was found so far is kept."""
+        explained = self._logician.diagnose(self._history, self._diagnosis)
+        thought.diagnosed = reasoning_clock()
+        thought.explained, self._diagnosis = explained, explained.diagnosis
+        intention = self._logician.intend(self._history, explained)
+        thought.stop(reasoning_clock())
+        thought.intention = intention
+        if intention.under is not None:
+            kept = intention.under == thought.before
+            thought.explained = replace(explained, diagnosis=intention.under, kept=kept)
+            self._diagnosis = intention.under
 
     def _observe(self, percept: Percept) -> None:
         """Steps 4 and 1 of the loop: the result of the last attempt, then what is relevant."""
@@ -91,35 +116,83 @@ class IntentionalRobot:
         )
         history.observe(relevant, percept.step)
 
-    def _attempt(self, intention: Intention) -> None:
+    def _attempt(self, intention: Intention | None) -> None:
         """Step 3 of the loop: the attempt is recorded, and a new activity with it."""
+        self._attempted = None if intention is None else intention.action
+        if intention is None:
+            return
         history = self._history
         history.attempt(intention.action, history.step)
-        self._attempted = intention.action
         if intention.action == f"start({len(history.activities) + 1})":
             history.activities.append(Activity(len(history.activities) + 1, intention.plan))
 
-    def _trace(
-        self, intention: Intention, explained: Explained, diagnosis_s: float, planning_s: float
-    ) -> Trace:
-        mental = intention.action if intention.action.startswith(_MENTAL) else None
-        step = self._history.step
-        return Trace(
-            mental=mental,
+    def _trace(self, thought: _Thought) -> Trace:
+        """The mind behind the decision, before anything of it is recorded."""
+        intention, explained = thought.intention, thought.explained
+        trace = Trace(
+            belief=sorted(self._believed[1] - {GOAL}),
+            reason=OUT_OF_TIME,
+            activity=None if explained is None else max(explained.indices, default=None),
+            plans=len(self._history.activities),
+            planning_time_s=thought.planning_s,
+            diagnosis_time_s=thought.diagnosis_s,
+        )
+        if explained is not None:
+            trace = self._with_explanation(trace, explained, thought.before)
+        if explained is None or intention is None:
+            return trace
+        why = self._reasons.why(self._history, intention, explained)
+        name = f"start({len(self._history.activities) + 1})"
+        return structs.replace(
+            trace,
+            mental=intention.action if intention.action.startswith(_MENTAL) else None,
             intention=intention.action,
-            activity=max(explained.indices, default=None),
             plan=list(intention.plan),
             belief=sorted(intention.believed - {GOAL}),
-            explanation=None if explained.kept else self._explanation(explained.diagnosis),
-            futile_at=step if intention.action.startswith("stop(") else None,
-            plans=len(self._history.activities),
-            planning_time_s=planning_s,
-            diagnosis_time_s=diagnosis_s,
+            reason=why.text,
+            futile_at=why.futile_at,
+            plans=trace.plans + (intention.action == name),
         )
 
-    def _explanation(self, diagnosis: Diagnosis) -> Explanation:
-        return Explanation(
-            step=self._history.step,
-            unobserved=list(diagnosis.unobserved),
-            exceptions=self._domain.against(diagnosis.exceptions),
+    def _with_explanation(self, trace: Trace, explained: Explained, before: Diagnosis) -> Trace:
+        """The trace with what is newly adopted, if anything is."""
+        diagnosis = explained.diagnosis
+        if diagnosis == before:
+            return trace
+        step, believed = self._believed
+        alternatives, more = self._reasons.alternatives(self._history, diagnosis)
+        return structs.replace(
+            trace,
+            explanation=self._reasons.explanation(diagnosis, self._history.step),
+            contradictions=self._reasons.contradictions(
+                self._history, before, believed - {GOAL}, step
+            ),
+            alternatives=alternatives,
+            more_alternatives=more,
         )
+
+
+@dataclass
+class _Thought:
+    """What is found in one round of the loop, as far as it comes, and when by the clock."""
+
+    before: Diagnosis
+    began: float
+    diagnosed: float | None = None
+    ended: float | None = None
+    explained: Explained | None = None
+    intention: Intention | None = None
+
+    def stop(self, now: float) -> None:
+        self.ended = now
+
+    @property
+    def diagnosis_s(self) -> float:
+        ended = self.diagnosed if self.diagnosed is not None else self.ended
+        return 0.0 if ended is None else ended - self.began
+
+    @property
+    def planning_s(self) -> float:
+        if self.diagnosed is None or self.ended is None:
+            return 0.0
+        return self.ended - self.diagnosed

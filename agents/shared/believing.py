@@ -41,9 +41,8 @@ class Believer:
         since: int,
         plain: Callable[[History, Diagnosis], Diagnosis],
     ) -> None:
+        self._knowledge = knowledge
         self._tools = tools_of(knowledge)
-        self._actions = frozenset(knowledge.description.agent_actions)
-        self._events = frozenset(knowledge.description.exogenous_actions)
         self._inertial = knowledge.description.inertial
         self._has_defaults = bool(knowledge.description.defaults)
         self._goal = goal
@@ -131,8 +130,7 @@ class Believer:
         )
 
     def _past(self, history: History) -> Past:
-        records = {step: self._record(moment) for step, moment in history.moments.items()}
-        return Past(self._goal, records, history.step, self._since)
+        return past_of(self._knowledge, self._goal, history, self._since)
 
     def _unknown(self, history: History) -> list[str]:
         """The inertial fluents of which nothing was observed at step 0."""
@@ -168,20 +166,7 @@ class Believer:
         return belief
 
     def _record(self, moment: Moment) -> Record:
-        """A moment without the mental part of the theory."""
-        physical = next((a for a in moment.attempted if a in self._actions), None)
-        return Record(
-            observed=tuple(
-                fluent if truth else f"-{fluent}"
-                for fluent, truth in moment.observed.items()
-                if fluent != GOAL
-            ),
-            attempt=None if physical is None else (physical, moment.happened[physical]),
-            reported=tuple(
-                a for a, truth in moment.happened.items() if truth and a in self._events
-            ),
-            goal=moment.observed.get(GOAL),
-        )
+        return record_of(self._knowledge, moment)
 
     def _agrees(self, moment: Moment, state: State) -> bool:
         """Whether what was observed at a moment is so in the state."""
@@ -189,6 +174,28 @@ class Believer:
             truth == (self.holds(state) if fluent == GOAL else fluent in state)
             for fluent, truth in moment.observed.items()
         )
+
+
+def past_of(knowledge: Knowledge, goal: tuple[str, ...], history: History, since: int) -> Past:
+    """A history as the kept controls are asked about it."""
+    records = {step: record_of(knowledge, moment) for step, moment in history.moments.items()}
+    return Past(goal, records, history.step, since)
+
+
+def record_of(knowledge: Knowledge, moment: Moment) -> Record:
+    """A moment without the mental part of the theory."""
+    own, others = knowledge.actions
+    physical = next((a for a in moment.attempted if a in own), None)
+    return Record(
+        observed=tuple(
+            fluent if truth else f"-{fluent}"
+            for fluent, truth in moment.observed.items()
+            if fluent != GOAL
+        ),
+        attempt=None if physical is None else (physical, moment.happened[physical]),
+        reported=tuple(a for a, truth in moment.happened.items() if truth and a in others),
+        goal=moment.observed.get(GOAL),
+    )
 
 
 def _happened(record: Record, diagnosis: Diagnosis, step: int) -> tuple[str, ...]:

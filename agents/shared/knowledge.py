@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 from clingo import Symbol
 
@@ -27,6 +27,12 @@ class Knowledge:
     program: str
     ranks: tuple[Symbol, ...]
     start: tuple[Symbol, ...]
+
+    @cached_property
+    def actions(self) -> tuple[frozenset[str], frozenset[str]]:
+        """The agent's own actions, and exogenous ones."""
+        description = self.description
+        return frozenset(description.agent_actions), frozenset(description.exogenous_actions)
 
     def against(self, exceptions: Iterable[str]) -> list[str]:
         """The literals that hold at step 0 where these defaults, given by name, have exceptions."""

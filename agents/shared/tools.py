@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from agents.shared.knowledge import Knowledge
 from asp.kept.explanations import Explanations
 from asp.kept.plans import Plans
+from asp.kept.reach import Reach
 from asp.kept.transitions import Transitions
 
 
@@ -17,6 +18,7 @@ class Tools:
     transitions: Transitions
     explanations: Explanations
     plans: Plans
+    reach: Reach
 
 
 _TOOLS: dict[str, Tools] = {}
@@ -37,5 +39,6 @@ def tools_of(knowledge: Knowledge) -> Tools:
                 (*ranks, *knowledge.start),
             ),
             Plans(description.source, f"{description.name}.al"),
+            Reach(description, program),
         )
     return _TOOLS[knowledge.program]

@@ -1,0 +1,190 @@
+"""Why a robot decided as it did: for people, in the terms of the theory.
+
+Nothing here has a part in a decision. Beliefs are projected, cores and explanations found with the
+kept controls, whatever the robot itself reasons with.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from agents.intentional.intention import Intention
+from agents.shared.believing import past_of
+from agents.shared.diagnosis import Explained
+from agents.shared.history import GOAL, Diagnosis, History, Moment
+from agents.shared.knowledge import Knowledge
+from agents.shared.tools import tools_of
+from asp.kept.control import State
+from asp.literals import atom, complement, is_positive
+from asp.solving import TimeLimitError, time_limit
+from testbed.link.messages import Contradiction, Event, Explanation
+
+MOST_ALTERNATIVES = 20
+OUT_OF_TIME = "the time for a decision ran out"
+
+_FIRST_EVENT = 1  # (16): nothing else happens while the goal is selected
+
+
+@dataclass(frozen=True)
+class Why:
+    """The reason of a decision, and the first step at which the projected plan breaks, if any."""
+
+    text: str
+    futile_at: int | None = None
+
+
+class Reasons:
+    """Gives reasons for decisions about one goal in one domain."""
+
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        decision_s: float | None = None,
+    ) -> None:
+        self._knowledge = knowledge
+        self._tools = tools_of(knowledge)
+        self._goal = goal
+        self._plan_limit = plan_limit
+        self._decision_s = decision_s
+        self._actions = frozenset(knowledge.description.agent_actions)
+        self._events = frozenset(knowledge.description.exogenous_actions)
+
+    def why(self, history: History, intention: Intention, explained: Explained) -> Why:
+        """Why this is intended at the history's step."""
+        state, action = intention.believed - {GOAL}, intention.action
+        if action == "finish":
+            return Why("the goal holds" if GOAL in intention.believed else self._given_up(state))
+        if action.startswith("start("):
+            return Why(_started(history, intention))
+        name, index = next(iter(explained.indices.items()))
+        left = history.activities[name - 1].plan[index:]
+        if action.startswith("stop("):
+            return self._futile(history.step, state, left)
+        by = history.step + len(left)
+        return Why(f"activity {name} still reaches the goal, by step {by}")
+
+    def contradictions(
+        self, history: History, adopted: Diagnosis, believed: State, step: int
+    ) -> list[Contradiction]:
+        """What contradicts the belief of an earlier step, first, projected with what was adopted.
+
+        Of all steps the first one at which something does, with everything that does there.
+        """
+        state = believed
+        while True:
+            moment = history.at(step)
+            found = self._unexpected(moment, state, step)
+            if found or step >= history.step:
+                return found
+            attempt = next((a for a in moment.attempted if a in self._actions), None)
+            events = self._trusted(moment, adopted, step)
+            after = self._tools.transitions.after(state, attempt, events)
+            if after is None:
+                return self._impossible(events, state, step)
+            if attempt is not None and after[1] != moment.happened.get(attempt):
+                expected = "" if after[1] else "-"
+                unexpected = "-" if after[1] else ""
+                return [
+                    Contradiction(
+                        step=step,
+                        observed=f"hpd({unexpected}{attempt})",
+                        believed=f"hpd({expected}{attempt})",
+                    )
+                ]
+            state, step = after[0], step + 1
+
+    def alternatives(
+        self, history: History, diagnosis: Diagnosis
+    ) -> tuple[list[Explanation], bool]:
+        """The other explanations that are as small, and whether there are more than are given."""
+        past = past_of(self._knowledge, self._goal, history, _FIRST_EVENT)
+        size = (diagnosis.size, len(diagnosis.exceptions))
+        found, more = self._tools.explanations.alternatives(past, size, MOST_ALTERNATIVES)
+        others = (Diagnosis(_events(a.events), _events(a.distrusted), a.exceptions) for a in found)
+        own = replace(diagnosis, initial=())
+        return [self.explanation(other, history.step) for other in others if other != own], more
+
+    def explanation(self, diagnosis: Diagnosis, step: int) -> Explanation:
+        """A diagnosis as it travels."""
+        return Explanation(
+            step=step,
+            unobserved=list(diagnosis.unobserved),
+            distrusted=list(diagnosis.distrusted),
+            exceptions=self._knowledge.against(diagnosis.exceptions),
+        )
+
+    def _given_up(self, state: State) -> str:
+        try:
+            with time_limit(self._decision_s):
+                if self._tools.reach.out_of_reach(state, self._goal):
+                    return "the goal is out of reach: no plan of any length achieves it"
+        except TimeLimitError:
+            pass
+        return f"no plan of at most {self._plan_limit} actions achieves the goal"
+
+    def _futile(self, step: int, state: State, left: tuple[str, ...]) -> Why:
+        """Where the projection of a plan breaks (36)."""
+        for later, action in enumerate(left, start=step):
+            after = self._tools.transitions.after(state, action, ())
+            if after is None or not after[1]:
+                hindrance = self._tools.reach.hindrance(state, action)
+                why = f" with {', '.join(hindrance)}" if hindrance else ""
+                return Why(f"futile: {action} is impossible at step {later}{why}", later)
+            state = after[0]
+        end = step + len(left)
+        missing = (literal for literal in self._goal if not _holds(literal, state))
+        failing = ", ".join(complement(literal) for literal in missing)
+        return Why(f"futile: its end, at step {end}, violates the goal with {failing}", end)
+
+    def _unexpected(self, moment: Moment, state: State, step: int) -> list[Contradiction]:
+        found = []
+        for fluent, truth in moment.observed.items():
+            if fluent == GOAL:
+                believed = all(_holds(literal, state) for literal in self._goal)
+            else:
+                believed = fluent in state
+            if believed != truth:
+                literal = fluent if truth else f"-{fluent}"
+                found.append(
+                    Contradiction(step=step, observed=literal, believed=complement(literal))
+                )
+        return found
+
+    def _trusted(self, moment: Moment, adopted: Diagnosis, step: int) -> tuple[str, ...]:
+        false = {report.action for report in adopted.distrusted if report.step == step}
+        reported = [a for a, truth in moment.happened.items() if truth and a in self._events]
+        unobserved = [
+            event.action
+            for event in adopted.unobserved
+            if event.step == step and event.action not in reported
+        ]
+        return (*(event for event in reported if event not in false), *unobserved)
+
+    def _impossible(self, events: tuple[str, ...], state: State, step: int) -> list[Contradiction]:
+        """The reports that cannot be true; all of them, where they only exclude each other."""
+        alone = [e for e in events if self._tools.transitions.after(state, None, (e,)) is None]
+        return [
+            Contradiction(step=step, observed=f"hpd({event})", believed=f"impossible({event})")
+            for event in alone or events
+        ]
+
+
+def _started(history: History, intention: Intention) -> str:
+    # A new activity is on record only after the decision.
+    again = any(f"start({activity.name})" == intention.action for activity in history.activities)
+    count = len(intention.plan)
+    return (
+        f"no activity for the goal; {count} action{'' if count == 1 else 's'} achieve"
+        f"{'s' if count == 1 else ''} it, none fewer"
+        + ("; the plan of an earlier activity" * again)
+    )
+
+
+def _holds(literal: str, state: State) -> bool:
+    return (atom(literal) in state) == is_positive(literal)
+
+
+def _events(pairs: tuple[tuple[int, str], ...]) -> tuple[Event, ...]:
+    return tuple(Event(step=step, action=action) for step, action in sorted(pairs))
