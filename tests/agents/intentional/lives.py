@@ -4,16 +4,41 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from asp.loading import load_description, read_domain
 from testbed.environment.world import World
 from testbed.link.messages import Decision, Event, Percept, Task
 from testbed.link.robot import Robot
 
-DOMAIN = "office"
-WORLD = World(load_description(DOMAIN))
-SOURCE = read_domain(DOMAIN)[1]
-ROBOT = WORLD.description.robots[0]
+
+@dataclass(frozen=True)
+class Place:
+    """A domain; in a `dark` one the robot starts knowing only what it sees."""
+
+    domain: str
+    world: World
+    source: str
+    dark: bool = False
+
+    @property
+    def robot(self) -> str:
+        return self.world.description.robots[0]
+
+    def known(self, initial: int) -> tuple[str, ...]:
+        """What the robot is told of the initial state."""
+        return (
+            self.world.visible(initial, self.robot) if self.dark else self.world.literals(initial)
+        )
+
+
+def place(domain: str, dark: bool = False) -> Place:
+    file, source = read_domain(domain)
+    return Place(Path(file).stem, World(load_description(domain)), source, dark)
+
+
+OFFICE = place("office")
+DOMAIN, WORLD, SOURCE = OFFICE.domain, OFFICE.world, OFFICE.source
 BOTH_IN_THE_LIBRARY = (
     "loc(book1,library)",
     "loc(book2,library)",
@@ -56,46 +81,55 @@ def live(
     wishes: Mapping[int, Wish] | None = None,
     steps: int = 40,
     feedback: bool = True,
+    where: Place = OFFICE,
 ) -> Life:
     """Plays a trial in the state `initial`, with or without goal feedback, for so many steps."""
     states = [initial]
     state, decisions, news = initial, list[Decision](), list[tuple[int, Event]]()
-    robot.begin(_task(initial, goal))
-    percept = _percept(state, 1)
+    robot.begin(_task(initial, goal, where))
+    percept = _percept(where, state, 1)
     while percept.step < steps:
         decision = robot.act(percept)
         decisions.append(decision)
         if decision.action == "finish":
-            done = WORLD.satisfies(state, goal)
+            done = where.world.satisfies(state, goal)
             if done or not feedback or [d.action for d in decisions[-2:]] == ["finish", "finish"]:
                 return Life(decisions, done, states)
-            percept = _percept(state, percept.step + 1, _due(news, percept.step), goal_holds=False)
+            percept = _percept(
+                where, state, percept.step + 1, _due(news, percept.step), goal_holds=False
+            )
             states.append(state)
             continue
         attempt = None if decision.action == "wait" else decision.action
         wish = (wishes or {}).get(percept.step)
-        state, percept = _advance(state, percept.step, attempt, wish, news)
+        state, percept = _advance(where, state, percept.step, attempt, wish, news)
         states.append(state)
-    return Life(decisions, WORLD.satisfies(state, goal), states)
+    return Life(decisions, where.world.satisfies(state, goal), states)
 
 
 def _advance(
-    state: int, step: int, attempt: str | None, wish: Wish | None, news: list[tuple[int, Event]]
+    where: Place,
+    state: int,
+    step: int,
+    attempt: str | None,
+    wish: Wish | None,
+    news: list[tuple[int, Event]],
 ) -> tuple[int, Percept]:
-    happened = None if attempt is None else WORLD.executable(state, [attempt])
+    world = where.world
+    happened = None if attempt is None else world.executable(state, [attempt])
     actions = {attempt} if attempt is not None and happened else set[str]()
     possible = [
         event
-        for event in WORLD.exogenous_actions
-        if wish is not None and WORLD.executable(state, actions | {event})
+        for event in world.exogenous_actions
+        if wish is not None and world.executable(state, actions | {event})
     ]
     events = [possible[wish.number % len(possible)]] if wish is not None and possible else []
     if wish is not None and wish.reported:
         news += ((step + wish.late, Event(step=step, action=event)) for event in events)
     if wish is not None and not wish.happens:
         events = []
-    after = WORLD.successor(state, actions.union(events))
-    return after, _percept(after, step + 1, _due(news, step), attempt, happened)
+    after = world.successor(state, actions.union(events))
+    return after, _percept(where, after, step + 1, _due(news, step), attempt, happened)
 
 
 def _due(news: list[tuple[int, Event]], step: int) -> list[Event]:
@@ -104,6 +138,7 @@ def _due(news: list[tuple[int, Event]], step: int) -> list[Event]:
 
 
 def _percept(
+    where: Place,
     state: int,
     step: int,
     events: Sequence[Event] = (),
@@ -114,7 +149,7 @@ def _percept(
     return Percept(
         trial="life",
         step=step,
-        visible=list(WORLD.visible(state, ROBOT)),
+        visible=list(where.world.visible(state, where.robot)),
         attempted=attempted,
         happened=happened,
         events=list(events),
@@ -122,14 +157,14 @@ def _percept(
     )
 
 
-def _task(initial: int, goal: Sequence[str]) -> Task:
+def _task(initial: int, goal: Sequence[str], where: Place) -> Task:
     return Task(
         trial="life",
         robot="intentional",
-        domain=DOMAIN,
-        source=SOURCE,
+        domain=where.domain,
+        source=where.source,
         goal=list(goal),
-        initial=list(WORLD.literals(initial)),
+        initial=list(where.known(initial)),
         plan_limit=20,
         seed=0,
     )
