@@ -10,6 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from testbed.config import load_config
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.registry import make_robot
+from testbed.experiment.trial import play_trial
+from testbed.link.inprocess import InProcessRobot
+
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
@@ -48,6 +54,20 @@ def test_every_command_shown_exists() -> None:
     for command in shown:
         arguments = [sys.executable, "-m", "testbed", command, "--help"]
         assert subprocess.run(arguments, cwd=ROOT, capture_output=True, check=False).returncode == 0
+
+
+SCRIPT = re.compile(r"\[\{step: .*?\}\]")
+
+
+@pytest.mark.parametrize("file", ["docs/configuration.md", "configs/office.yaml"])
+def test_every_script_shown_can_be_played(file: str) -> None:
+    shown = SCRIPT.findall((ROOT / file).read_text(encoding="utf-8"))
+    assert shown
+    for script in shown:
+        config = load_config("quickstart", ["scenarios=[1]", f"script={script}"])
+        for spec in plan_trials(config):
+            record = play_trial(spec, InProcessRobot(make_robot)).record
+            assert (record.outcome, len(record.exogenous)) == ("achieved", 1), record.reason
 
 
 def test_the_filmstrip_is_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

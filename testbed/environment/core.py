@@ -97,8 +97,10 @@ class Core:
         """One line that says why the event is impossible beside the robot's action; else None."""
         if event in self.events(robot_action):
             return None
-        if robot_action == FINISH or (robot_action == WAIT and not self._opens_thinking):
-            return f"nothing exogenous happens while the robot answers {robot_action}"
+        if robot_action == FINISH:
+            return "nothing exogenous happens while the robot finishes"
+        if robot_action == WAIT and not self._opens_thinking:
+            return "nothing exogenous happens while the robot waits (exogenous_while_thinking)"
         compound = (*self._effective(robot_action), event)
         return self.world.why_not(self.situation.state, compound)
 

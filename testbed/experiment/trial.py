@@ -63,6 +63,8 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
     except RobotLost as loss:
         recorder.fail("robot_lost", loss.reason)
         details = loss.details or None
+    except IllegalActionError as error:
+        recorder.fail("error", str(error))
     except Exception as error:  # whatever it is, it is this trial's outcome and not the run's
         recorder.fail("error", " ".join(f"{type(error).__name__}: {error}".split()))
         details = traceback.format_exc()
@@ -109,6 +111,8 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     finally:
         recorder.achieved(core.achieved)
     recorder.end(core.situation.ending)
+    script = spec.setting.script or ()
+    recorder.unreached(sorted(step for step, _ in script if step >= core.situation.step))
 
 
 def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recorder) -> Moment:
@@ -117,7 +121,7 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     if decision.action not in core.robot_actions:
         raise RobotLost(f"answered '{decision.action}', which is not an action")
     event = adversary.act(_view(core, decision.action))
-    _advance(core, decision.action, event)
+    core.advance(decision.action, event)
     after = core.situation
     recorder.step(decision, after.happened, core.world.description.costs)
     exogenous = None if event == NONE else event
@@ -126,15 +130,6 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     for report in after.told:
         recorder.report(after.step, report)
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state)
-
-
-def _advance(core: Core, robot_action: str, event: str) -> None:
-    """Play the step. Raises IllegalActionError, with the step, for an event that is impossible."""
-    step = core.situation.step
-    try:
-        core.advance(robot_action, event)
-    except IllegalActionError as error:
-        raise IllegalActionError(f"step {step}: {error}") from error
 
 
 def _view(core: Core, robot_action: str) -> AdversaryView:

@@ -111,7 +111,8 @@ def test_an_event_is_legal_exactly_where_no_reason_speaks_against_it(
     [
         ("fly(rob1)", NONE, r"fly\(rob1\) is not an action of the robot"),
         (WAIT, "rain", "rain is not an action of the adversary"),
-        (WAIT, "exo_lock(library)", "nothing exogenous happens while the robot answers wait"),
+        (WAIT, "exo_lock(library)", "nothing exogenous happens while the robot waits"),
+        (FINISH, "exo_lock(library)", "nothing exogenous happens while the robot finishes"),
         (TO_LIBRARY, "exo_move(book1,office1)", r"if in_hand\(rob1,book1\)"),
     ],
 )

@@ -159,21 +159,31 @@ def test_a_robot_that_fails_is_lost_with_its_words(configure: Configure) -> None
         def act(self, percept: Percept) -> Decision:
             raise KeyError(f"no such book at step {percept.step}")
 
-    record = _play(_spec(configure, "1"), Failing([]))
-    assert record.outcome == "robot_lost"
-    assert record.reason is not None
-    assert "no such book" in record.reason
+    result = play_trial(_spec(configure, "1"), InProcessRobot(lambda _: Failing([])))
+    assert result.record.outcome == "robot_lost"
+    assert result.record.reason is not None
+    assert "no such book" in result.record.reason
+    assert result.details is not None
+    assert "in act" in result.details
 
 
-def test_an_impossible_script_is_an_error_that_says_why(configure: Configure) -> None:
+@pytest.mark.parametrize(
+    ("answers", "why"),
+    [
+        (PUBLISHED, f"beside {PUBLISHED[0]}: impossible exo_move(book1,office1) if "),
+        (["wait"], "beside wait: nothing exogenous happens while the robot waits"),
+        (["finish"], "beside finish: nothing exogenous happens while the robot finishes"),
+    ],
+)
+def test_an_impossible_script_is_an_error_in_one_sentence(
+    configure: Configure, answers: Sequence[str], why: str
+) -> None:
     spec = _spec(configure, "1", "script=[{step: 1, action: 'exo_move(book1,office1)'}]")
-    result = play_trial(spec, InProcessRobot(lambda _: Reciter(PUBLISHED)))
+    result = play_trial(spec, InProcessRobot(lambda _: Reciter(answers)))
     assert result.record.outcome == "error"
     assert result.record.reason is not None
-    assert "exo_move(book1,office1)" in result.record.reason
-    assert "step 1" in result.record.reason
-    assert result.details is not None
-    assert result.details.startswith("Traceback")
+    assert result.record.reason.startswith(f"step 1: exo_move(book1,office1) {why}")
+    assert result.details is None  # the script is to blame, not a program
 
 
 def test_a_script_is_played_where_it_says(configure: Configure) -> None:
@@ -184,6 +194,25 @@ def test_a_script_is_played_where_it_says(configure: Configure) -> None:
     assert "-loc(book2,kitchen)" in robot.percepts[0].visible
     assert "loc(book2,kitchen)" in robot.percepts[1].visible
     assert record.achieved
+
+
+@pytest.mark.parametrize(
+    ("steps", "reason"),
+    [
+        ((2, 3), None),
+        ((2, 5), "script step 5 was not reached"),
+        ((50, 2, 5), "script steps 5, 50 were not reached"),
+    ],
+)
+def test_a_trial_that_ends_before_its_script_says_so(
+    configure: Configure, steps: tuple[int, ...], reason: str | None
+) -> None:
+    rooms = itertools.cycle(["office1", "office2"])
+    entries = [f"{{step: {n}, action: 'exo_move(book2,{room})'}}" for n, room in zip(steps, rooms)]
+    spec = _spec(configure, "1", f"script=[{', '.join(entries)}]", "goal_feedback=false")
+    there_and_back = ["move(rob1,office2)", "move(rob1,kitchen)", "move(rob1,office2)", "finish"]
+    record = _play(spec, Reciter(there_and_back))
+    assert (record.outcome, record.steps, record.reason) == ("false_finish", 4, reason)
 
 
 def test_an_announced_event_is_told_and_recorded_as_observed(configure: Configure) -> None:
