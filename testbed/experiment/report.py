@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,7 +47,7 @@ def write_report(folder: Path, name: str) -> list[Row]:
         rows=rows,
         trials=sum(row.trials for row in rows),
         stories=stories,
-        folder=folder.name,
+        folder=shlex.quote(str(folder)),
     )
     replace_text(folder / REPORT, page)
     return rows

@@ -1,8 +1,11 @@
 """The report: one self-contained file that tells every trial, readable by anyone."""
 
 import json
+import shlex
 from html.parser import HTMLParser
 from pathlib import Path
+
+import pytest
 
 from testbed.experiment.record import At, Attempt, Explained, Occurrence
 from testbed.experiment.report import SHOWN, timeline, write_report
@@ -85,6 +88,12 @@ def test_the_report_suits_dark_rooms_and_narrow_screens(tmp_path: Path) -> None:
     assert "overflow-x: auto" in text
 
 
+def test_a_script_that_was_not_played_to_its_end_is_said_under_the_table(tmp_path: Path) -> None:
+    reason = "script step 50 was not reached"
+    _, page = _report(tmp_path, a_record("a", reason=reason), a_record("b"))
+    assert f"scenario 1, intentional: {reason} in 1 of 2 trials." in page.text
+
+
 def test_what_comes_from_outside_is_escaped(tmp_path: Path) -> None:
     reason = "<script>alert(1)</script>"
     text, page = _report(tmp_path, a_record(outcome="error", achieved=False, reason=reason))
@@ -92,9 +101,13 @@ def test_what_comes_from_outside_is_escaped(tmp_path: Path) -> None:
     assert reason in page.text
 
 
-def test_a_trial_is_told_with_the_command_that_replays_it(tmp_path: Path) -> None:
-    _, page = _report(tmp_path, a_record("cafe42"))
-    assert f"testbed replay {tmp_path.name} --trial cafe42" in page.text
+@pytest.mark.parametrize("folder", ["runs/mine", "my runs/mine", "runs/o'clock"])
+def test_a_trial_is_told_with_the_command_that_replays_it(at_home: Path, folder: str) -> None:
+    (at_home / folder).mkdir(parents=True)
+    _, page = _report(Path(folder), a_record("cafe42"))
+    command = f"testbed replay {shlex.quote(folder)} --trial cafe42"
+    assert shlex.split(command)[2] == folder
+    assert command in page.text
 
 
 def test_of_many_trials_the_failures_are_told_first(tmp_path: Path) -> None:
