@@ -66,8 +66,9 @@ class Activity(msgspec.Struct):
 class TrialRecord(msgspec.Struct, kw_only=True):
     """The record of a trial.
 
-    `reason` is one line that says why a trial was lost or ended in error. `minimal_actions` is
-    the oracle's, from the initial state with nothing exogenous; None where no plan exists.
+    `reason` is one line that says why a trial was lost or ended in error, or that it was over
+    before its script. `minimal_actions` is the oracle's, from the initial state with nothing
+    exogenous; None where no plan exists.
     `mental` holds `start(N)`, `stop(N)` and `finish`; times are seconds.
     """
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from testbed.environment.core import FINISH, WAIT
 from testbed.environment.situation import Ending
@@ -100,6 +100,13 @@ class Recorder:
     def _minimal_if_undisturbed(self) -> bool:
         undisturbed = not self.record.exogenous
         return not undisturbed or self.record.action_count == self.record.minimal_actions
+
+    def unreached(self, steps: Sequence[int]) -> None:
+        """Steps of the script at which the game was over already."""
+        if steps:
+            several = f"steps {', '.join(map(str, steps))} were"
+            which = several if len(steps) > 1 else f"step {steps[0]} was"
+            self.record.reason = f"script {which} not reached"
 
     def fail(self, outcome: Outcome, reason: str) -> None:
         """The trial could not be played to its end."""

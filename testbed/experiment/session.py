@@ -31,7 +31,7 @@ from testbed.experiment.store import (
     read_config,
     write_config,
 )
-from testbed.experiment.tables import rich_table
+from testbed.experiment.tables import Row, rich_table
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
 WIDE = 120
@@ -71,7 +71,7 @@ def report_again(folder: Path) -> None:
     """Table, summary and report of a run, made again. Raises StoreError or ConfigError."""
     config = read_config(folder)
     console = _console()
-    console.print(rich_table(write_report(folder, config.name)))
+    _show(console, write_report(folder, config.name))
     _say(console, f"report: {folder / REPORT}")
 
 
@@ -95,13 +95,20 @@ def _exit_code(tally: Tally) -> int:
 
 
 def _conclude(folder: Path, name: str, tally: Tally, console: Console) -> None:
-    console.print(rich_table(write_report(folder, name)))
+    _show(console, write_report(folder, name))
     if tally.interrupted:
         _say(console, f"interrupted: {tally.done} of {tally.planned} trials are kept in {folder}")
         _say(console, f"to go on: testbed run {folder / 'config.yaml'} --out {folder} --resume")
     if tally.failed:
         _say(console, f"{tally.failed} trials ended in error or lost their robot; see the report")
     _say(console, f"report: {folder / REPORT}")
+
+
+def _show(console: Console, rows: Sequence[Row]) -> None:
+    console.print(rich_table(rows))
+    for row in rows:
+        for note in row.notes():
+            _say(console, note)
 
 
 def _say(console: Console, line: str) -> None:

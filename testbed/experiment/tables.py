@@ -41,6 +41,7 @@ class Row:
     units: int = 0
     planning_s: float = 0.0
     explanations: Counter[str] = field(default_factory=Counter)
+    reasons: Counter[str] = field(default_factory=Counter)
 
     def add(self, record: TrialRecord) -> None:
         """Count one more trial."""
@@ -54,6 +55,8 @@ class Row:
         self.units += record.execution_units
         self.planning_s += record.planning_time_s
         self.explanations.update(explained(record))
+        if record.reason is not None:
+            self.reasons[record.reason] += 1
 
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the order of `COLUMNS`."""
@@ -67,6 +70,14 @@ class Row:
             self._planning(),
             self._explained(),
         )
+
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of trials that were played to their end, one line each."""
+        whose = f"scenario {self.scenario}, {self.robot}"
+        if self.trials == 1:
+            return tuple(f"{whose}: {reason}" for reason in self.reasons)
+        trials = f"of {self.trials} trials"
+        return tuple(f"{whose}: {reason} in {n} {trials}" for reason, n in self.reasons.items())
 
     @property
     def _played(self) -> int:

@@ -69,6 +69,19 @@ def test_a_row_of_failures_alone_has_no_means() -> None:
     assert (cells["achieved"], cells["plans"], cells["planning"]) == ("0/1, 1 failed", "-", "-")
 
 
+def test_a_note_is_kept_of_trials_that_were_played_to_their_end() -> None:
+    reason = "script step 50 was not reached"
+    (row,) = rows_of([a_record(reason=reason)])
+    assert row.notes() == ("scenario 1, intentional: script step 50 was not reached",)
+    lost = a_record("d", outcome="robot_lost", reason="robot is gone")
+    (row,) = rows_of(
+        [a_record("a", reason=reason), a_record("b", reason=reason), a_record("c"), lost]
+    )
+    assert row.notes() == (
+        "scenario 1, intentional: script step 50 was not reached in 2 of 4 trials",
+    )
+
+
 def test_what_was_explained_is_listed_once_in_the_order_of_its_steps() -> None:
     later = Explained(9, [At(2, "e"), At(7, "d"), At(1, "z")], ["g"])
     record = a_record(explanations=[Explained(3, [At(2, "e"), At(1, "z")], []), later])

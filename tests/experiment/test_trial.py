@@ -208,7 +208,10 @@ def test_a_trial_that_ends_before_its_script_says_so(
     configure: Configure, steps: tuple[int, ...], reason: str | None
 ) -> None:
     rooms = itertools.cycle(["office1", "office2"])
-    entries = [f"{{step: {n}, action: 'exo_move(book2,{room})'}}" for n, room in zip(steps, rooms)]
+    entries = [
+        f"{{step: {n}, action: 'exo_move(book2,{room})'}}"
+        for n, room in zip(steps, rooms, strict=False)
+    ]
     spec = _spec(configure, "1", f"script=[{', '.join(entries)}]", "goal_feedback=false")
     there_and_back = ["move(rob1,office2)", "move(rob1,kitchen)", "move(rob1,office2)", "finish"]
     record = _play(spec, Reciter(there_and_back))
