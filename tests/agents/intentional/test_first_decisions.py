@@ -1,0 +1,23 @@
+"""From each initial state of the office, both ways of reasoning start the same activity."""
+
+from __future__ import annotations
+
+import pytest
+
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.kept import KeptLogician
+from agents.intentional.logician import Logician
+from tests.agents.intentional.lives import WORLD, live
+
+STATES = list(WORLD.initial_states())
+PARTS = 8
+
+
+@pytest.mark.parametrize("part", range(PARTS))
+def test_the_first_activity_is_the_theorys(part: int) -> None:
+    for state in STATES[part::PARTS]:
+        kept, plain = (
+            live(IntentionalRobot(reasoner), state, steps=2).decisions[0].trace
+            for reasoner in (KeptLogician, Logician)
+        )
+        assert (kept.intention, kept.plan) == (plain.intention, plain.plan), WORLD.true_atoms(state)
