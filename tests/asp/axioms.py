@@ -14,7 +14,7 @@ from asp.loading import read_domain
 from asp.solving import theory
 from asp.translation import translate
 
-_NUMBER = re.compile(r"% \((\d+)\) \S")
+_NUMBER = re.compile(r"% \((\d+|[a-z])\) \S")
 _END_OF_RULE = re.compile(r"\.[ \t]*\n")
 
 THEORIES = ("history", "intentions", "diagnosis", "planning")
@@ -22,9 +22,12 @@ THEORIES = ("history", "intentions", "diagnosis", "planning")
 
 @dataclass(frozen=True)
 class Block:
-    """A paragraph of a theory: its text, its rules, and its number if it is an axiom."""
+    """A paragraph of a theory: its text, its rules, and its number if it is an axiom.
 
-    number: int | None
+    Paragraphs with a letter are numbered by theory and letter: `defaults.a`.
+    """
+
+    number: int | str | None
     text: str
     rules: tuple[str, ...]
 
@@ -32,18 +35,27 @@ class Block:
 @cache
 def blocks(name: str) -> tuple[Block, ...]:
     """The paragraphs of `asp/theories/NAME.lp`, in order."""
-    return tuple(_block(text) for text in theory(name).split("\n\n"))
+    return tuple(_block(name, text) for text in theory(name).split("\n\n"))
 
 
-def _block(text: str) -> Block:
+def _block(theory_name: str, text: str) -> Block:
     match = _NUMBER.match(text)
     lines = [line for line in text.splitlines() if not line.startswith("%")]
     rules = _END_OF_RULE.split("\n".join(lines) + "\n")
     return Block(
-        None if match is None else int(match.group(1)),
+        None if match is None else _number(theory_name, match.group(1)),
         text,
         tuple(rule.strip() + "." for rule in rules if rule.strip()),
     )
+
+
+def _number(theory_name: str, label: str) -> int | str:
+    return int(label) if label.isdigit() else f"{theory_name}.{label}"
+
+
+def lettered(name: str) -> dict[str, Block]:
+    """The paragraphs of a theory that have a letter."""
+    return {block.number: block for block in blocks(name) if isinstance(block.number, str)}
 
 
 @cache
@@ -52,7 +64,7 @@ def axioms() -> dict[int, Block]:
     found: dict[int, Block] = {}
     for name in THEORIES:
         for block in blocks(name):
-            if block.number is not None:
+            if isinstance(block.number, int):
                 if block.number in found:
                     raise ValueError(f"axiom ({block.number}) stands twice")
                 found[block.number] = block
@@ -66,7 +78,7 @@ class Without:
     An axiom, or one rule of it (`rule`, counted from 1), or one condition of this rule's body.
     """
 
-    number: int
+    number: int | str
     rule: int | None = None
     condition: str | None = None
 

@@ -29,7 +29,7 @@ class Case:
     without that condition of the rule.
     """
 
-    number: int
+    number: int | str
     sentence: str
     rules: str
     claim: Claim
@@ -45,7 +45,10 @@ class Case:
     @property
     def program(self) -> Program:
         constants = {"n": self.n, "max_name": 2, "max_len": 2}
-        if self.number < 25:
+        if isinstance(self.number, str):
+            theories = _THEORIES["diagnosis"]
+            constants["max_unobserved"] = self.limit
+        elif self.number < 25:
             theories = _THEORIES["acting"]
         elif self.number < 28:
             theories = _THEORIES["diagnosis"]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from axioms import Without, axioms
+from axioms import Without, axioms, lettered
 from cases_of_activities import CASES as ACTIVITIES
 from cases_of_candidates import CASES as CANDIDATES
 from cases_of_conditions import CASES as CONDITIONS
+from cases_of_defaults import CASES as DEFAULTS
+from cases_of_defaults import CONDITIONS as OF_DEFAULTS
 from cases_of_history import CASES as HISTORY
 from cases_of_intentions import CASES as INTENTIONS
 from stories import Case
@@ -34,13 +36,23 @@ def test_every_rule_of_every_axiom_has_a_case() -> None:
     assert {(case.number, case.rule or 1) for case in CASES} == stated
 
 
-@pytest.mark.parametrize("case", CASES, ids=_name)
+def test_every_rule_about_defaults_and_what_is_kept_has_a_case() -> None:
+    stated = {
+        (number, rule)
+        for theory in ("defaults", "diagnosis")
+        for number, block in lettered(theory).items()
+        for rule in range(1, len(block.rules) + 1)
+    }
+    assert {(case.number, case.rule or 1) for case in DEFAULTS} == stated
+
+
+@pytest.mark.parametrize("case", [*CASES, *DEFAULTS], ids=_name)
 def test_what_an_axiom_says_holds_with_it_and_fails_without_it(case: Case) -> None:
     assert case.claim.holds(case.program.solver())
     assert not case.claim.holds(case.program.solver(case.without))
 
 
-@pytest.mark.parametrize("case", CONDITIONS, ids=_name)
+@pytest.mark.parametrize("case", [*CONDITIONS, *OF_DEFAULTS], ids=_name)
 def test_an_axiom_says_no_more_than_its_condition_allows(case: Case) -> None:
     assert case.claim.holds(case.program.solver())
     assert not case.claim.holds(case.program.solver(case.without))
