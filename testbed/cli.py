@@ -78,19 +78,28 @@ def check(config: Config, overrides: Overrides = None) -> None:
 
 
 @app.command(
-    epilog="Examples: testbed robot --name arm --connect tcp/127.0.0.1:7447 | "
+    epilog="Examples: testbed robot (with a router on this machine: zenohd) | "
+    "testbed robot --name arm --connect tcp/192.168.0.7:7447 (with a router or driver there) | "
     "testbed robot --config zenoh.json5"
 )
 def robot(
     connect: Annotated[
-        str | None, typer.Option(metavar="ENDPOINT", help="Driver or router to serve.")
+        str | None,
+        typer.Option(
+            metavar="ENDPOINT",
+            help="Driver or router to serve; the robot ends with it. Without this and --config: "
+            "whoever listens at tcp/127.0.0.1:7447, zenoh's usual endpoint, now or later.",
+        ),
     ] = None,
     name: Annotated[str, typer.Option(help="Name under which the robot offers itself.")] = "robot",
     config: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="zenoh configuration, JSON5.")
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="zenoh configuration, JSON5; --connect adds an endpoint to it."
+        ),
     ] = None,
 ) -> None:
-    """Serve a robot over zenoh until interrupted or until its driver is gone."""
+    """Serve a robot over zenoh until interrupted."""
     from testbed.experiment.serving import serve_robot
 
     with _input_errors():
@@ -109,19 +118,28 @@ def report(
             report_again(folder)
 
 
-@app.command(epilog="Example: testbed replay runs/quickstart --trial 3f2a")
+@app.command(
+    epilog="Examples: testbed replay runs/quickstart | testbed replay runs/quickstart --trial 3f2a"
+)
 def replay(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")],
-    trial: Annotated[str, typer.Option(metavar="ID", help="Id of the trial, or its beginning.")],
+    trial: Annotated[
+        str | None,
+        typer.Option(metavar="ID", help="Id of the trial, or its beginning; without it: a list."),
+    ] = None,
 ) -> None:
     """Tell a trial step by step: world, belief, intention, explanation.
 
-    The trial is played again in this process; where that differs from the record it says so, and
-    the exit code is 1.
+    Without --trial the trials of the run are listed. With it the trial is played again in this
+    process; where that differs from the record it says so, and the exit code is 1.
     """
+    from testbed.experiment.replay import list_trials
     from testbed.experiment.replay import replay as tell
 
     with _input_errors():
+        if trial is None:
+            list_trials(folder, typer.echo)
+            return
         as_recorded = tell(folder, trial, typer.echo)
     raise typer.Exit(DONE if as_recorded else FAILED)
 

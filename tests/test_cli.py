@@ -162,7 +162,7 @@ def test_a_trial_in_error_gives_exit_code_1_and_keeps_the_rest() -> None:
         (["report", "nowhere"], "nowhere: is not a run folder"),
         (["replay", "nowhere", "--trial", "a"], "nowhere: is not a run folder"),
         (["translate", "nowhere.al"], "nowhere.al: no such"),
-        (["robot"], "--connect"),
+        (["robot", "--config", "nowhere.json5"], "nowhere.json5"),
         (["robot", "--connect", "nonsense"], "nonsense"),
         (["run"], "CONFIG"),
         (["run", "quickstart", "--workers", "0"], "--workers"),
@@ -229,8 +229,19 @@ def test_replay_tells_the_trial_and_whether_it_is_as_recorded() -> None:
     ):
         assert word in done.stdout
     assert "explanation  exo_move(book2,library) at step" in done.stdout
+    assert "unexpected   loc(book2,library) at step" in done.stdout
+    assert "because      no activity for the goal; " in done.stdout
     assert done.stdout.splitlines()[-1] == "as recorded"
     assert "not one of the run's 2 trials" in _refused("replay", "run", "--trial", "zzz")
+
+
+def test_replay_without_a_trial_lists_them() -> None:
+    _testbed("run", "quickstart", "scenarios=[2]", "link=inprocess", "--out", "run")
+    done = _testbed("replay", "run")
+    assert done.returncode == 0, done.stderr
+    assert [line.split()[0] for line in done.stdout.splitlines()[1:3]] == [
+        trial["trial"] for trial in _trials("run")
+    ]
 
 
 def test_replay_says_where_it_differs_from_the_record() -> None:

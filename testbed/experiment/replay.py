@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from testbed.experiment.registry import make_robot
 from testbed.experiment.store import read_config, read_records
 from testbed.experiment.trial import Moment, Result, play_trial
 from testbed.link.inprocess import InProcessRobot
+from testbed.link.messages import Explanation, Trace
 
 Say = Callable[[str], None]
 
@@ -33,9 +35,26 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
     world = load_world(spec.setting.domain)
     say(f"trial {spec.trial}: scenario {spec.scenario}, {spec.robot}, seed {spec.seed}")
     say(f"goal: {' '.join(spec.setting.goal)}")
-    result = play_trial(spec, InProcessRobot(make_robot), lambda moment: _tell(moment, world, say))
+    result = play_trial(spec, InProcessRobot(make_robot), Teller(world, say).tell)
     _tell_end(result, say)
     return _compare(_recorded(folder, spec), result.record, say)
+
+
+def list_trials(folder: Path, say: Say) -> None:
+    """Say which trials a run has, with their outcomes so far. Raises as `replay`."""
+    specs = plan_trials(read_config(folder))
+    outcomes = {record.trial: record.outcome for record in read_records(folder)}
+    rows = [("trial", "scenario", "robot", "outcome")]
+    rows += [
+        (s.trial, s.scenario, s.robot, outcomes.get(s.trial, "not played yet").replace("_", " "))
+        for s in specs
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        say("  ".join(cells).rstrip())
+    command = f"testbed replay {shlex.quote(str(folder))} --trial"
+    say(f"choose one by its id, or the beginning of it: {command} {rows[-1][0]}")
 
 
 def find_trial(specs: Iterable[TrialSpec], trial: str) -> TrialSpec:
@@ -52,31 +71,60 @@ def find_trial(specs: Iterable[TrialSpec], trial: str) -> TrialSpec:
     raise StoreError(f"--trial {trial}: not one of the run's {len(known)} trials; {hint}")
 
 
-def _tell(moment: Moment, world: World, say: Say) -> None:
-    for line in _lines(moment, world):
-        say(line)
+class Teller:
+    """Tells a trial while it is played; what is as at the step before is not told again."""
 
+    def __init__(self, world: World, say: Say) -> None:
+        self._world = world
+        self._say = say
+        self._plan: tuple[str, ...] = ()
+        self._believed = False
 
-def _lines(moment: Moment, world: World) -> Iterator[str]:
-    trace = moment.decision.trace
-    yield ""
-    yield f"step {moment.percept.step}"
-    truth = sorted(world.true_atoms(moment.before))
-    yield f"  world        {' '.join(truth)}"
-    if moment.percept.goal_holds is False:
-        yield "  told         the goal does not hold"
-    if moment.percept.events:
-        news = (f"{event.action} at step {event.step}" for event in moment.percept.events)
-        yield f"  told         {', '.join(news)}"
-    yield f"  belief       {' '.join(sorted(trace.belief)) or '-'}"
-    if trace.belief and sorted(trace.belief) != truth:
-        yield f"               in truth {_difference(trace.belief, truth)}"
-    if trace.explanation is not None:
-        yield f"  explanation  {_explanation(moment)}"
-    yield f"  intention    {_intention(moment)}"
-    yield f"  action       {_action(moment)}"
-    if moment.event is not None:
-        yield f"  others       {moment.event}"
+    def tell(self, moment: Moment) -> None:
+        """Tell one step."""
+        for line in self._lines(moment):
+            self._say(line)
+
+    def _lines(self, moment: Moment) -> Iterator[str]:
+        trace = moment.decision.trace
+        yield ""
+        yield f"step {moment.percept.step}"
+        truth = sorted(self._world.true_atoms(moment.before))
+        yield f"  world        {' '.join(truth)}"
+        if moment.percept.goal_holds is False:
+            yield "  told         the goal does not hold"
+        if moment.percept.events:
+            news = (f"{event.action} at step {event.step}" for event in moment.percept.events)
+            yield f"  told         {', '.join(news)}"
+        yield f"  belief       {self._belief(trace)}"
+        if trace.belief and sorted(trace.belief) != truth:
+            yield f"               in truth {_difference(trace.belief, truth)}"
+        for contrary in trace.contradictions:
+            against = f"{contrary.observed} at step {contrary.step} against {contrary.believed}"
+            yield f"  unexpected   {against}"
+        if trace.explanation is not None:
+            yield f"  explanation  {_explanation(trace.explanation)}"
+        yield from (f"    or         {_explanation(other)}" for other in trace.alternatives)
+        if trace.more_alternatives:
+            yield "    or         others, not all of which are listed"
+        yield f"  intention    {trace.intention or '-'}{self._new_plan(trace)}"
+        if trace.reason:
+            yield f"  because      {trace.reason}"
+        yield f"  action       {_action(moment)}"
+        if moment.event is not None:
+            yield f"  others       {moment.event}"
+
+    def _belief(self, trace: Trace) -> str:
+        if trace.belief:
+            self._believed = True
+            return " ".join(sorted(trace.belief))
+        return "as before" if self._believed else "not reported"
+
+    def _new_plan(self, trace: Trace) -> str:
+        """The plan, unless it is what is left of the one told last."""
+        plan, told = tuple(trace.plan), self._plan
+        self._plan = plan or told
+        return f"; plan: {' '.join(plan)}" if plan != told[len(told) - len(plan) :] else ""
 
 
 def _difference(belief: Iterable[str], truth: Iterable[str]) -> str:
@@ -84,19 +132,11 @@ def _difference(belief: Iterable[str], truth: Iterable[str]) -> str:
     return " ".join([*missing, *(f"-{atom}" for atom in wrong)])
 
 
-def _explanation(moment: Moment) -> str:
-    explanation = moment.decision.trace.explanation
-    assert explanation is not None
-    events = [f"{event.action} at step {event.step}" for event in explanation.unobserved]
+def _explanation(explanation: Explanation) -> str:
     exceptions = [f"exception {literal}" for literal in explanation.exceptions]
-    return ", ".join([*events, *exceptions]) or "nothing unobserved"
-
-
-def _intention(moment: Moment) -> str:
-    trace = moment.decision.trace
-    plan = f"; plan: {' '.join(trace.plan)}" if trace.plan else ""
-    reason = f" ({trace.reason})" if trace.reason else ""
-    return f"{trace.intention or '-'}{reason}{plan}"
+    events = [f"{event.action} at step {event.step}" for event in explanation.unobserved]
+    false = [f"false news of {e.action} at step {e.step}" for e in explanation.distrusted]
+    return ", ".join([*exceptions, *events, *false]) or "nothing unobserved"
 
 
 def _action(moment: Moment) -> str:
@@ -130,6 +170,12 @@ def _compare(recorded: TrialRecord | None, now: TrialRecord, say: Say) -> bool:
     changed = [key for key in before if before[key] != after[key]]
     if not changed:
         say("as recorded")
+    if recorded.outcome == "robot_lost":
+        say(
+            f"recorded as robot lost: {recorded.reason}; a robot that was lost there need not be "
+            "lost again, for here it runs in this process and without a limit to its time"
+        )
+        return True
     for key in changed:
         say(f"differs from the record: {key} was {before[key]}, is {after[key]}")
     return not changed
