@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from contextlib import suppress
 from pathlib import Path
 
@@ -10,30 +11,36 @@ import zenoh
 from testbed.experiment.errors import ServingError
 from testbed.experiment.registry import make_robot
 from testbed.link.serve import serve, serve_forever
+from testbed.link.session import open_as_configured, open_waiting
+
+USUAL = "tcp/127.0.0.1:7447"
+"""Where a router of zenoh listens unless told otherwise."""
 
 
 def serve_robot(connect: str | None, name: str, config: Path | None) -> None:
     """Serve under `name` until interrupted.
 
     `connect` is the endpoint of a driver, with which the robot ends, or of a router. `config` is a
-    zenoh configuration, which then says everything about the session.
+    zenoh configuration, which says everything about the session, but for `connect` where both are
+    given. Without either the robot serves at the usual endpoint whenever somebody is there.
 
     Raises:
-        ServingError: where neither or both are given, or zenoh cannot open the session.
+        ServingError: where zenoh cannot open the session.
     """
-    if (connect is None) == (config is None):
-        raise ServingError("give either --connect ENDPOINT or --config FILE")
     try:
-        if connect is not None:
+        if config is not None:
+            _serve(open_as_configured(config, connect), name)
+        elif connect is not None:
             serve_forever(connect, name, make_robot)
         else:
-            _serve_configured(name, str(config))
+            print(f"robot '{name}' serves whoever listens at {USUAL}", file=sys.stderr, flush=True)
+            _serve(open_waiting(USUAL), name)
     except zenoh.ZError as error:
-        raise ServingError(f"{connect or config}: {_first_line(error)}") from None
+        raise ServingError(f"{config or connect or USUAL}: {_first_line(error)}") from None
 
 
-def _serve_configured(name: str, config: str) -> None:
-    with zenoh.open(zenoh.Config.from_file(config)) as session, suppress(KeyboardInterrupt):
+def _serve(session: zenoh.Session, name: str) -> None:
+    with session, suppress(KeyboardInterrupt):
         serve(session, name, make_robot)
 
 

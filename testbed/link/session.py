@@ -9,6 +9,7 @@ has called back into Python, hangs it.
 """
 
 import json
+from pathlib import Path
 from typing import Any
 
 import zenoh
@@ -42,6 +43,37 @@ def open_robot(driver: str) -> zenoh.Session:
             "connect/exit_on_failure": True,
         }
     )
+
+
+def open_waiting(endpoint: str) -> zenoh.Session:
+    """Open a session that connects to an endpoint as soon, and as often, as somebody is there."""
+    return _open(
+        {
+            "listen/endpoints": [],
+            "connect/endpoints": [endpoint],
+            "connect/timeout_ms": -1,
+            "connect/exit_on_failure": False,
+        }
+    )
+
+
+def open_as_configured(file: Path, also: str | None = None) -> zenoh.Session:
+    """Open a session as a zenoh configuration says, and connect to one more endpoint.
+
+    Raises zenoh.ZError for a configuration that zenoh does not accept.
+    """
+    config = zenoh.Config.from_file(str(file))
+    if also is not None:
+        stated = json.loads(config.get_json("connect/endpoints"))
+        config.insert_json5("connect/endpoints", json.dumps(_with(also, stated)))
+    return zenoh.open(config)
+
+
+def _with(endpoint: str, stated: Any) -> Any:
+    """Endpoints, in any of the forms that zenoh knows, with one more."""
+    if isinstance(stated, dict):
+        return {mode: [*stated.get(mode, ()), endpoint] for mode in ("router", "peer", "client")}
+    return [*stated, endpoint]
 
 
 def endpoint(session: zenoh.Session) -> str:
