@@ -92,7 +92,9 @@ class Encoding:
         bodies = [e.body for e in self._description.executability if e.actions == (action,)]
         branches: list[dict[str, str]] = [{}]
         while branches:
-            before = branches.pop()
+            before = self._implied(branches.pop())
+            if before is None:
+                continue
             blocked, open_body = self._blocked(bodies, before)
             if blocked:
                 continue
@@ -104,6 +106,19 @@ class Encoding:
                 branches += self._split(undecided, before)
             elif after is not None:
                 yield Operator(action, before, after)
+
+    def _implied(self, before: dict[str, str]) -> dict[str, str] | None:
+        """With the values that the constraints imply; None where there is no such state."""
+        size = -1
+        while size != len(before):
+            size = len(before)
+            for law in self._constraints:
+                if not is_positive(law.head) or not all(self.holds(b, before) for b in law.body):
+                    continue
+                if self.holds(law.head, before) is False:
+                    return None
+                before = {**before, **dict([self._assign(law.head)])}
+        return before
 
     def _blocked(self, bodies: list[Literals], before: Values) -> tuple[bool, str | None]:
         """Whether a body holds; and a literal of one that is not decided yet."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from benchmarks import decisions, growth
+from benchmarks import decisions, growth, memory, mutation, peers, joint_growth
 from benchmarks.sheets import Sheet
 
 SIZES = ("small", "full")
@@ -12,4 +12,8 @@ SIZES = ("small", "full")
 BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "decisions": decisions.main,
     "growth": growth.main,
+    "peers": peers.main,
+    "memory": memory.main,
+    "mutation": mutation.main,
+    "joint_growth": joint_growth.main,
 }

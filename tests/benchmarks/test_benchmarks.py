@@ -1,0 +1,82 @@
+"""Each benchmark runs in its smallest size; its sides agree and nothing is left out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from benchmarks import decisions, growth, memory, mutation, peers
+from benchmarks.__main__ import main
+from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS
+from benchmarks.sheets import Row, Sheet
+from benchmarks.trials import SCENARIOS
+
+SETTLED_MB = 5.0
+
+
+def rows_of(sheets: list[Sheet]) -> dict[str, list[Row]]:
+    """The rows of each sheet, which all have the same columns."""
+    for sheet in sheets:
+        assert all(row.keys() == sheet.rows[0].keys() for row in sheet.rows)
+    return {sheet.name: list(sheet.rows) for sheet in sheets}
+
+
+def column(rows: list[Row], name: str) -> list[object]:
+    return [row[name] for row in rows]
+
+
+def test_decisions_of_all_scenarios_are_those_of_the_reference() -> None:
+    sheets = rows_of(decisions.main("small"))
+    for name in ("trials", "decisions", "fresh"):
+        assert column(sheets[name], "scenario") == list(SCENARIOS)
+    assert all(column(sheets["trials"], "agree"))
+    assert all(column(sheets["decisions"], "decisions"))
+
+
+def test_growth_has_every_point_and_the_sides_agree() -> None:
+    sheets = rows_of(growth.main("small"))
+    points = {"books": BOOKS, "rooms": ROOMS, "carrying": CARRIED, "corridor": CORRIDORS}
+    for name, values in points.items():
+        assert column(sheets[name], name) == list(values["small"])
+        assert all(column(sheets[name], "agree"))
+    history = sheets["history"]
+    kinds = ("ordinary", "contradiction")
+    asked = list(zip(column(history, "step"), column(history, "decision"), strict=True))
+    assert asked == [(step, kind) for step in STEPS["small"] for kind in kinds]
+    assert all(column(history, "agree"))
+
+
+def test_peers_find_plans_of_the_same_length() -> None:
+    sheets = rows_of(peers.main("small"))
+    assert column(sheets["peers"], "problem") == ["P1", "P2"]
+    assert column(sheets["peers"], "actions") == [6, 17]
+    assert all(column(sheets["peers"], "agree"))
+
+
+def test_trial_after_trial_takes_no_more_memory() -> None:
+    rows = list(memory.soak(trials=300, states=2))
+    assert [row["trials"] for row in rows] == [1, *range(30, 301, 30)]
+    settled = [float(str(row["growth_mb"])) for row in rows[4:]]
+    assert sum(settled) < SETTLED_MB
+
+
+def test_a_sample_of_mutants_is_killed() -> None:
+    sheets = rows_of(mutation.main("small"))
+    assert len(sheets["mutation"]) == mutation.SAMPLE
+    assert sheets["survivors"] == []
+
+
+def test_results_are_written_and_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    main(["mutation", "--size", "small", "--out", str(tmp_path)])
+    written = json.loads((tmp_path / "mutation.json").read_text(encoding="utf-8"))
+    assert written["size"] == "small"
+    assert [sheet["name"] for sheet in written["sheets"]] == ["mutation", "survivors", "killed"]
+    assert "Each rule and each axiom left out" in capsys.readouterr().out
+
+
+def test_an_unknown_benchmark_is_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["speed"])
+    assert "unknown: speed; there are decisions" in capsys.readouterr().err
