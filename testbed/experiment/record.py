@@ -46,28 +46,49 @@ class At(msgspec.Struct):
     action: str
 
 
+class Contradicted(msgspec.Struct):
+    """What was observed at a step, and what was believed of it."""
+
+    step: int
+    observed: str
+    believed: str
+
+
 class Explained(msgspec.Struct):
-    """An explanation that the robot adopted at `step`."""
+    """An explanation that the robot adopted at `step`, and why it needed one.
+
+    `distrusted` are reports that it takes for false, `alternatives` the number of other
+    explanations that are as small; there are more of them if `more_alternatives`.
+    """
 
     step: int
     unobserved: list[At]
     exceptions: list[str]
+    distrusted: list[At] = []
+    contradictions: list[Contradicted] = []
+    alternatives: int = 0
+    more_alternatives: bool = False
 
 
 class Activity(msgspec.Struct):
-    """An activity of the robot: when it started, its plan, and when it was stopped (or None)."""
+    """An activity of the robot: when it started, its plan, and when it was stopped (or None).
+
+    With the stop come the first step at which the rest of the plan would have failed, and why.
+    """
 
     name: int
     start: int
     plan: list[str]
     stop: int | None = None
+    futile_at: int | None = None
+    reason: str | None = None
 
 
 class TrialRecord(msgspec.Struct, kw_only=True):
     """The record of a trial.
 
-    `reason` is one line that says why a trial was lost or ended in error, or that it was over
-    before its script. `minimal_actions` is the oracle's, from the initial state with nothing
+    `reason` is one line that says why a trial was lost, given up, or ended in error, or that it was
+    over before its script. `minimal_actions` is the oracle's, from the initial state with nothing
     exogenous; None where no plan exists.
     `mental` holds `start(N)`, `stop(N)` and `finish`; times are seconds.
     """

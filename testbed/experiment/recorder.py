@@ -10,13 +10,14 @@ from testbed.experiment.record import (
     Activity,
     At,
     Attempt,
+    Contradicted,
     Explained,
     Occurrence,
     Outcome,
     Report,
     TrialRecord,
 )
-from testbed.link.messages import Decision, Event, Trace
+from testbed.link.messages import Decision, Event, Explanation, Trace
 
 
 class Recorder:
@@ -25,6 +26,7 @@ class Recorder:
     def __init__(self, record: TrialRecord) -> None:
         self.record = record
         self._believes_goal = False
+        self._last_reason: str | None = None
 
     def minimal_actions(self, number: int | None) -> None:
         """The oracle's answer for the initial state."""
@@ -39,6 +41,7 @@ class Recorder:
         record.diagnosis_time_s += trace.diagnosis_time_s
         record.reasoning_time_s = record.planning_time_s + record.diagnosis_time_s
         self._believes_goal = decision.believes_goal
+        self._last_reason = trace.reason or None
         if decision.action not in (WAIT, FINISH):
             record.actions.append(Attempt(decision.step, decision.action, bool(happened)))
             record.action_count += 1
@@ -51,8 +54,7 @@ class Recorder:
         if mental is not None:
             record.mental.append(At(step, mental))
         if trace.explanation is not None:
-            unobserved = [At(event.step, event.action) for event in trace.explanation.unobserved]
-            record.explanations.append(Explained(step, unobserved, trace.explanation.exceptions))
+            record.explanations.append(_explained(step, trace, trace.explanation))
         self._activity(step, trace)
 
     def _activity(self, step: int, trace: Trace) -> None:
@@ -61,6 +63,8 @@ class Recorder:
         activities = self.record.activities
         if kind == "stop" and activities:
             activities[-1].stop = step
+            activities[-1].futile_at = trace.futile_at
+            activities[-1].reason = trace.reason or None
         if kind == "start":
             activities.append(Activity(int(name), step, list(trace.plan)))
         elif not kind and trace.plans > len(activities):
@@ -88,6 +92,8 @@ class Recorder:
         record = self.record
         record.finished = ending is not Ending.STEP_LIMIT
         record.outcome = self._outcome(ending)
+        if record.outcome == "gave_up":
+            record.reason = record.reason or self._last_reason
         record.correct = record.achieved and record.finished and self._minimal_if_undisturbed()
 
     def _outcome(self, ending: Ending) -> Outcome:
@@ -112,3 +118,15 @@ class Recorder:
         """The trial could not be played to its end."""
         self.record.outcome = outcome
         self.record.reason = reason
+
+
+def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
+    return Explained(
+        step,
+        [At(event.step, event.action) for event in explanation.unobserved],
+        explanation.exceptions,
+        distrusted=[At(event.step, event.action) for event in explanation.distrusted],
+        contradictions=[Contradicted(c.step, c.observed, c.believed) for c in trace.contradictions],
+        alternatives=len(trace.alternatives),
+        more_alternatives=trace.more_alternatives,
+    )

@@ -10,8 +10,17 @@ import pytest
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.trial import Moment, Result, play_trial
+from testbed.link.errors import RobotStops
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, Event, Explanation, Percept, Task, Trace
+from testbed.link.messages import (
+    Contradiction,
+    Decision,
+    Event,
+    Explanation,
+    Percept,
+    Task,
+    Trace,
+)
 from tests.experiment.samples import Configure
 
 PUBLISHED = (
@@ -167,6 +176,26 @@ def test_a_robot_that_fails_is_lost_with_its_words(configure: Configure) -> None
     assert "in act" in result.details
 
 
+def test_a_robot_that_stops_ends_the_trial_with_its_reason(configure: Configure) -> None:
+    class Stopping(Reciter):
+        def act(self, percept: Percept) -> Decision:
+            if percept.step == 2:
+                raise RobotStops("inconsistent history: a and b cannot both hold")
+            return super().act(percept)
+
+    spec = _spec(configure, "1")
+    result = play_trial(spec, InProcessRobot(lambda _: Stopping(PUBLISHED)))
+    assert (result.record.outcome, result.record.steps) == ("error", 1)
+    assert result.record.reason == "inconsistent history: a and b cannot both hold"
+    assert result.details is None
+
+
+def test_giving_up_is_on_record_with_its_reason(configure: Configure) -> None:
+    traces = {2: {"reason": "the goal is out of reach"}}
+    record = _play(_spec(configure, "1"), Reciter(["finish", "finish"], traces, believes=False))
+    assert (record.outcome, record.reason) == ("gave_up", "the goal is out of reach")
+
+
 @pytest.mark.parametrize(
     ("answers", "why"),
     [
@@ -275,12 +304,30 @@ def test_a_robot_may_be_given_only_what_it_sees(configure: Configure) -> None:
 
 
 def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
-    explanation = Explanation(step=3, unobserved=[Event(step=1, action="e")], exceptions=["x"])
+    explanation = Explanation(
+        step=3,
+        unobserved=[Event(step=1, action="e")],
+        exceptions=["x"],
+        distrusted=[Event(step=2, action="f")],
+    )
     plan = list(PUBLISHED)
     traces: dict[int, dict[str, Any]] = {
         1: {"mental": "start(1)", "plan": plan, "plans": 1, "planning_time_s": 0.5},
-        2: {"mental": "stop(1)", "plans": 1, "planning_time_s": 0.25},
-        3: {"explanation": explanation, "plans": 1, "diagnosis_time_s": 2.0},
+        2: {
+            "mental": "stop(1)",
+            "plans": 1,
+            "planning_time_s": 0.25,
+            "reason": "futile: x",
+            "futile_at": 5,
+        },
+        3: {
+            "explanation": explanation,
+            "contradictions": [Contradiction(step=2, observed="f", believed="-f")],
+            "alternatives": [explanation],
+            "more_alternatives": True,
+            "plans": 1,
+            "diagnosis_time_s": 2.0,
+        },
         4: {"mental": "start(2)", "plan": plan[:1], "plans": 2},
     }
     record = _play(_spec(configure, "1", "limits.steps=5"), Reciter([], traces))
@@ -288,13 +335,22 @@ def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
         (1, 1, plan, 2),
         (2, 4, plan[:1], None),
     ]
+    assert [(a.futile_at, a.reason) for a in record.activities] == [(5, "futile: x"), (None, None)]
     assert [(m.step, m.action) for m in record.mental] == [
         (1, "start(1)"),
         (2, "stop(1)"),
         (4, "start(2)"),
     ]
     assert msgspec.to_builtins(record.explanations) == [
-        {"step": 3, "unobserved": [{"step": 1, "action": "e"}], "exceptions": ["x"]}
+        {
+            "step": 3,
+            "unobserved": [{"step": 1, "action": "e"}],
+            "exceptions": ["x"],
+            "distrusted": [{"step": 2, "action": "f"}],
+            "contradictions": [{"step": 2, "observed": "f", "believed": "-f"}],
+            "alternatives": 1,
+            "more_alternatives": True,
+        }
     ]
     assert (record.planning_time_s, record.diagnosis_time_s) == (0.75, 2.0)
     assert record.reasoning_time_s == 2.75
