@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from benchmarks import decisions, growth, memory, mutation, peers, joint_growth
+from benchmarks import decisions, growth, memory, mutation, peers
 from benchmarks.sheets import Sheet
 
 SIZES = ("small", "full")
@@ -15,5 +15,4 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "peers": peers.main,
     "memory": memory.main,
     "mutation": mutation.main,
-    "joint_growth": joint_growth.main,
 }
