@@ -125,6 +125,26 @@ ARGUMENTS = {
         "X is bound by nothing",
     ),
     "a robot that is anyone": ("sees\n  R sees lit.", "17:3", "variable R is bound by nothing"),
+    "an exception to no default": (
+        "defaults\n  dark: -lit.\n  exception drak if warm.",
+        "18:3",
+        "unknown default 'drak'; did you mean 'dark'?",
+    ),
+    "an exception for what does not occur": (
+        "defaults\n  d: loc(T, hall).\n  exception d if T != X.",
+        "18:23",
+        "variable X is bound by nothing",
+    ),
+    "an exception for another sort": (
+        "defaults\n  d: loc(T, hall).\n  exception d if room(T).",
+        "18:3",
+        "no constant fits all the places of variable T",
+    ),
+    "a default that a program would take for a number": (
+        "defaults\n  n: lit.",
+        "17:3",
+        "the name 'n' means something else in programs",
+    ),
     "some of what does not occur": (
         "initially\n  loc(T, L) for some X.",
         "17:22",

@@ -7,7 +7,7 @@ from itertools import product
 import pytest
 
 from asp import Description, load_description, parse_description
-from asp.description import Causal, Constraint, Executability, Sees, Shows, Trigger
+from asp.description import Causal, Constraint, Default, Executability, Sees, Shows, Trigger
 
 # A harbour: ships of two kinds, berths in a row, cranes that serve some of them.
 SIGNATURE = """\
@@ -276,3 +276,38 @@ class TestOffice:
         costs = load_description("office").costs
         assert {costs[a] for a in costs if a.startswith("move(")} == {15}
         assert {costs[a] for a in costs if not a.startswith("move(")} == {5}
+
+
+class TestDefaults:
+    def test_a_default_has_an_instance_for_each_of_its_variables(self) -> None:
+        defaults = harbour("defaults\n  moored: at(F, 1) if ferry(F), -storm.").defaults
+        assert defaults == (
+            Default("moored(anna)", "at(anna,1)", ("-storm",), ()),
+            Default("moored(berta)", "at(berta,1)", ("-storm",), ()),
+        )
+
+    def test_a_default_without_variables_has_its_bare_name(self) -> None:
+        assert harbour("defaults\n  calm: -storm.").defaults == (Default("calm", "-storm", (), ()),)
+
+    def test_defaults_stand_in_the_order_of_the_source(self) -> None:
+        names = [d.name for d in harbour("defaults\n b: storm.\n a: loaded(S).").defaults]
+        assert names == ["b", "a(carl)", "a(anna)", "a(berta)"]
+
+    def test_an_exception_on_sorts_and_statics_leaves_instances_out(self) -> None:
+        text = "defaults\n  d: loaded(S).\n  exception d if tug(S).\n  exception d if S = anna."
+        assert [d.name for d in harbour(text).defaults] == ["d(berta)"]
+
+    def test_an_exception_on_fluents_is_a_condition(self) -> None:
+        text = "defaults\n  d: loaded(F) if ferry(F).\n  exception d if at(F, sea).\n"
+        text += "  exception d if storm, F != anna."
+        (anna, berta) = harbour(text).defaults
+        assert anna.exceptions == (("at(anna,sea)",),)
+        assert berta.exceptions == (("at(berta,sea)",), ("storm",))
+
+    def test_an_exception_may_stand_before_its_default(self) -> None:
+        text = "defaults\n  exception d if ferry(S).\n  d: loaded(S)."
+        assert [d.name for d in harbour(text).defaults] == ["d(carl)"]
+
+    def test_an_exception_for_some_other_thing_has_a_variable_of_its_own(self) -> None:
+        text = "facts\n  crane(2).\ndefaults\n  d: -storm.\n  exception d if busy(B), crane(B)."
+        assert harbour(text).defaults == (Default("d", "-storm", (), (("busy(2)",),)),)

@@ -289,3 +289,12 @@ def _names_of_programs() -> tuple[set[str], set[str]]:
     }
     texts = (translate(""), *map(theory_text, THEORIES))
     return predicates - {"side"}, set(re.findall(r"#const (\w+)", "\n".join(texts)))
+
+
+def test_a_default_and_an_exception_are_told_in_one_rule_each() -> None:
+    text = SMALL + "defaults\n  shut: -open(D) if -bell.\n  exception shut if D = front, bell.\n"
+    program = translate(text)
+    assert "default(shut(D),open(D),false) :- -holds(bell,0), door(D).\n" in program
+    assert "stated_exception(shut(D)) :- D = front, holds(bell,0), door(D).\n" in program
+    assert warnings_of(program) == []
+    assert states(program) == states(translate(SMALL))
