@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
+
 from lark import ParseTree, Token, Tree
 from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
 
@@ -23,6 +25,7 @@ _READABLE = {
     "LBRACE": "'{'",
     "RBRACE": "'}'",
     "COLON": "':'",
+    "_TO": "'..'",
 }
 _SECTIONS = {
     *("SORTS", "STATICS", "FLUENTS", "ACTIONS", "LAWS", "FACTS"),
@@ -32,6 +35,11 @@ _SECTIONS = {
 
 def syntax_error(error: UnexpectedInput, text: str, file: str) -> SourceError:
     """What lark found, with its place, in the words of the language."""
+    for token in _last(error):
+        section = _meant_section(token, text)
+        if section is not None:
+            message = f"unknown section '{token}'; did you mean '{section}'?"
+            return SourceError(file, *_place(token), message)
     if isinstance(error, UnexpectedCharacters):
         return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
     if isinstance(error, UnexpectedEOF) or _at_end(error):
@@ -52,8 +60,34 @@ def _at_end(error: UnexpectedInput) -> bool:
 
 def _on_one_line(error: UnexpectedToken) -> list[Token]:
     """The unexpected token, and the one before it if it stands on the same line."""
-    before = [token for token in error.token_history or () if token is not None]
-    return [error.token, *(token for token in before if token.line == error.token.line)]
+    return [token for token in _last(error) if token.line == error.token.line]
+
+
+def _last(error: UnexpectedInput) -> list[Token]:
+    """The unexpected token, if it is one, and the one before it, if there is one."""
+    unexpected = [error.token] if isinstance(error, UnexpectedToken) else []
+    history = getattr(error, "token_history", None) or ()
+    if _at_end(error):
+        assert isinstance(error, UnexpectedToken)
+        history = error.interactive_parser.parser_state.value_stack[-1:]
+    return [*unexpected, *(token for token in history if isinstance(token, Token))]
+
+
+def _meant_section(token: Token, text: str) -> str | None:
+    """The section word nearest to one alone on its line, where a statement or section begins."""
+    if token.type != "NAME":
+        return None
+    line, _ = _place(token)
+    lines = [_without_comment(part) for part in text.split("\n")]
+    before = " ".join(lines[: line - 1]).split()
+    begins = not before or before[-1].endswith(".") or before[-1].upper() in _SECTIONS
+    if not begins or lines[line - 1].strip() != token:
+        return None
+    return next(iter(get_close_matches(token, sorted(map(str.lower, _SECTIONS)), n=1)), None)
+
+
+def _without_comment(line: str) -> str:
+    return line.partition("%")[0]
 
 
 def _is_first_in_line(token: Token, text: str) -> bool:
@@ -87,5 +121,7 @@ def _describe(expected: set[str]) -> str:
         words = ["a section word such as sorts or laws"]
     else:
         words = []
-    words += sorted(_READABLE.get(name, repr(name.lower())) for name in expected - {"$END"})
+    words += sorted(
+        _READABLE.get(name, repr(name.lower().strip("_"))) for name in expected - {"$END"}
+    )
     return " or ".join(dict.fromkeys(words))

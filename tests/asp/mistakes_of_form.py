@@ -28,6 +28,22 @@ SYNTAX = {
         "'agent' or 'exogenous'",
     ),
     "a cost that is a variable": ("costs\n  carry(T, L) costs C.", "17:21", "expected a number"),
+    "a range with one dot": ("sorts\n  a = {1.2}.", "17:9", "expected ',' or '..' or '}'"),
+    "a robot that sees without the word": ("sees\n  r lit.", "17:5", "expected 'sees'"),
+    "an outcome without its word": ("shows\n  go(a) lit.", "17:9", "expected 'shows'"),
+    "a cost without its word": ("costs\n  go(a) 5.", "17:9", "expected 'costs'"),
+    "a misspelt section word": (
+        "lit if warm.\ncost\n  go costs 5.",
+        "17:1",
+        "unknown section 'cost'; did you mean 'costs'?",
+    ),
+    "a misspelt section word before a number": (
+        "lit if warm.\n  senarios   % 1 to 6\n  1: blow upon any.",
+        "17:3",
+        "unknown section 'senarios'; did you mean 'scenarios'?",
+    ),
+    "a misspelt section word behind another": ("facts\nlwas\n  lit.", "17:1", "'laws'?"),
+    "a misspelt section word at the end": ("law\n", "16:1", "did you mean 'laws'?"),
     "a section word with a statement behind it": ("facts next_to(hall, attic).", "16:7", "alone"),
     "a section word behind a statement": ("lit if warm. facts", "16:14", "'facts' stands alone"),
 }
@@ -116,6 +132,32 @@ FORMS = {
         "scenarios\n  2: blow upon blow.",
         "17:16",
         "an agent action after 'upon'",
+    ),
+    "a default without a name": ("defaults\n  lit if warm.", "17:7", "expected ':'"),
+    "a default about a defined fluent": (
+        "defaults\n  d: seen(T).",
+        "17:6",
+        "'seen' is a defined fluent; this place needs an inertial fluent as the conclusion",
+    ),
+    "a default about an action": (
+        "defaults\n  d: blow.",
+        "17:6",
+        "needs an inertial fluent as the conclusion",
+    ),
+    "an action in the body of an exception": (
+        "defaults\n  d: lit.\n  exception d if blow.",
+        "18:18",
+        "'blow' is an exogenous action",
+    ),
+    "an exception without a condition": (
+        "defaults\n  d: lit.\n  exception d.",
+        "18:14",
+        "expected 'if'",
+    ),
+    "two defaults of one name": (
+        "defaults\n  d: lit.\n  d: warm.",
+        "18:3",
+        "two defaults have the name 'd'; first in line 17",
     ),
     "a probability above 1": (
         "scenarios\n  2: blow upon any probability 2.",
