@@ -32,7 +32,10 @@ def main(size: str) -> list[Sheet]:
             "trials",
             "Reasoning of a whole trial, domain grounded before",
             whole,
-            ("fast: answers of earlier trials forgotten; remembered: the same trials once more",),
+            (
+                "fast: answers of earlier trials forgotten, and the collector off; remembered: the",
+                "same trials once more, with whatever answers and clauses are kept",
+            ),
         ),
         Sheet("decisions", "One decision of these trials", single),
         Sheet(

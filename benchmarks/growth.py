@@ -108,7 +108,9 @@ def _family(
             "fast_median_ms": median(fast.took_ms) if fast else None,
             "fast_worst_ms": max(fast.took_ms) if fast else None,
             "reference_ms": slow[0] if slow else f"> {limit_s} s",
-            "times_faster": _ratio(slow and slow[0], fast and fast.took_ms[-1], limit_s),
+            "times_faster": _ratio(
+                slow[0] if slow else None, fast.took_ms[-1] if fast else None, limit_s
+            ),
             "agree": True if fast and slow else None,
         }
 

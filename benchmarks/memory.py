@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import resource
 from collections.abc import Iterator
 from itertools import cycle, islice
 from pathlib import Path
 
 from benchmarks.sheets import Row, Sheet
 from benchmarks.trials import SCENARIOS, play, specs
+
+_STATUS = Path("/proc/self/statm")
 
 TRIALS = {"small": 300, "full": 10_000}
 SAMPLES = 10
@@ -42,11 +45,8 @@ def soak(trials: int, states: int) -> Iterator[Row]:
 
 
 def resident_mb() -> float:
-    """Resident memory of this process in MB; of the greatest it had where there is no /proc."""
-    status = Path("/proc/self/statm")
-    if status.exists():
-        pages = int(status.read_text(encoding="ascii").split()[1])
+    """Resident memory of this process in MB; the most it ever had where there is no /proc."""
+    if _STATUS.exists():
+        pages = int(_STATUS.read_text(encoding="ascii").split()[1])
         return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
-    import resource
-
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
+from itertools import pairwise
 
 from asp.loading import read_domain
 
@@ -53,7 +54,7 @@ def book_names(books: int) -> list[str]:
 
 
 def _row(rooms: Sequence[str]) -> Iterator[tuple[str, str]]:
-    yield from zip(rooms, rooms[1:], strict=False)
+    yield from pairwise(rooms)
 
 
 def _grid(rooms: Sequence[str]) -> Iterator[tuple[str, str]]:

@@ -7,10 +7,12 @@ shortest plan (None: no plan); `outsiders()` has those that this machine has.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from typing import Any
 
 import clingo
+from clingo import ast
 
 from benchmarks.operators import Encoding
 from benchmarks.search import Search
@@ -58,7 +60,7 @@ def breadth_first(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) 
 
 def fast_downward(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> int | None:
     """unified-planning with Fast Downward in its optimal configuration."""
-    from unified_planning import shortcuts as up
+    up = import_module("unified_planning.shortcuts")
 
     up.get_environment().credits_stream = None
     problem = _problem(up, encoding, true, goal)
@@ -101,15 +103,13 @@ def _problem(up: Any, encoding: Encoding, true: Sequence[str], goal: Sequence[st
 
 def telingo(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> int | None:
     """telingo in this process, its default configuration."""
-    from clingo import ast
-    from telingo import imain, transformers
-
+    theirs = import_module("telingo")
     lengths: list[int] = []
     control = clingo.Control(["--warn=none"])
     with ast.ProgramBuilder(control) as builder:
         program = "\n".join([_TEMPORAL, "#program initial.", *_facts(encoding, true, goal)])
-        signatures, parts = transformers.transform([program], builder.add)
-    imain(control, signatures, parts, lambda _model, length: lengths.append(length))
+        signatures, parts = theirs.transformers.transform([program], builder.add)
+    theirs.imain(control, signatures, parts, lambda _model, length: lengths.append(length))
     return lengths[0] if lengths else None
 
 

@@ -38,7 +38,9 @@ class Played:
     @property
     def answers(self) -> list[tuple[str, ...]]:
         """Intention, plan and adopted explanation of each decision."""
-        return [(d.trace.intention, *d.trace.plan, str(d.trace.explanation)) for d in self.decisions]
+        return [
+            (d.trace.intention, *d.trace.plan, str(d.trace.explanation)) for d in self.decisions
+        ]
 
 
 class Timed:
@@ -62,7 +64,7 @@ class Timed:
 
 
 def specs(scenario: str, number: int) -> list[TrialSpec]:
-    """Trials of a scenario from `number` of the initial states; events are those of its triggers."""
+    """Trials of a scenario from `number` initial states, with its triggers' events."""
     overrides = [
         "robots=[intentional]",
         f"scenarios=['{scenario}']",
