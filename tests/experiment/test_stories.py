@@ -1,14 +1,17 @@
 """The quickstart's six scenarios, played as told, in process and over zenoh."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from asp.literals import arguments
 from testbed.config import load_config
 from testbed.experiment.record import Activity, TrialRecord
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records
 
+Play = Callable[..., list[TrialRecord]]
 Told = dict[tuple[str, str], TrialRecord]
 PUBLISHED = [
     "move(rob1,library)",
@@ -26,6 +29,19 @@ def told(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     config = load_config("quickstart", [f"link={request.param}"])
     run_trials(config, folder, 1, lambda _: None)
     return {(record.scenario, record.robot): record for record in read_records(folder)}
+
+
+@pytest.fixture(params=["inprocess", "zenoh"])
+def play(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Play:
+    """Plays the quickstart with other settings: the intentional robot's records."""
+
+    def played(*overrides: str) -> list[TrialRecord]:
+        folder: Path = tmp_path_factory.mktemp(request.param)
+        always = [f"link={request.param}", "robots=[intentional]"]
+        run_trials(load_config("quickstart", [*always, *overrides]), folder, 1, lambda _: None)
+        return list(read_records(folder))
+
+    return played
 
 
 def _ati(told: Told, scenario: str) -> TrialRecord:
@@ -98,6 +114,59 @@ def test_4_the_plan_that_would_have_gone_far_is_given_up_for_the_near_book(told:
     first, second = _two_activities(_ati(told, "4"))
     assert len(first.plan) == 10
     assert second.plan == _actions(_ati(told, "4")) == PUBLISHED
+
+
+def _stops_where_it_sees(record: TrialRecord) -> None:
+    """The first activity ends one step after the change, for one event, and all ends well."""
+    ((changed, event),) = _happened(record)
+    seen = changed + 1
+    assert (record.activities[0].start, record.activities[0].stop) == (1, seen)
+    assert record.explanations[0].step == seen
+    ((when, first),) = [(e.step, e.action) for e in record.explanations[0].unobserved]
+    assert when == changed
+    assert arguments(first)[0] == arguments(event)[0]
+    # Whatever it assumed at first, what it believes in the end is what happened.
+    assert [(e.step, e.action) for e in record.explanations[-1].unobserved] == [(changed, event)]
+    assert (record.outcome, record.correct) == ("achieved", True)
+
+
+@pytest.mark.parametrize(
+    ("room", "activities", "fetched"),
+    [("office1", 2, True), ("office2", 3, True), ("library", 2, False)],
+)
+def test_3_wherever_the_book_went_the_robot_stops_at_once(
+    play: Play, room: str, activities: int, fetched: bool
+) -> None:
+    script = f"scenario_settings.3.script=[{{step: 1, action: 'exo_move(book2,{room})'}}]"
+    (record,) = play("scenarios=[3]", script)
+    _stops_where_it_sees(record)
+    assert len(record.activities) == activities  # office1 is where it looks first
+    assert ("pickup(rob1,book2)" in _actions(record)) == fetched
+
+
+def test_4_the_book_may_have_been_anywhere(play: Play) -> None:
+    initial = "[loc(rob1,kitchen),in_hand(rob1,book1),loc(book2,office2)]"
+    (record,) = play("scenarios=[4]", f"scenario_settings.4.initial={initial}")
+    _stops_where_it_sees(record)
+    first, second = _two_activities(record)
+    assert len(first.plan) == 8
+    assert second.plan == _actions(record) == PUBLISHED
+
+
+@pytest.mark.parametrize("scenario", ["3", "4"])
+def test_3_and_4_played_by_the_domains_trigger(play: Play, scenario: str) -> None:
+    own = f"scenario_settings.{scenario}"
+    by_trigger = [f"{own}.script=null", f"{own}.exogenous_while_thinking=false"]
+    fired = [
+        record
+        for seed in range(1, 7)
+        for record in play(f"scenarios=[{scenario}]", f"seed={seed}", *by_trigger)
+        if record.exogenous
+    ]
+    assert len({event for record in fired for _, event in _happened(record)}) > 1
+    for record in fired:
+        assert _happened(record)[0][0] == 4  # while the robot comes back for book2
+        _stops_where_it_sees(record)
 
 
 def test_5_a_goal_that_is_false_at_the_end_is_explained_and_achieved(told: Told) -> None:
