@@ -1,0 +1,48 @@
+"""The kept controls give the reference's answers in offices of other sizes and maps, too."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from agents.intentional.controller import IntentionalRobot
+from asp.loading import parse_description
+from benchmarks.offices import book_names, office
+from testbed.environment.world import World
+from tests.agents.intentional.lives import Place, Wish, live
+from tests.agents.intentional.test_kept import Both, wishes
+
+
+def made(books: int, rooms: int, shape: str, secure: int = 1) -> Place:
+    """A generated office as a place to live in."""
+    source = office(books, rooms, shape, secure)
+    return Place("office", World(parse_description(source, "office.al")), source)
+
+
+SMALL = made(1, 3, "row")
+TREE = made(3, 5, "tree")
+TWO_LOCKS = made(2, 5, "grid", secure=2)
+
+
+def some_state(place: Place, seed: int) -> int:
+    """A state drawn with the seed: things anywhere, locks locked or not, nothing in the hand."""
+    rng = random.Random(seed)
+    sorts = place.world.description.sorts
+    true = [f"loc({thing},{rng.choice(sorts['room'])})" for thing in sorts["thing"]]
+    true += [f"locked({room})" for room in sorts["secure_room"] if rng.random() < 0.5]
+    return place.world.state(true)
+
+
+@pytest.mark.parametrize("place", [SMALL, TREE, TWO_LOCKS], ids=["small", "tree", "two locks"])
+@settings(max_examples=4, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(seed=st.integers(0, 1_000), wanted=st.integers(1, 2), wishes=wishes)
+def test_every_decision_is_the_same_in_any_office(
+    place: Place, seed: int, wanted: int, wishes: dict[int, Wish]
+) -> None:
+    books = book_names(len(place.world.description.sorts["book"]))[:wanted]
+    locks = place.world.description.sorts["secure_room"]
+    goal = [f"loc({book},{locks[-1]})" for book in books]
+    live(IntentionalRobot(Both), some_state(place, seed), goal, wishes, steps=16, where=place)
