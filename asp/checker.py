@@ -23,6 +23,7 @@ def check(source: syntax.Source, signature: Signature, problems: Problems) -> No
         if len(problems) > found or _uses_unknown_sort(statement, signature):
             faulty.add(statement)
     _check_defaults(source, problems)
+    _check_scenarios(source, problems)
     for statement in source.statements:
         default = getattr(statement, "of", statement)
         if statement not in faulty and default not in faulty:
@@ -50,6 +51,18 @@ def _check_defaults(source: syntax.Source, problems: Problems) -> None:
         if exception.of is None:
             known = suggestion(exception.name, lines)
             problems.report(exception.place, f"unknown default '{exception.name}'{known}")
+
+
+def _check_scenarios(source: syntax.Source, problems: Problems) -> None:
+    lines = {
+        trigger.scenario: trigger.place.line for trigger in source.each(syntax.TriggerStatement)
+    }
+    for quiet in source.each(syntax.QuietStatement):
+        if quiet.scenario in lines:
+            line = lines[quiet.scenario]
+            problems.report(
+                quiet.place, f"in scenario '{quiet.scenario}' something happens; see line {line}"
+            )
 
 
 def variable_domains(statement: syntax.Statement, signature: Signature) -> Domains:

@@ -86,7 +86,10 @@ class Trigger:
 
 @dataclass(frozen=True)
 class Description:
-    """A ground AL_d description. Statics are evaluated away; tuples are in source order."""
+    """A ground AL_d description. Statics are evaluated away; tuples are in source order.
+
+    `scenarios` are the names of all scenarios, also of those in which nothing happens.
+    """
 
     name: str
     source: str
@@ -105,6 +108,7 @@ class Description:
     initially: tuple[tuple[str, ...], ...]
     defaults: tuple[Default, ...]
     triggers: tuple[Trigger, ...]
+    scenarios: tuple[str, ...]
 
     @cached_property
     def fluents(self) -> tuple[str, ...]:
@@ -114,8 +118,3 @@ class Description:
     def robots(self) -> tuple[str, ...]:
         """The constants that see something, in order of declaration."""
         return tuple(dict.fromkeys(statement.robot for statement in self.sees))
-
-    @cached_property
-    def scenarios(self) -> tuple[str, ...]:
-        """The names of the scenarios that have a trigger, in order of declaration."""
-        return tuple(dict.fromkeys(trigger.scenario for trigger in self.triggers))

@@ -43,6 +43,7 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
         initially=grounder.initially(),
         defaults=grounder.defaults(),
         triggers=grounder.triggers(),
+        scenarios=grounder.scenarios(),
     )
 
 
@@ -153,4 +154,13 @@ class _Grounder:
             for binding in self.instances.bindings(statement)
             if (pool := self.instances.evaluate(statement.pool, binding)) is not None
             and (body := self.instances.evaluate(statement.body, binding)) is not None
+        )
+
+    def scenarios(self) -> tuple[str, ...]:
+        return tuple(
+            dict.fromkeys(
+                statement.scenario
+                for statement in self.source.statements
+                if isinstance(statement, syntax.TriggerStatement | syntax.QuietStatement)
+            )
         )

@@ -150,6 +150,9 @@ class _ToSyntax(Transformer[Token, Any]):
             probability=1.0 if probability is None else probability,
         )
 
+    def quiet(self, meta: Meta, children: list[Token]) -> syntax.QuietStatement:
+        return syntax.QuietStatement(_place(meta), meta.end_line, str(children[0]))
+
     def drawing(self, _: Meta, children: list[Any]) -> tuple[syntax.Term, syntax.Body]:
         variable, body = children
         return variable, body or ()

@@ -179,6 +179,13 @@ class TriggerStatement(Statement):
 
 
 @dataclass(frozen=True)
+class QuietStatement(Statement):
+    """`scenario: nothing`: a scenario in which nothing exogenous happens."""
+
+    scenario: str
+
+
+@dataclass(frozen=True)
 class Comment:
     line: int
     text: str

@@ -14,9 +14,6 @@ from asp.description import Trigger
 
 T = TypeVar("T")
 
-UNDISTURBED = "1"
-"""The scenario in which nothing exogenous happens: it needs no trigger (spec 1)."""
-
 
 class Triggered:
     """Fires a scenario's exogenous action when one of its triggers applies, once a trial.
@@ -29,7 +26,7 @@ class Triggered:
 
     def __init__(self, description: Description, scenario: str) -> None:
         """Raises ValueError, naming the scenarios there are, for an unknown one."""
-        known = dict.fromkeys((UNDISTURBED, *description.scenarios))
+        known = description.scenarios
         if scenario not in known:
             raise ValueError(f"no scenario {scenario}; there are {', '.join(known)}")
         self._triggers = [t for t in description.triggers if t.scenario == scenario]

@@ -108,6 +108,7 @@ costs
 
 % One event at most: a book is brought from one room to another, or the library is locked.
 scenarios
+  1:        nothing.
   borrowed: exo_move(B, L) upon any drawing B if L != library probability 0.2.
   returned: exo_move(B, library) upon any drawing B probability 0.2.
   random:   exo_lock(L)    upon any drawing L probability 0.92.

@@ -93,9 +93,12 @@ costs
   put_down(R, O) costs 5.
   unlock(R, L)   costs 5.
 
-% When the exogenous action of a scenario fires. Scenario 1 has none. An event needs an action of
-% the robot; it is drawn at random where `drawing` says so, else the first possible one is taken.
+% When the exogenous action of a scenario fires: together with an action of the robot; it is drawn
+% at random where `drawing` says so, else the first possible one is taken.
 scenarios
+  % 1, planning: the robot is alone.
+  1: nothing.
+
   % 2, unexpected success: the other book is brought where it was to go.
   2: exo_move(B, library) upon put_down(R, O) if -locked(library), -loc(B, library).
 

@@ -16,8 +16,6 @@ from testbed.environment.world import World
 
 Finding = tuple[Key, str]
 
-UNDISTURBED = "1"  # the scenario in which nothing happens: it needs no trigger
-
 
 def check(config: ExperimentConfig, places: Places, robots: Collection[str] | None) -> None:
     """Raise ConfigError with a line for everything in `config` that its domain does not allow."""
@@ -63,7 +61,7 @@ def _robots(config: ExperimentConfig, known: Collection[str] | None) -> Iterator
 
 
 def _scenarios(config: ExperimentConfig, description: Description) -> Iterator[Finding]:
-    known = [UNDISTURBED, *description.scenarios]
+    known = description.scenarios
     scripted = [name for name, own in config.scenario_settings.items() if own.script is not None]
     for index, name in enumerate(config.scenarios):
         if config.script is None and name not in (*known, *scripted):

@@ -159,6 +159,11 @@ FORMS = {
         "18:3",
         "two defaults have the name 'd'; first in line 17",
     ),
+    "a quiet scenario in which something happens": (
+        "scenarios\n  2: blow upon any.\n  3: nothing.\n  2: nothing.",
+        "19:3",
+        "in scenario '2' something happens; see line 17",
+    ),
     "a probability above 1": (
         "scenarios\n  2: blow upon any probability 2.",
         "17:3",

@@ -203,10 +203,11 @@ class TestOtherSections:
 scenarios
   gale: blow_up upon sail(S, sea) drawing S with -loaded(S), tug(S) if -storm probability 0.25.
   gale: blow_up upon any.
+  calm: nothing.
   7: blow_up upon load(anna) if storm.
 """
         description = harbour(text)
-        assert description.scenarios == ("gale", "7")
+        assert description.scenarios == ("gale", "calm", "7")
         assert description.triggers == (
             Trigger(
                 *("gale", "blow_up", "sail(carl,sea)", "carl"),
