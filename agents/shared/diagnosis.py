@@ -48,7 +48,8 @@ def diagnose(
     """
     given = [*facts, fact("explaining", history.step), *adopted.facts("adopted")]
     programs = [*texts, theory("defaults"), theory("order"), theory("diagnosis")]
-    for most in _limits(adopted.size, history.step):
+    actions = sum(symbol.match("rank", 2) for symbol in given)
+    for most in _limits(adopted.size, history.step * actions):
         control = ground(programs, {**constants, "max_unobserved": most}, given)
         explained = _kept(control) or _smallest(control)
         if explained is not None:
@@ -95,12 +96,12 @@ def _preferred(
         return None if model is None else explained_by(model.symbols(shown=True), kept)
 
 
-def _limits(adopted: int, step: int) -> Iterator[int]:
-    """Ever larger numbers of events to try; more than one a step is never needed twice over."""
+def _limits(adopted: int, possible: int) -> Iterator[int]:
+    """Ever larger numbers of events to try, until all the possible ones are among them."""
     most = max(_FIRST_TRY, adopted)
     while True:
         yield most
-        if most >= 2 * step:
+        if most >= possible:
             return
         most *= 4
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -10,8 +11,9 @@ from agents.intentional.intention import Intention
 from agents.intentional.kept import KeptLogician
 from agents.intentional.logician import Logician
 from agents.shared.diagnosis import Explained
-from agents.shared.history import Diagnosis, History
-from agents.shared.knowledge import Knowledge
+from agents.shared.history import GOAL, Diagnosis, History
+from agents.shared.knowledge import Knowledge, knowledge
+from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
 
 STATES = list(WORLD.initial_states())
@@ -64,3 +66,19 @@ def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wi
 )
 def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish]) -> None:
     live(IntentionalRobot(Both), initial, goal, wishes, steps=15)
+
+
+@pytest.mark.parametrize("gone", [3, 4, 5])
+def test_as_many_events_as_are_needed_at_one_step_and_no_more(gone: int) -> None:
+    """A robot sees so many books in its room, and at the next step none."""
+    large = knowledge("office", office(gone))
+    true = {"loc(rob1,kitchen)", *(f"loc({book},kitchen)" for book in book_names(gone))}
+    history = History(step=1)
+    history.observe([f if f in true else f"-{f}" for f in large.description.fluents], 0)
+    history.happened(f"select({GOAL})", True, 0)
+    history.step = 2
+    history.observe([f"-loc({book},kitchen)" for book in book_names(gone)], 2)
+    both = Both(large, ("loc(rob1,library)",), 9)
+    explained = both.diagnose(history, Diagnosis())
+    assert explained.diagnosis.size == gone
+    both.intend(history, explained)
