@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -21,6 +23,9 @@ _BURST_CONFLICTS = "2000"
 _NO_LIMIT = "umax"
 _OPTIONS = ("--heuristic=Domain", "--warn=none", f"--solve-limit={_BURST_CONFLICTS}")
 _POLL_S = 0.2
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+OUT_OF_TIME = "the time for a decision ran out"
 
 _deadline: ContextVar[float | None] = ContextVar("deadline", default=None)
 
@@ -98,7 +103,7 @@ def solving(
     Raises TimeLimitError. An interrupt from the keyboard reaches Python, whatever the solver does.
     """
     _check_time()
-    with control.solve(assumptions=assumptions, yield_=True) as handle:
+    with _undisturbed(), control.solve(assumptions=assumptions, yield_=True) as handle:
         model = handle.model()
         if model is not None or not handle.get().unknown:
             yield model
@@ -129,7 +134,7 @@ def answer_sets(
     before = settings.models, settings.project
     settings.models, settings.project = "0", "show"
     try:
-        with control.solve(assumptions=assumptions, yield_=True) as handle:
+        with _undisturbed(), control.solve(assumptions=assumptions, yield_=True) as handle:
             found, more = _collect(handle, most, lambda: None)
             if more or not handle.get().unknown:
                 return found, more
@@ -182,6 +187,26 @@ def core(
 
 
 @contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Puts off the handling of signals, which must not raise inside a call that clingo makes."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    handlers = {number: signal.getsignal(number) for number in _SIGNALS}
+    put_off = {number: own for number, own in handlers.items() if callable(own)}
+    for number in put_off:
+        signal.signal(number, lambda received, _: came.append(received))
+    try:
+        yield
+    finally:
+        for number, own in put_off.items():
+            signal.signal(number, own)
+        if came:
+            signal.raise_signal(came[0])
+
+
+@contextmanager
 def _in_background(
     control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int]
 ) -> Iterator[clingo.SolveHandle]:
@@ -204,13 +229,13 @@ def _wait(handle: clingo.SolveHandle) -> None:
             return
         if left <= 0.0:
             handle.cancel()
-            raise TimeLimitError("the time limit for one decision ran out")
+            raise TimeLimitError(OUT_OF_TIME)
 
 
 def _check_time() -> None:
     deadline = _deadline.get()
     if deadline is not None and time.monotonic() > deadline:
-        raise TimeLimitError("the time limit for one decision ran out")
+        raise TimeLimitError(OUT_OF_TIME)
 
 
 def first_model(

@@ -10,14 +10,14 @@ from msgspec import structs
 
 from agents.intentional.intention import Intention
 from agents.intentional.kept import KeptLogician
-from agents.intentional.reasons import OUT_OF_TIME, Reasons
+from agents.intentional.reasons import Reasons
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.relevance import goal_fluents, relevant_literals
 from asp.kept.clock import reasoning_clock
 from asp.literals import is_positive
-from asp.solving import TimeLimitError, time_limit
+from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Decision, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")

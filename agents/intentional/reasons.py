@@ -20,7 +20,6 @@ from asp.solving import TimeLimitError, time_limit
 from testbed.link.messages import Contradiction, Event, Explanation
 
 MOST_ALTERNATIVES = 20
-OUT_OF_TIME = "the time for a decision ran out"
 
 _FIRST_EVENT = 1  # (16): nothing else happens while the goal is selected
 

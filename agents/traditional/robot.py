@@ -12,6 +12,7 @@ from agents.shared.relevance import outcome_literals
 from agents.traditional.kept import KeptPlanner
 from agents.traditional.planner import Plan
 from asp.kept.clock import reasoning_clock
+from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
 
@@ -46,20 +47,45 @@ class TraditionalRobot:
         self._history = History()
         self._history.observe(task.initial, 0)
         self._diagnosis = Diagnosis()
+        self._decision_s = task.decision_s
         self._plan: Plan | None = None
         self._plans = 0
 
     def act(self, percept: Percept) -> Decision:
-        """The next action of the plan. Raises InconsistentHistoryError."""
+        """The next action of the plan; where the time for a decision runs out, it waits a step.
+
+        Raises InconsistentHistoryError.
+        """
         self._observe(percept)
+        began = reasoning_clock()
+        try:
+            with time_limit(self._decision_s):
+                return self._decide(percept)
+        except TimeLimitError:
+            trace = Trace(
+                reason=OUT_OF_TIME,
+                plans=self._plans,
+                planning_time_s=reasoning_clock() - began,
+            )
+            return Decision(
+                trial=percept.trial,
+                step=percept.step,
+                action="wait",
+                believes_goal=False,
+                trace=trace,
+            )
+
+    def _decide(self, percept: Percept) -> Decision:
         began = reasoning_clock()
         explained = self._reasoner.diagnose(self._history, self._diagnosis)
         diagnosed = reasoning_clock()
         failed = percept.happened is False
-        plan, planned = self._plan, self._plan is None or failed or not explained.kept
-        if plan is None or planned:
-            plan = self._reasoner.plan(self._history, explained.diagnosis)
         self._diagnosis = explained.diagnosis
+        planned = self._plan is None or failed or not explained.kept
+        plan = None if planned else self._plan
+        if plan is None:
+            self._plan = None  # a plan is still to be made if the time runs out in between
+            plan = self._reasoner.plan(self._history, explained.diagnosis)
         self._plans += planned and bool(plan.actions)
         ended = reasoning_clock()
         action = plan.actions[0] if plan.actions else "finish"
@@ -97,5 +123,8 @@ class TraditionalRobot:
     def _explanation(self, step: int) -> Explanation:
         exceptions = self._domain.against(self._diagnosis.exceptions)
         return Explanation(
-            step=step, unobserved=list(self._diagnosis.unobserved), exceptions=exceptions
+            step=step,
+            unobserved=list(self._diagnosis.unobserved),
+            exceptions=exceptions,
+            distrusted=list(self._diagnosis.distrusted),
         )
