@@ -77,7 +77,8 @@ def _read(config: Config, overrides: dict[str, object]) -> ExperimentConfig:
             raise ValueError("overrides go with the name of a configuration, not with a read one")
         return config
     changes = [f"{key}={json.dumps(value)}" for key, value in overrides.items()]
-    return load_config("office" if config is None else str(config), changes)
+    source = "office" if config is None else str(config)
+    return load_config(source, changes, given_in="keyword argument")
 
 
 def _rules(config: ExperimentConfig, max_cycles: int | None) -> Rules:

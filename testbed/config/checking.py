@@ -20,14 +20,35 @@ Finding = tuple[Key, str]
 def check(config: ExperimentConfig, places: Places, robots: Collection[str] | None) -> None:
     """Raise ConfigError with a line for everything in `config` that its domain does not allow."""
     description = _description(config, places)
-    findings = [*_twice(config), *_robots(config, robots), *_scenarios(config, description)]
-    findings += _observability(config, description)
+    lines = _lines([*_twice(config), *_robots(config, robots)], places)
+    lines += _of_the_domain(_domain_findings(config, description), places)
+    if lines:
+        raise ConfigError(lines)
+
+
+def _domain_findings(config: ExperimentConfig, description: Description) -> list[Finding]:
+    findings = [*_scenarios(config, description), *_observability(config, description)]
     for key, owner in _owners(config):
-        findings += _literals((*key, "goal"), owner.goal or (), description)
+        findings += _goal((*key, "goal"), owner.goal or (), description)
         findings += _initial((*key, "initial"), owner.initial, description)
         findings += _script((*key, "script"), owner.script or (), description)
-    if findings:
-        raise ConfigError([f"{places.of(key)}: {message}" for key, message in findings])
+    return findings
+
+
+def _of_the_domain(findings: list[Finding], places: Places) -> list[str]:
+    """Lines of what the domain does not know; one for all that was written for another domain."""
+    if not places.is_overridden(("domain",)):
+        return _lines(findings, places)
+    foreign = dict.fromkeys(str(key[0]) for key, _ in findings if not places.is_overridden(key))
+    if not foreign:
+        return _lines(findings, places)
+    own = [(key, message) for key, message in findings if places.is_overridden(key)]
+    wanted = f"{places.file} is about another domain; with this one give also {', '.join(foreign)}"
+    return [f"{places.of(('domain',))}: {wanted}", *_lines(own, places)]
+
+
+def _lines(findings: Sequence[Finding], places: Places) -> list[str]:
+    return [f"{places.of(key)}: {message}" for key, message in findings]
 
 
 def _description(config: ExperimentConfig, places: Places) -> Description:
@@ -85,6 +106,16 @@ def _literals(key: Key, literals: Sequence[str], description: Description) -> It
             yield (*key, index), unknown_atom(atom(literal), fluents, "fluent")
         elif complement(literal) in literals[:index]:
             yield (*key, index), f"contradicts {complement(literal)}; keep one of the two"
+
+
+def _goal(key: Key, literals: tuple[str, ...], description: Description) -> Iterator[Finding]:
+    unknown = list(_literals(key, literals, description))
+    yield from unknown
+    if not unknown:
+        try:
+            World(description).check_together(literals)
+        except StateError as error:
+            yield key, f"no state has all of this: {error}"
 
 
 def _initial(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -20,19 +21,23 @@ from testbed.resources import find_config
 
 
 def load_config(
-    source: str | Path, overrides: Sequence[str] = (), robots: Collection[str] | None = None
+    source: str | Path,
+    overrides: Sequence[str] = (),
+    robots: Collection[str] | None = None,
+    given_in: str = "command line",
 ) -> ExperimentConfig:
     """The validated configuration of a file or a packaged name, with dotted overrides applied.
 
     A `domain` given as a path is taken relative to the configuration, and is absolute in the
-    answer. `robots`, where given, are the kinds of robot that may be asked for.
+    answer. `robots`, where given, are the kinds of robot that may be asked for. `given_in` is what
+    errors call the place of the overrides.
 
     Raises:
         ConfigError: one line an error, each with its place and what would be right.
     """
     path, text = _read(source)
-    composed = _compose(path, text, overrides)
-    places = Places(path, text, [item.partition("=")[0] for item in overrides])
+    composed = _compose(path, text, overrides, given_in)
+    places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
     config = _located(_validate(composed, places), path)
     check(config, places, robots)
     return config
@@ -49,7 +54,7 @@ def _read(source: str | Path) -> tuple[Path, str]:
         raise ConfigError([message]) from None
 
 
-def _compose(path: Path, text: str, overrides: Sequence[str]) -> dict[str, Any]:
+def _compose(path: Path, text: str, overrides: Sequence[str], given_in: str) -> dict[str, Any]:
     try:
         base = OmegaConf.to_container(OmegaConf.create(text))
     except yaml.YAMLError as error:
@@ -58,20 +63,22 @@ def _compose(path: Path, text: str, overrides: Sequence[str]) -> dict[str, Any]:
         raise ConfigError([f"{path}: {_first_line(error)}"]) from None
     if not isinstance(base, dict) or not all(isinstance(key, (str, int)) for key in base):
         raise ConfigError([f"{path}: should hold `key: value` lines"])
-    return _override(path, _string_keys(base), overrides)
+    return _override(path, _string_keys(base), overrides, given_in)
 
 
-def _override(path: Path, base: dict[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+def _override(
+    path: Path, base: dict[str, Any], overrides: Sequence[str], given_in: str
+) -> dict[str, Any]:
     composed = OmegaConf.create(base)
     for item in overrides:
         key, equals, value = item.partition("=")
         if not (equals and key.strip()):
-            raise ConfigError([f"command line: '{item}': an override is KEY=VALUE, e.g. limit=5"])
+            raise ConfigError([f"{given_in}: '{item}': an override is KEY=VALUE, e.g. limit=5"])
         try:
             given = OmegaConf.from_dotlist([f"value={value}"])["value"]
-            OmegaConf.update(composed, key.strip(), given, force_add=True)
+            OmegaConf.update(composed, key.strip(), given, merge=given != {}, force_add=True)
         except (yaml.YAMLError, OmegaConfBaseException, ValueError, TypeError, IndexError) as error:
-            raise ConfigError([f"command line: {key}: {_first_line(error)}"]) from None
+            raise ConfigError([f"{given_in}: {key}: {_first_line(error)}"]) from None
     try:
         resolved = OmegaConf.to_container(composed, resolve=True, throw_on_missing=True)
     except OmegaConfBaseException as error:
@@ -105,9 +112,18 @@ def _describe(error: ErrorDetails, places: Places) -> str:
     if error["type"] == "too_short":
         return f"{where}: should not be empty{_example(key)}"
     if error["type"] == "tuple_type":
-        return f"{where}: should be a list such as [{error['input']!r}]"
-    message = error["msg"][0].lower() + error["msg"][1:]
-    return f"{where}: {message}, not {error['input']!r}{_choice_hint(error)}"
+        return f"{where}: should be a list such as [{_shown(error['input'])}]"
+    message = error["msg"].removeprefix("Input ").replace("a valid integer", "an integer")
+    message = message.replace("a valid ", "a ")
+    message = message[0].lower() + message[1:]
+    return f"{where}: {message}, not {_shown(error['input'])}{_choice_hint(error)}"
+
+
+def _shown(value: object) -> str:
+    """A value as YAML writes it."""
+    if value is None or isinstance(value, bool):
+        return json.dumps(value)
+    return repr(value)
 
 
 def _example(key: Key) -> str:

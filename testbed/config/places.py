@@ -1,4 +1,4 @@
-"""Where a key stands: the line of the YAML file, or the command line."""
+"""Where a key stands: the line of the YAML file, or where overrides are given."""
 
 from __future__ import annotations
 
@@ -17,21 +17,28 @@ def dotted(key: Key) -> str:
 
 
 class Places:
-    """Says where the value of a key came from."""
+    """Says where the value of a key came from; `elsewhere` names what gave the overridden ones."""
 
-    def __init__(self, file: str | Path, text: str, overridden: Sequence[str]) -> None:
+    def __init__(
+        self, file: str | Path, text: str, overridden: Sequence[str], elsewhere: str
+    ) -> None:
         self.file = str(file)
+        self._elsewhere = elsewhere
         self._root = _compose(text)
         self._overridden = tuple(overridden)
 
     def of(self, key: Key) -> str:
-        """`FILE:LINE: KEY`, or `command line: KEY` for an overridden one."""
+        """`FILE:LINE: KEY`, or as in `command line: KEY` for an overridden one."""
         name = dotted(key)
-        if any(_covers(given, key) for given in self._overridden):
-            return f"command line: {name}"
+        if self.is_overridden(key):
+            return f"{self._elsewhere}: {name}"
         line = self._line(key)
         where = self.file if line is None else f"{self.file}:{line}"
         return f"{where}: {name}" if name else where
+
+    def is_overridden(self, key: Key) -> bool:
+        """Whether the value, or a part of it, does not come from the file."""
+        return any(_covers(given, key) for given in self._overridden)
 
     def _line(self, key: Key) -> int | None:
         node, line = self._root, None

@@ -45,6 +45,13 @@ class StateSpace:
         self._check_initial(states[0])
         return states[0]
 
+    def check_together(self, literals: Iterable[str]) -> None:
+        """Raises StateError where the literals, with all that follows from them, are in no state.
+
+        A sound test that takes no search: what passes it may still be in no state.
+        """
+        self._facts(literals)
+
     def _facts(self, literals: Iterable[str]) -> int:
         try:
             facts = self._vocabulary.mask(literals)

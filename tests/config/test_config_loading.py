@@ -97,7 +97,7 @@ def test_packaged_configurations_are_found_by_name(name: str) -> None:
         (
             "seed: 3",
             "seed: three",
-            "tiny.yaml:2: seed: input should be a valid integer, not 'three'",
+            "tiny.yaml:2: seed: should be an integer, not 'three'",
         ),
         (
             "scenarios: [1, random]",
@@ -107,13 +107,13 @@ def test_packaged_configurations_are_found_by_name(name: str) -> None:
         (
             "colocated",
             "colocatd",
-            "tiny.yaml:9: observability.exo_move.mode: input should be 'never', 'colocated' or "
+            "tiny.yaml:9: observability.exo_move.mode: should be 'never', 'colocated' or "
             "'always', not 'colocatd'; did you mean 'colocated'?",
         ),
         (
             "0.5",
             "1.5",
-            "tiny.yaml:9: observability.exo_move.probability: input should be less than or equal "
+            "tiny.yaml:9: observability.exo_move.probability: should be less than or equal "
             "to 1, not 1.5",
         ),
         (
@@ -221,14 +221,80 @@ def test_every_mistake_is_reported_at_once(tmp_path: Path) -> None:
     ("override", "line"),
     [
         ("limit", "command line: 'limit': an override is KEY=VALUE, e.g. limit=5"),
-        ("limit=x", "command line: limit: input should be a valid integer, not 'x'"),
-        ("limit=0", "command line: limit: input should be greater than or equal to 1, not 0"),
+        ("limit=x", "command line: limit: should be an integer, not 'x'"),
+        ("limit=0", "command line: limit: should be greater than or equal to 1, not 0"),
+        ("seed=null", "command line: seed: should be an integer, not null"),
         ("limts.steps=2", "command line: limts: unknown key; did you mean 'limits'?"),
-        ("seed.x=1", "command line: seed: input should be a valid integer, not {'x': 1}"),
+        ("seed.x=1", "command line: seed: should be an integer, not {'x': 1}"),
     ],
 )
 def test_a_wrong_override_is_said_to_be_one(tmp_path: Path, override: str, line: str) -> None:
     assert _refusal(tmp_path, VALID, override) == [line]
+
+
+def test_the_place_of_overrides_is_named_as_the_caller_wants(tmp_path: Path) -> None:
+    path = _file(tmp_path, VALID)
+    for override in ("limit", "limit=x", "limit=[", "seeed=3", "goal=[loc(book1,attic)]"):
+        with pytest.raises(ConfigError) as caught:
+            load_config(path, [override], given_in="the caller")
+        (line,) = str(caught.value).splitlines()
+        assert line.startswith("the caller: ")
+        assert "command line" not in line
+
+
+LAMP = """\
+sorts
+  robot = {walle}.
+fluents
+  inertial lit.
+actions
+  agent     press(robot).
+  exogenous cut.
+laws
+  press(R) causes lit.
+  cut      causes -lit.
+sees
+  R sees lit if robot(R).
+scenarios
+  1: cut upon press(R) probability 0.
+"""
+
+
+def test_another_domain_over_a_file_needs_what_belongs_to_it(tmp_path: Path) -> None:
+    lamp = tmp_path / "lamp.al"
+    lamp.write_text(LAMP, encoding="utf-8")
+    assert _refusal(tmp_path, VALID, f"domain={lamp}") == [
+        "command line: domain: tiny.yaml is about another domain; with this one give also "
+        "scenarios, observability, goal, initial, scenario_settings"
+    ]
+    given = [f"domain={lamp}", "scenarios=[1]", "scenario_settings={}", "goal=[lit]"]
+    (line, *more) = _refusal(tmp_path, VALID, *given[:-1], "goal=[lid]")
+    assert line.endswith("give also observability, initial")
+    assert more == ["command line: goal[0]: no fluent 'lid'; did you mean 'lit'?"]
+    config = load_config(_file(tmp_path, VALID), [*given, "observability={}", "initial=[lit]"])
+    assert (config.observability, config.scenario_settings) == ({}, {})
+
+
+@pytest.mark.parametrize(
+    ("goal", "law"),
+    [
+        ("[loc(book1,library),loc(book1,kitchen)]", "-loc(book1,kitchen) if loc(book1,library)"),
+        (
+            "[in_hand(rob1,book1),loc(rob1,kitchen),loc(book1,library)]",
+            "if loc(book1,library)",
+        ),
+        ("[in_hand(rob1,book1),in_hand(rob1,book2)]", "in_hand(rob1,book"),
+    ],
+)
+def test_a_goal_that_no_state_has_is_refused_with_the_law(
+    tmp_path: Path, goal: str, law: str
+) -> None:
+    (line,) = _refusal(tmp_path, VALID, f"goal={goal}")
+    assert line.startswith("command line: goal: no state has all of this: ")
+    assert "cannot be together: the constraint is " in line
+    assert law in line
+    (line,) = _refusal(tmp_path, VALID, f"scenario_settings.1.goal={goal}")
+    assert line.startswith("command line: scenario_settings.1.goal: no state has")
 
 
 @pytest.mark.parametrize(

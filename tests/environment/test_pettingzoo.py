@@ -283,6 +283,8 @@ def test_a_parallel_snapshot_brings_an_ended_game_back() -> None:
 
 
 def test_what_a_user_gets_wrong_is_said() -> None:
+    with pytest.raises(ConfigError, match=r"^keyword argument: seeed: unknown key; .*'seed'"):
+        office_v0.env(seeed=3)
     with pytest.raises(ConfigError, match=r"loc\(book1,attic\)"):
         office_v0.env(goal=["loc(book1,attic)"])
     with pytest.raises(ValueError, match="'ascii' is not a render mode; there are human, ansi"):
