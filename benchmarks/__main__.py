@@ -9,7 +9,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from benchmarks.registry import BENCHMARKS, SIZES
+from benchmarks.registry import BENCHMARKS, FIGURES, SIZES
 from benchmarks.sheets import show, write
 
 RESULTS = Path(__file__).parent / "results"
@@ -40,6 +40,8 @@ def _run(name: str, size: str, out: Path, console: Console) -> None:
         show(sheet, console)
     path = out / f"{name}.json"
     write(sheets, path, size, seconds)
+    if name in FIGURES:
+        FIGURES[name](sheets, path.with_suffix(".png"))
     console.print(f"{name}: {seconds:.0f} s, {path}", highlight=False)
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 
-from benchmarks import decisions, growth, memory, mutation, peers
+from benchmarks import decisions, figures, growth, memory, mutation, peers
 from benchmarks.sheets import Sheet
 
 SIZES = ("small", "full")
@@ -16,3 +17,8 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "memory": memory.main,
     "mutation": mutation.main,
 }
+
+FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {
+    "growth": figures.draw,
+}
+"""The benchmarks that draw what they found beside their JSON."""
