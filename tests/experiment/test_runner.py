@@ -9,7 +9,9 @@ from functools import partial
 from multiprocessing import active_children
 from pathlib import Path
 
-from testbed.config import ExperimentConfig
+import pytest
+
+from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.pool import Play, play_all
 from testbed.experiment.record import logical
@@ -42,6 +44,35 @@ def test_the_same_seed_gives_the_same_trials_wherever_they_are_played(
     assert _run(configure(*SMALL, "link=zenoh"), tmp_path / "zenoh") == here
     assert _run(configure(*SMALL), tmp_path / "two", workers=2) == here
     assert [trial["trial"] for trial in here] == _planned(configure(*SMALL))
+
+
+@pytest.fixture(scope="module")
+def drawn_here(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, object]]:
+    """Trials in which initial states, events and news of them are drawn, played in process."""
+    return _run(_drawing("inprocess"), tmp_path_factory.mktemp("drawn"))
+
+
+def _drawing(link: str) -> ExperimentConfig:
+    heard = "observability={exo_move: {mode: always, probability: 0.7}}"
+    return load_config("office", [f"link={link}", "scenarios=[3,random]", "limit=4", heard])
+
+
+def test_the_trials_to_compare_draw_something(drawn_here: list[dict[str, object]]) -> None:
+    events = [event for trial in drawn_here for event in _listed(trial["exogenous"])]
+    assert len({event["action"] for event in events}) > 2
+    assert {event["observed"] for event in events} == {True, False}
+
+
+def _listed(events: object) -> list[dict[str, object]]:
+    assert isinstance(events, list)
+    return events
+
+
+@pytest.mark.parametrize(("link", "workers"), [("inprocess", 2), ("zenoh", 1), ("zenoh", 2)])
+def test_what_is_drawn_follows_from_the_seed_wherever_it_is_played(
+    tmp_path: Path, drawn_here: list[dict[str, object]], link: str, workers: int
+) -> None:
+    assert _run(_drawing(link), tmp_path, workers) == drawn_here
 
 
 def test_a_run_goes_on_with_exactly_what_is_missing(tmp_path: Path, configure: Configure) -> None:
