@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from benchmarks import decisions, figures, growth, memory, mutation, peers
+from benchmarks import decisions, figures, growth, joint_growth, memory, mutation, peers
 from benchmarks.sheets import Sheet
 
 SIZES = ("small", "full")
@@ -16,6 +16,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "peers": peers.main,
     "memory": memory.main,
     "mutation": mutation.main,
+    "joint_growth": joint_growth.main,
 }
 
 FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {
