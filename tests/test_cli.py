@@ -150,6 +150,7 @@ def test_a_trial_in_error_gives_exit_code_1_and_keeps_the_rest() -> None:
         "achieved",
     ]
     assert "exo_move(book1,office1)" in str(_trials("run")[0]["reason"])
+    assert "2 trials ended in error or without a robot" in done.stdout
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,12 @@ Steps are the environment's: 0 is the selection of the goal, the robot's first a
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import msgspec
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
+OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 FAILURES: tuple[Outcome, ...] = ("robot_lost", "error")
 TIMES = ("planning_time_s", "diagnosis_time_s", "reasoning_time_s", "wall_time_s")
 

@@ -16,6 +16,7 @@ from testbed.experiment.record import TrialRecord, logical
 from testbed.experiment.registry import make_robot
 from testbed.experiment.store import read_config, read_records
 from testbed.experiment.trial import Moment, Result, play_trial
+from testbed.experiment.wording import counted, in_words
 from testbed.link.inprocess import InProcessRobot
 from testbed.link.messages import Explanation, Trace
 
@@ -46,7 +47,7 @@ def list_trials(folder: Path, say: Say) -> None:
     outcomes = {record.trial: record.outcome for record in read_records(folder)}
     rows = [("trial", "scenario", "robot", "outcome")]
     rows += [
-        (s.trial, s.scenario, s.robot, outcomes.get(s.trial, "not played yet").replace("_", " "))
+        (s.trial, s.scenario, s.robot, in_words(outcomes.get(s.trial, "not played yet")))
         for s in specs
     ]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
@@ -68,7 +69,9 @@ def find_trial(specs: Iterable[TrialSpec], trial: str) -> TrialSpec:
         raise StoreError(f"--trial {trial}: several trials begin so: {ids}")
     near = nearest(trial, [spec.trial for spec in known])
     hint = near if near.startswith("did") else f"one of them is {known[0].trial}"
-    raise StoreError(f"--trial {trial}: not one of the run's {len(known)} trials; {hint}")
+    raise StoreError(
+        f"--trial {trial}: not one of the run's {counted(len(known), 'trial')}; {hint}"
+    )
 
 
 class Teller:
@@ -152,10 +155,9 @@ def _tell_end(result: Result, say: Say) -> None:
     record = result.record
     say("")
     reason = f": {record.reason}" if record.reason else ""
-    say(
-        f"outcome {record.outcome}{reason} after {record.steps} steps, "
-        f"{record.action_count} actions, {record.execution_units} execution units"
-    )
+    steps, actions = counted(record.steps, "step"), counted(record.action_count, "action")
+    units = counted(record.execution_units, "execution unit")
+    say(f"outcome {record.outcome}{reason} after {steps}, {actions}, {units}")
 
 
 def _recorded(folder: Path, spec: TrialSpec) -> TrialRecord | None:

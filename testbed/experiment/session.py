@@ -32,6 +32,7 @@ from testbed.experiment.store import (
     write_config,
 )
 from testbed.experiment.tables import Row, rich_table
+from testbed.experiment.wording import counted
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
 WIDE = 120
@@ -97,10 +98,12 @@ def _exit_code(tally: Tally) -> int:
 def _conclude(folder: Path, name: str, tally: Tally, console: Console) -> None:
     _show(console, write_report(folder, name))
     if tally.interrupted:
-        _say(console, f"interrupted: {tally.done} of {tally.planned} trials are kept in {folder}")
+        kept = f"{tally.done} of {counted(tally.planned, 'trial')}"
+        _say(console, f"interrupted: {kept} kept in {folder}")
         _say(console, f"to go on: testbed run {folder / 'config.yaml'} --out {folder} --resume")
     if tally.failed:
-        _say(console, f"{tally.failed} trials ended in error or lost their robot; see the report")
+        failed = counted(tally.failed, "trial")
+        _say(console, f"{failed} ended in error or without a robot; see the report")
     _say(console, f"report: {folder / REPORT}")
 
 

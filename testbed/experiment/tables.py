@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 from rich.table import Table
 
-from testbed.experiment.record import FAILURES, TrialRecord
-from testbed.experiment.wording import counted
+from testbed.experiment.record import FAILURES, OUTCOMES, Outcome, TrialRecord
+from testbed.experiment.wording import counted, in_words
 
 COLUMNS = (
     "scenario",
@@ -42,10 +42,12 @@ class Row:
     planning_s: float = 0.0
     explanations: Counter[str] = field(default_factory=Counter)
     reasons: Counter[str] = field(default_factory=Counter)
+    endings: Counter[Outcome] = field(default_factory=Counter)
 
     def add(self, record: TrialRecord) -> None:
         """Count one more trial."""
         self.trials += 1
+        self.endings[record.outcome] += 1
         if record.outcome in FAILURES:
             self.failed += 1
             return
@@ -84,10 +86,13 @@ class Row:
         return self.trials - self.failed
 
     def _achieved(self) -> str:
-        if self.trials == 1 and not self.failed:
-            return "yes" if self.achieved else "no"
+        """How many, and how the others ended, in the order in which outcomes are declared."""
+        others = [name for name in OUTCOMES if self.endings[name] and name != "achieved"]
+        if self.trials == 1:
+            share = "yes" if self.achieved else "no"
+            return ", ".join([share, *map(in_words, others)])
         share = f"{self.achieved}/{self.trials}"
-        return f"{share}, {self.failed} failed" if self.failed else share
+        return ", ".join([share, *(f"{self.endings[name]} {in_words(name)}" for name in others)])
 
     def _mean(self, total: float) -> str:
         return f"{total / self._played:.4g}" if self._played else "-"
@@ -132,7 +137,7 @@ def rich_table(rows: Iterable[Row]) -> Table:
     table = Table(*COLUMNS[:-1], box=None, padding=(0, 2, 0, 0), collapse_padding=True)
     table.add_column(COLUMNS[-1], overflow="fold")
     for column in table.columns[:-1]:
-        column.no_wrap = True
+        column.no_wrap = column.header != "achieved"
     for column in table.columns[3:-1]:
         column.justify = "right"
     before: str | None = None

@@ -10,6 +10,8 @@ from testbed.experiment.summary import summarise
 from testbed.experiment.tables import COLUMNS, explained, rows_of
 from tests.experiment.samples import a_record
 
+GAVE_UP: dict[str, Any] = {"achieved": False, "outcome": "gave_up"}
+
 
 def _pair(
     number: int, traditional: dict[str, Any], intentional: dict[str, Any]
@@ -52,13 +54,13 @@ def test_several_trials_are_counted_and_averaged() -> None:
     rows = rows_of(
         [
             a_record("a", action_count=4, explanations=explanations),
-            a_record("b", action_count=7, achieved=False, explanations=explanations[1:]),
+            a_record("b", action_count=7, **GAVE_UP, explanations=explanations[1:]),
             a_record("c", action_count=90, outcome="robot_lost", achieved=False),
             a_record("d", robot="traditional"),
         ]
     )
     cells = dict(zip(COLUMNS, rows[0].cells(), strict=True))
-    assert (cells["achieved"], cells["actions"]) == ("1/3, 1 failed", "5.5")
+    assert (cells["achieved"], cells["actions"]) == ("1/3, 1 gave up, 1 robot lost", "5.5")
     assert cells["explained by"] == "e x2, exception -d x1"
     assert [row.robot for row in rows] == ["intentional", "traditional"]
 
@@ -66,7 +68,7 @@ def test_several_trials_are_counted_and_averaged() -> None:
 def test_a_row_of_failures_alone_has_no_means() -> None:
     (row,) = rows_of([a_record(outcome="error", achieved=False)])
     cells = dict(zip(COLUMNS, row.cells(), strict=True))
-    assert (cells["achieved"], cells["plans"], cells["planning"]) == ("0/1, 1 failed", "-", "-")
+    assert (cells["achieved"], cells["plans"], cells["planning"]) == ("no, error", "-", "-")
 
 
 def test_a_note_is_kept_of_trials_that_were_played_to_their_end() -> None:
@@ -80,6 +82,32 @@ def test_a_note_is_kept_of_trials_that_were_played_to_their_end() -> None:
     assert row.notes() == (
         "scenario 1, intentional: script step 50 was not reached in 2 of 4 trials",
     )
+
+
+@pytest.mark.parametrize(
+    ("achieved", "outcome", "shown"),
+    [
+        (True, "achieved", "yes"),
+        (False, "gave_up", "no, gave up"),
+        (False, "false_finish", "no, false finish"),
+        (False, "step_limit", "no, step limit"),
+        (True, "step_limit", "yes, step limit"),
+        (False, "robot_lost", "no, robot lost"),
+    ],
+)
+def test_a_trial_alone_in_its_row_is_shown_with_its_outcome(
+    achieved: bool, outcome: str, shown: str
+) -> None:
+    (row,) = rows_of([a_record(achieved=achieved, outcome=outcome)])
+    assert row.cells()[COLUMNS.index("achieved")] == shown
+
+
+def test_outcomes_are_counted_in_the_order_in_which_they_are_declared() -> None:
+    endings = ["error", "gave_up", "step_limit", "gave_up", "false_finish"]
+    bad = [a_record(str(n), achieved=False, outcome=ending) for n, ending in enumerate(endings)]
+    (row,) = rows_of([*bad, a_record("good")])
+    shown = "1/6, 1 false finish, 2 gave up, 1 step limit, 1 error"
+    assert row.cells()[COLUMNS.index("achieved")] == shown
 
 
 def test_what_was_explained_is_listed_once_in_the_order_of_its_steps() -> None:
