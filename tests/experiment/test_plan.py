@@ -51,6 +51,7 @@ def test_what_no_result_depends_on_changes_no_id(override: str) -> None:
         "observability.exo_move.delay=1",
         "limits.steps=99",
         "limits.plan=29",
+        "limits.decision_s=1.5",
         "adversary.rate=0.1",
         "goal=[loc(book1,kitchen)]",
         "script=[]",
