@@ -6,6 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.logician import Logician
 from testbed.link.messages import Decision
@@ -127,3 +128,17 @@ def test_an_exception_is_assumed_rather_than_an_event_that_would_do() -> None:
     explanations = [d.trace.explanation for d in life.decisions if d.trace.explanation]
     assert explanations[-1].exceptions == ["-loc(book2,library)", "-loc(book2,office1)"]
     assert explanations[-1].unobserved == []
+
+
+@pytest.mark.parametrize("room", ["library", "office1"])
+def test_a_robot_that_checks_does_not_finish_on_a_default(room: str) -> None:
+    start = _initial(
+        "loc(rob1,office2)", f"loc(book1,{room})", "loc(book2,library)", "loc(cookbook1,kitchen)"
+    )
+    goal = ("loc(book1,library)",)
+    trusting = live(IntentionalRobot(), start, goal, where=LIBRARY, feedback=False)
+    assert [d.action for d in trusting.decisions] == ["finish"]
+    checking = live(CheckingRobot(), start, goal, where=LIBRARY, feedback=False)
+    assert checking.finished
+    assert checking.achieved
+    assert "move(rob1,library)" in _actions(list(checking.decisions))
