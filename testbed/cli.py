@@ -9,6 +9,7 @@ Exit codes: 0 done; 1 trials ended in error; 2 bad input; 130 interrupted.
 
 from __future__ import annotations
 
+import importlib.metadata
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -21,7 +22,6 @@ DONE, FAILED, BAD_INPUT = 0, 1, 2
 
 app = typer.Typer(
     name="testbed",
-    help="Reasoning robots in a world that others change: run experiments, look into them.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -38,14 +38,38 @@ Overrides = Annotated[
 ]
 
 
+def _examples(*lines: str) -> str:
+    """The end of a command's help: a line an example (click wraps no paragraph that has a \\b)."""
+    return "\n".join(["\b", "Examples:" if len(lines) > 1 else "Example:", *lines])
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"testbed {importlib.metadata.version('intention-testbed')}")
+        raise typer.Exit(DONE)
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Say it, and exit."),
+    ] = False,
+) -> None:
+    """Reasoning robots in a world that others change: run experiments, look into them."""
+
+
 def main() -> None:
     """Entry point of the distribution."""
     app(prog_name="testbed")
 
 
 @app.command(
-    epilog="Examples: testbed run quickstart | testbed run office limit=5 robots=[intentional] "
-    "--workers 2 | testbed run office --out runs/office --resume"
+    epilog=_examples(
+        "testbed run quickstart",
+        "testbed run office limit=5 robots=[intentional] --workers 2",
+        "testbed run office --out runs/office --resume",
+    )
 )
 def run(
     config: Config,
@@ -55,7 +79,12 @@ def run(
     ] = None,
     workers: Annotated[int, typer.Option(min=1, help="Processes that play trials.")] = 1,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with the trials that the folder lacks.")
+        bool,
+        typer.Option(
+            "--resume",
+            help="Go on with the trials that the folder lacks: that of --out, else the newest of "
+            "runs/NAME, runs/NAME-2 and so on.",
+        ),
     ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")] = False,
 ) -> None:
@@ -67,7 +96,7 @@ def run(
     raise typer.Exit(code)
 
 
-@app.command(epilog="Example: testbed check quickstart scenarios=[5] limits.steps=40")
+@app.command(epilog=_examples("testbed check quickstart scenarios=[5] limits.steps=40"))
 def check(config: Config, overrides: Overrides = None) -> None:
     """Validate a configuration and print it as resolved."""
     from testbed.experiment.session import load
@@ -106,7 +135,7 @@ def robot(
         serve_robot(connect, name, config)
 
 
-@app.command(epilog="Example: testbed report runs/quickstart")
+@app.command(epilog=_examples("testbed report runs/quickstart"))
 def report(
     folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
 ) -> None:
@@ -119,7 +148,9 @@ def report(
 
 
 @app.command(
-    epilog="Examples: testbed replay runs/quickstart | testbed replay runs/quickstart --trial 3f2a"
+    epilog=_examples(
+        "testbed replay runs/quickstart", "testbed replay runs/quickstart --trial 3f2a"
+    )
 )
 def replay(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")],
@@ -144,7 +175,7 @@ def replay(
     raise typer.Exit(DONE if as_recorded else FAILED)
 
 
-@app.command(epilog="Example: testbed translate office -o office.lp")
+@app.command(epilog=_examples("testbed translate office -o office.lp"))
 def translate(
     source: Annotated[
         str, typer.Argument(metavar="FILE.al", help="A description, or a packaged domain's name.")

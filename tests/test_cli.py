@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ import pytest
 import asp
 
 COMMAND = [sys.executable, "-m", "testbed"]
+HELD = [sys.executable, "-m", "tests.held"]
 KEPT = ["config.yaml", "provenance.json", "report.html", "summary.json", "trials.jsonl"]
 
 
@@ -84,34 +86,41 @@ def test_a_run_can_be_run_again_from_its_folder() -> None:
     assert _untimed("first") == _untimed("second")
 
 
-def test_an_interrupted_run_keeps_what_is_finished_and_goes_on() -> None:
-    arguments = ["run", "office", "scenarios=[5]", "limit=6", "link=inprocess"]
-    whole = [*arguments, "--quiet", "--out", "whole"]
-    part = [*arguments, "--workers", "2", "--out", "part"]
-    process = subprocess.Popen(
-        [*COMMAND, *part],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_an_interrupted_run_keeps_what_is_finished_and_goes_on(workers: str) -> None:
+    arguments = ["run", "quickstart", "scenarios=[2,5]", "robots=[traditional,held]"]
+    arguments += ["link=inprocess", "--workers", workers, "--out"]
+    process = _held(*arguments, "part")
     records = Path("part/trials.jsonl")
-    while process.poll() is None and not (
-        records.exists() and records.read_bytes().count(b"\n") > 2
-    ):
-        time.sleep(0.02)
+    while process.poll() is None and not (records.exists() and b"\n" in records.read_bytes()):
+        time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does it: to all of the group
     output, errors = process.communicate()
     assert process.returncode == 130
     assert "Traceback" not in errors
     assert "--resume" in output
     kept = records.read_bytes()
-    assert 2 < kept.count(b"\n") < 12
+    assert {trial["robot"] for trial in _trials("part")} == {"traditional"}
     assert kept.endswith(b"\n")
-    assert _testbed(*part, "--resume").returncode == 0
+    Path("hold").unlink()
+    for further in (["part", "--resume"], ["whole"]):
+        done = subprocess.run([*HELD, *arguments, *further], check=False, capture_output=True)
+        assert done.returncode == 0
     assert records.read_bytes().startswith(kept)
-    assert _testbed(*whole).returncode == 0
+    assert len(_trials("whole")) == 4
     assert sorted(map(str, _untimed("part"))) == sorted(map(str, _untimed("whole")))
+
+
+def _held(*arguments: str) -> subprocess.Popen[str]:
+    """The command line, in a group of its own, whose robot `held` is stuck."""
+    Path("hold").touch()
+    return subprocess.Popen(
+        [*HELD, *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
 
 
 def test_a_killed_driver_takes_its_processes_along_and_the_run_goes_on() -> None:
@@ -256,21 +265,25 @@ def test_replay_says_where_it_differs_from_the_record() -> None:
     assert "differs from the record: action_count was 7, is 6" in done.stdout
 
 
-def test_help_shows_examples() -> None:
-    assert "quickstart" in _testbed("run", "--help").stdout
+def test_help_shows_an_example_a_line() -> None:
+    lines = [line.strip() for line in _testbed("run", "--help").stdout.splitlines()]
+    examples = lines[lines.index("Examples:") + 1 :]
+    assert examples[0] == "testbed run quickstart"
+    assert len(examples) == 3
+    assert all(line.startswith("testbed run ") for line in examples)
     overview = _testbed("--help").stdout
     for command in ("run", "check", "robot", "report", "replay", "translate"):
         assert command in overview
 
 
+def test_the_version_is_that_of_the_distribution() -> None:
+    done = _testbed("--version")
+    assert (done.returncode, done.stdout) == (0, f"testbed {version('intention-testbed')}\n")
+
+
 def test_an_interrupt_while_workers_start_is_as_quiet_as_any() -> None:
-    process = subprocess.Popen(
-        [*COMMAND, "run", "office", "limit=2", "--workers", "2", "--out", "run"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+    arguments = ["run", "quickstart", "robots=[held]", "link=inprocess", "--workers", "2"]
+    process = _held(*arguments, "--out", "run")
     while process.poll() is None and not Path("run/trials.jsonl").exists():
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)

@@ -20,6 +20,7 @@ from testbed.experiment.store import PROVENANCE, replace_text
 DISTRIBUTION = "intention-testbed"
 LIBRARIES = ("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic")
 DIFFERENCE = "difference.patch"
+ROOT = Path(testbed.__file__).resolve().parent.parent
 
 
 class Provenance:
@@ -60,20 +61,19 @@ def versions() -> dict[str, str]:
     return found
 
 
-def revision(folder: Path) -> dict[str, object] | None:
+def revision(folder: Path, root: Path = ROOT) -> dict[str, object] | None:
     """The git revision of the checkout this package runs from; None when installed.
 
-    What differs from that revision is written to `difference.patch` in `folder`.
+    What differs in tracked files is written to `difference.patch` in `folder`, if anything does.
     """
-    root = Path(testbed.__file__).resolve().parent.parent
     if not (root / ".git").exists():
         return None
     commit = _git(root, "rev-parse", "HEAD")
     changed = _git(root, "status", "--porcelain")
     if commit is None or changed is None:
         return None
-    if changed:
-        difference = _git(root, "diff", "HEAD") or ""
+    difference = _git(root, "diff", "HEAD")
+    if difference:
         (folder / DIFFERENCE).write_text(difference + "\n", encoding="utf-8")
     return {"commit": commit, "changed": changed.splitlines()}
 
@@ -98,7 +98,7 @@ def _git(root: Path, *arguments: str) -> str | None:
         done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=20)
     except (OSError, subprocess.TimeoutExpired):
         return None
-    return done.stdout.strip() if done.returncode == 0 else None
+    return done.stdout.rstrip("\n") if done.returncode == 0 else None
 
 
 def _now() -> str:
