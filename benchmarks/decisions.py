@@ -10,8 +10,8 @@ from benchmarks.sheets import DisagreementError, Row, Sheet
 from benchmarks.trials import SCENARIOS, Played, play, specs
 from testbed.experiment.plan import TrialSpec
 
-TRIALS = {"small": 1, "full": 12}
-FRESH = {"small": 1, "full": 5}
+TRIALS = {"small": 1, "full": 6}
+FRESH = {"small": 1, "full": 3}
 
 
 def main(size: str) -> list[Sheet]:
