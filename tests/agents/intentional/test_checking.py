@@ -18,7 +18,7 @@ from testbed.link.robot import Robot
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
     DOMAIN,
-    ROBOT,
+    OFFICE,
     SOURCE,
     WORLD,
     Life,
@@ -85,7 +85,7 @@ def test_what_is_false_when_it_finishes_became_so_after_its_last_look() -> None:
 
 def _true_at_last_look(life: Life, literal: str) -> bool:
     seen = {literal, f"-{literal}"}
-    looks = [s for s in life.states if not seen.isdisjoint(WORLD.visible(s, ROBOT))]
+    looks = [s for s in life.states if not seen.isdisjoint(WORLD.visible(s, OFFICE.robot))]
     last = looks[-1] if looks else life.states[0]
     return WORLD.holds(last, literal)
 
