@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 import runpy
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import typer
+from typer.testing import CliRunner
 
+from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.registry import make_robot
@@ -56,6 +60,39 @@ def test_every_command_shown_exists() -> None:
         assert subprocess.run(arguments, cwd=ROOT, capture_output=True, check=False).returncode == 0
 
 
+def _shown() -> list[tuple[str, ...]]:
+    """The arguments of every `testbed` shown in documents, and in the comments of configurations."""
+    lines = [line.removeprefix("$ ") for block in _blocks("console") for line in block.splitlines()]
+    for config in sorted((ROOT / "configs").glob("*.yaml")):
+        comments = re.findall(r"^#(.*)", config.read_text(encoding="utf-8"), re.MULTILINE)
+        lines += [re.sub(r"^.*?(?=testbed )", "", comment) for comment in comments]
+    split = (shlex.split(line, comments=True) for line in lines if line.startswith("testbed "))
+    return sorted({tuple(words[1:]) for words in split})
+
+
+def _checkable(arguments: tuple[str, ...]) -> list[str]:
+    """What checks the command: itself, or for a run its configuration and overrides."""
+    command, *others = arguments
+    if command != "run":
+        return list(arguments)
+    parsed = typer.main.get_command(app).commands["run"].make_context("run", others)  # type: ignore[attr-defined]
+    return ["check", parsed.params["config"], *(parsed.params["overrides"] or ())]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [shown for shown in _shown() if shown[0] in ("check", "run", "translate")],
+    ids=" ".join,
+)
+def test_the_configurations_shown_are_valid(
+    arguments: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT)
+    done = CliRunner().invoke(app, _checkable(arguments))
+    assert done.exit_code == 0, done.output
+    assert done.stdout
+
+
 SCRIPT = re.compile(r"\[\{step: .*?\}\]")
 
 
@@ -75,3 +112,41 @@ def test_the_filmstrip_is_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(sys, "argv", ["filmstrip.py", str(target)])
     runpy.run_path(str(ROOT / "examples" / "filmstrip.py"), run_name="__main__")
     assert target.read_bytes().startswith(b"\x89PNG")
+
+
+def _cells(document: str, heading: str) -> list[list[str]]:
+    """The rows of the first table below a heading, without its head."""
+    text = (ROOT / "docs" / document).read_text(encoding="utf-8").partition(f"## {heading}\n")[2]
+    table = text[text.index("|") :].partition("\n\n")[0]
+    return [[cell.strip() for cell in row.split("|")[1:-1]] for row in table.splitlines()[2:]]
+
+
+def test_the_office_has_the_actions_and_vectors_that_are_told() -> None:
+    env = office_v0.raw_env()
+    robot, adversary = env.core.robot_actions, env.core.adversary_actions
+    rows = _cells("environment.md", "Actions")
+    assert [row[0] for row in rows] == [str(number) for number in range(len(rows))]
+    assert [row[1].strip("`") for row in rows] == list(robot)
+    assert [row[2].strip("`") for row in rows if row[2]] == list(adversary)
+    for agent, _, length, _, mask in _cells("environment.md", "Observations"):
+        space = env.observation_space(agent.strip("`"))
+        assert isinstance(space, spaces.Dict)
+        assert space["observation"].shape == (int(length),)
+        assert space["action_mask"].shape == (int(mask),)
+
+
+def test_the_fluents_stand_where_the_page_says() -> None:
+    fluents = office_v0.raw_env().core.world.fluents
+    rooms = ("kitchen", "office1", "office2", "library")
+    for first, thing in ((0, "book1"), (4, "book2"), (8, "rob1")):
+        assert fluents[first : first + 4] == tuple(f"loc({thing},{room})" for room in rooms)
+    assert fluents[12:] == ("in_hand(rob1,book1)", "in_hand(rob1,book2)", "locked(library)")
+
+
+def test_every_ending_is_worth_what_the_page_says() -> None:
+    rows = _cells("environment.md", "Rewards and endings")
+    assert {row[0].strip("`") for row in rows} == set(Ending)
+    for outcome, _, robot, adversary, flag in rows:
+        ending = Ending(outcome.strip("`"))
+        assert rewards(ending) == {"robot_0": float(robot), "adversary_0": float(adversary)}
+        assert ending.by_answer == (flag == "termination")
