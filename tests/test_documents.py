@@ -61,7 +61,7 @@ def test_every_command_shown_exists() -> None:
 
 
 def _shown() -> list[tuple[str, ...]]:
-    """The arguments of every `testbed` shown in documents, and in the comments of configurations."""
+    """The arguments of every `testbed` shown, in documents and in comments of configurations."""
     lines = [line.removeprefix("$ ") for block in _blocks("console") for line in block.splitlines()]
     for config in sorted((ROOT / "configs").glob("*.yaml")):
         comments = re.findall(r"^#(.*)", config.read_text(encoding="utf-8"), re.MULTILINE)
@@ -75,7 +75,7 @@ def _checkable(arguments: tuple[str, ...]) -> list[str]:
     command, *others = arguments
     if command != "run":
         return list(arguments)
-    parsed = typer.main.get_command(app).commands["run"].make_context("run", others)  # type: ignore[attr-defined]
+    parsed = typer.main.get_command(app).commands["run"].make_context("run", others)
     return ["check", parsed.params["config"], *(parsed.params["overrides"] or ())]
 
 
