@@ -17,7 +17,7 @@ demo: $(VENV)/.demo
 	$(BIN)/testbed run configs/quickstart.yaml
 
 test: $(VENV)/.test
-	$(BIN)/python -m pytest -n 2 --dist loadgroup
+	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 check: $(VENV)/.test
 	$(BIN)/ruff format --check .

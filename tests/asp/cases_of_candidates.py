@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from axioms import Always, Inconsistent, never, possible
-from stories import (
+from tests.asp.axioms import Always, Inconsistent, never, possible
+from tests.asp.stories import (
     GATE_OPEN,
     GATE_SHUT,
     GOAL,

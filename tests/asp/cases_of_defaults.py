@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from axioms import Always, never, possible
-from stories import GATE_OPEN, GOAL, Case, happened, lines
+from tests.asp.axioms import Always, never, possible
+from tests.asp.stories import GATE_OPEN, GOAL, Case, happened, lines
 
 _LAMP_LIT = "default(lamp,lit,true)."
 _LAMP_OUT = "default(lamp,lit,false)."

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from axioms import Always, never
-from stories import GATE_OPEN, GOAL, OTHER_GOAL, Case, activity, lines, may_occur, occurs
+from tests.asp.axioms import Always, never
+from tests.asp.stories import GATE_OPEN, GOAL, OTHER_GOAL, Case, activity, lines, may_occur, occurs
 
 _OPEN = lines(GATE_OPEN, GOAL)
 _CROSSING = lines(_OPEN, activity(1, "go(right)"))

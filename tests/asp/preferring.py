@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import clingo
-from axioms import domain_text, theory_text
 from clingo import Symbol
-from stories import lines, theories_for
 
 from asp import load_description
 from asp.solving import fact, ground
+from tests.asp.axioms import domain_text, theory_text
+from tests.asp.stories import lines, theories_for
 
 
 def ranks(domain: str) -> list[Symbol]:

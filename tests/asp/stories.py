@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from axioms import Claim, Program, Without, domain_text
+from tests.asp.axioms import Claim, Program, Without, domain_text
 
 CART = str(Path(__file__).with_name("cart.al"))
 GOAL = "goal(at(right),true)."

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import pytest
-from axioms import Without, axioms, lettered
-from cases_of_activities import CASES as ACTIVITIES
-from cases_of_candidates import CASES as CANDIDATES
-from cases_of_conditions import CASES as CONDITIONS
-from cases_of_defaults import CASES as DEFAULTS
-from cases_of_defaults import CONDITIONS as OF_DEFAULTS
-from cases_of_history import CASES as HISTORY
-from cases_of_intentions import CASES as INTENTIONS
-from stories import Case
+
+from tests.asp.axioms import Without, axioms, lettered
+from tests.asp.cases_of_activities import CASES as ACTIVITIES
+from tests.asp.cases_of_candidates import CASES as CANDIDATES
+from tests.asp.cases_of_conditions import CASES as CONDITIONS
+from tests.asp.cases_of_defaults import CASES as DEFAULTS
+from tests.asp.cases_of_defaults import CONDITIONS as OF_DEFAULTS
+from tests.asp.cases_of_history import CASES as HISTORY
+from tests.asp.cases_of_intentions import CASES as INTENTIONS
+from tests.asp.stories import Case
 
 CASES = (*INTENTIONS, *HISTORY, *ACTIVITIES, *CANDIDATES)
 

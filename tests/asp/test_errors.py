@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from mistakes_of_form import CYCLES, FORMS, SYNTAX
-from mistakes_of_names import ARGUMENTS, NAMES
 
 from asp import SourceError, load_description, parse_description
+from tests.asp.mistakes_of_form import CYCLES, FORMS, SYNTAX
+from tests.asp.mistakes_of_names import ARGUMENTS, NAMES
 
 # The mistakes below are in the lines behind these; the first of them is line 16.
 HOUSE = """\

@@ -8,12 +8,12 @@ from itertools import combinations, product
 import clingo
 import pytest
 from clingo import Symbol
-from preferring import ground_story
-from stories import CART, GATE_OPEN, GOAL, lines
 
 from asp import load_description
 from asp.solving import fact, first_model, select
 from testbed.environment.world import World
+from tests.asp.preferring import ground_story
+from tests.asp.stories import CART, GATE_OPEN, GOAL, lines
 
 Event = tuple[int, str]
 Events = frozenset[Event]

@@ -6,13 +6,13 @@ from itertools import product
 
 import clingo
 import pytest
-from axioms import domain_text, lettered, theory_text
 from clingo import Symbol
-from stories import CART, GATE_OPEN, GOAL, lines, theories_for
 
 from asp import load_description
 from asp.preferring import preferring
 from asp.solving import fact, ground, symbol
+from tests.asp.axioms import domain_text, lettered, theory_text
+from tests.asp.stories import CART, GATE_OPEN, GOAL, lines, theories_for
 
 EVENTS = load_description(CART).exogenous_actions
 FLUENTS = ("at(left)", "at(right)", "shut", "lit")

@@ -5,12 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import pytest
-from preferring import ground_story
-from stories import CART, GATE_OPEN, GATE_SHUT, GOAL, SELECTED, STOPPED, activity, intending, lines
 
 from asp import load_description
 from asp.solving import first_model, select
 from testbed.environment.world import World
+from tests.asp.preferring import ground_story
+from tests.asp.stories import (
+    CART,
+    GATE_OPEN,
+    GATE_SHUT,
+    GOAL,
+    SELECTED,
+    STOPPED,
+    activity,
+    intending,
+    lines,
+)
 
 _OFFICE_GOAL = {
     "loc(book1,library)": "true",

@@ -7,16 +7,16 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
-from axioms import THEORIES, domain_text, theory_text
-from cases_of_candidates import CASES as CANDIDATES
-from cases_of_history import CASES as HISTORY
-from diagrams import after, states, warnings_of
-from stories import CART
 
 from asp import SourceError, load_description, parse_description
 from asp.loading import read_domain
 from asp.translation import translate
 from testbed.environment.world import World
+from tests.asp.axioms import THEORIES, domain_text, theory_text
+from tests.asp.cases_of_candidates import CASES as CANDIDATES
+from tests.asp.cases_of_history import CASES as HISTORY
+from tests.asp.diagrams import after, states, warnings_of
+from tests.asp.stories import CART
 
 SMALL = """\
 % A door with a bell.
