@@ -68,9 +68,10 @@ def write_config(folder: Path, config: ExperimentConfig) -> None:
 
 
 def config_text(config: ExperimentConfig) -> str:
-    """The configuration as YAML, every key that has a value included."""
-    keys = config.model_dump(mode="json", exclude_none=True)
-    return str(yaml.safe_dump(keys, sort_keys=False, width=100, allow_unicode=True))
+    """The configuration as YAML: every key with its value or default, of scenarios what is set."""
+    keys = config.model_dump(mode="json")
+    own = config.model_dump(mode="json", include={"scenario_settings"}, exclude_none=True)
+    return str(yaml.safe_dump(keys | own, sort_keys=False, width=100, allow_unicode=True))
 
 
 def check_unchanged(folder: Path, config: ExperimentConfig) -> None:

@@ -5,15 +5,18 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 import asp
-from testbed.config import load_config
+from testbed.config import ExperimentConfig, load_config
+from testbed.config.models import Limits
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import decode, encode
 from testbed.experiment.store import (
     TrialWriter,
     check_unchanged,
     choose_folder,
+    config_text,
     read_config,
     read_records,
     write_config,
@@ -25,6 +28,18 @@ def _write(folder: Path, *trials: str) -> None:
     with TrialWriter(folder) as writer:
         for trial in trials:
             writer.append(a_record(trial))
+
+
+def test_the_configuration_is_told_with_every_key(tmp_path: Path) -> None:
+    path = tmp_path / "own.yaml"
+    path.write_text('name: own\ngoal: ["loc(book1,library)"]\nscenario_settings: {1: {script: []}}')
+    told = yaml.safe_load(config_text(load_config(path)))
+    assert list(told) == list(ExperimentConfig.model_fields)
+    assert told["initial"] is told["limit"] is told["script"] is None
+    assert (told["seed"], told["robots"]) == (0, ["intentional", "traditional"])
+    assert list(told["limits"]) == list(Limits.model_fields)
+    assert told["adversary"] == {"rate": None}
+    assert told["scenario_settings"] == {"1": {"script": []}}
 
 
 def test_a_record_reads_back_as_it_was_written() -> None:
