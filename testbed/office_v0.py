@@ -22,7 +22,7 @@ from testbed.environment.aec import AECView
 from testbed.environment.core import Core
 from testbed.environment.observation import Observation
 from testbed.environment.parallel import ParallelView
-from testbed.environment.rules import Observability, Rules
+from testbed.environment.rules import Rules
 from testbed.environment.world import World
 
 Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
@@ -85,9 +85,7 @@ def _rules(config: ExperimentConfig, max_cycles: int | None) -> Rules:
     return Rules(
         goal=config.goal,
         steps=config.limits.steps if max_cycles is None else max_cycles,
-        observability={
-            name: Observability(**dict(how)) for name, how in config.observability.items()
-        },
+        observability=config.rules_of_news(),
         goal_feedback=config.goal_feedback,
         exogenous_while_thinking=config.exogenous_while_thinking,
     )

@@ -5,9 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-NONE = "none"
-"""The answer of an adversary that does nothing."""
-
 
 @dataclass(frozen=True)
 class AdversaryView:

@@ -7,10 +7,11 @@ from typing import TypeVar
 
 import numpy as np
 
-from agents.adversary.base import NONE, AdversaryView
+from agents.adversary.base import AdversaryView
 from asp import Description
 from asp import literals as text
 from asp.description import Trigger
+from testbed.environment.core import NONE
 
 T = TypeVar("T")
 

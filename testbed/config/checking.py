@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 
 import asp
-from asp import Description
+from asp import Description, literals
 from asp.errors import SourceError
 from asp.literals import atom, complement
 from testbed.config.errors import ConfigError, nearest
@@ -145,23 +145,14 @@ def _script(
 
 def unknown_atom(text: str, known: Sequence[str], what: str) -> str:
     """Say what is wrong with a ground atom that is not among the known ones, and what is right."""
-    name, arguments = _split(text)
-    same = [parts for functor, parts in map(_split, known) if functor == name]
+    name, values = literals.name(text), literals.arguments(text)
+    same = [literals.arguments(item) for item in known if literals.name(item) == name]
     if not same:
-        return f"no {what} '{name}'; {nearest(name, (_split(item)[0] for item in known))}"
-    if len(arguments) != len(same[0]):
-        return f"{name} takes {len(same[0])} arguments, as in {_join(name, same[0])}"
-    for position, value in enumerate(arguments):
+        return f"no {what} '{name}'; {nearest(name, map(literals.name, known))}"
+    if len(values) != len(same[0]):
+        return f"{name} takes {len(same[0])} arguments, as in {literals.ground(name, same[0])}"
+    for position, value in enumerate(values):
         possible = {parts[position] for parts in same}
         if value not in possible:
             return f"'{value}' in {text} is not known there; {nearest(value, possible)}"
     return f"{text} is not a {what}; {nearest(text, known)}"
-
-
-def _split(text: str) -> tuple[str, tuple[str, ...]]:
-    name, _, rest = text.partition("(")
-    return name, tuple(rest.removesuffix(")").split(",")) if rest else ()
-
-
-def _join(name: str, arguments: Sequence[str]) -> str:
-    return f"{name}({','.join(arguments)})" if arguments else name

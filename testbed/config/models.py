@@ -11,7 +11,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-Mode = Literal["never", "colocated", "always"]
+from testbed.environment import rules
+
 LinkKind = Literal["zenoh", "inprocess"]
 KnowledgeKind = Literal["complete", "seen"]
 
@@ -64,7 +65,7 @@ class Observability(Section):
     steps by which every report is late.
     """
 
-    mode: Mode = "never"
+    mode: rules.Mode = "never"
     probability: Probability = 1.0
     false_reports: Probability = 0.0
     delay: Annotated[int, Field(strict=True, ge=0)] = 0
@@ -132,6 +133,13 @@ class ExperimentConfig(Section):
     script: tuple[ScriptEntry, ...] | None = None
     adversary: AdversarySettings = AdversarySettings()
     limits: Limits = Limits()
+
+    def rules_of_news(self) -> dict[str, rules.Observability]:
+        """`observability` as the environment has it, by the name of the exogenous action."""
+        return {
+            name: rules.Observability(**dict(own))
+            for name, own in sorted(self.observability.items())
+        }
 
     def settings(self, scenario: str) -> ScenarioSettings:
         """The settings that hold in a scenario: its own where it has them, else the common ones.

@@ -13,7 +13,6 @@ import msgspec
 import numpy as np
 
 from testbed.config.models import ExperimentConfig, KnowledgeKind
-from testbed.config.models import Observability as ObservabilitySettings
 from testbed.environment.rules import Observability
 from testbed.environment.world import World
 from testbed.experiment.domains import load_world
@@ -117,7 +116,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         domain=config.domain,
         goal=own.goal,
         script=None if own.script is None else tuple((e.step, e.action) for e in own.script),
-        observability=_observability(config.observability),
+        observability=config.rules_of_news(),
         knowledge=config.knowledge,
         goal_feedback=bool(own.goal_feedback),
         exogenous_while_thinking=bool(own.exogenous_while_thinking),
@@ -126,10 +125,6 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         plan_limit=config.limits.plan,
         decision_s=config.limits.decision_s,
     )
-
-
-def _observability(settings: dict[str, ObservabilitySettings]) -> dict[str, Observability]:
-    return {name: Observability(**dict(own)) for name, own in sorted(settings.items())}
 
 
 def trial_seed(root: int, path: object) -> int:

@@ -21,6 +21,7 @@ from testbed.experiment.plan import TrialSpec
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import Recorder
 from testbed.link.errors import RobotLost, RobotStopped
+from testbed.link.exchange import in_one_line
 from testbed.link.messages import Decision, Percept, Task
 from testbed.link.robot import RobotClient
 
@@ -66,7 +67,7 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
     except IllegalActionError as error:
         recorder.fail("error", str(error))
     except Exception as error:  # whatever it is, it is this trial's outcome and not the run's
-        recorder.fail("error", " ".join(f"{type(error).__name__}: {error}".split()))
+        recorder.fail("error", in_one_line(error))
         details = traceback.format_exc()
     recorder.record.wall_time_s = time.perf_counter() - started
     return Result(recorder.record, details)

@@ -65,7 +65,7 @@ def read_decision(payload: bytes, percept: Percept) -> Decision:
 
 
 def in_one_line(error: Exception) -> str:
-    """Return what a robot's exception says, as it travels to the driver."""
+    """Return what an exception says: of a robot's, what travels to the driver."""
     return " ".join(f"{type(error).__name__}: {error}".split())
 
 

@@ -2,11 +2,11 @@
 
 import pytest
 
-from agents.adversary.base import NONE, AdversaryView
+from agents.adversary.base import AdversaryView
 from agents.adversary.scripted import Script, Triggered
 from asp import literals as text
 from asp import load_description
-from testbed.environment.core import FINISH, WAIT, Core
+from testbed.environment.core import FINISH, NONE, WAIT, Core
 from testbed.environment.rules import Rules
 from testbed.environment.world import World
 
