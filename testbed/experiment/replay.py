@@ -16,9 +16,9 @@ from testbed.experiment.record import TrialRecord, logical
 from testbed.experiment.registry import make_robot
 from testbed.experiment.store import read_config, read_records
 from testbed.experiment.trial import Moment, Result, play_trial
-from testbed.experiment.wording import counted, in_words
+from testbed.experiment.wording import counted, explanation, in_words
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Explanation, Trace
+from testbed.link.messages import Trace
 
 Say = Callable[[str], None]
 
@@ -106,8 +106,8 @@ class Teller:
             against = f"{contrary.observed} at step {contrary.step} against {contrary.believed}"
             yield f"  unexpected   {against}"
         if trace.explanation is not None:
-            yield f"  explanation  {_explanation(trace.explanation)}"
-        yield from (f"    or         {_explanation(other)}" for other in trace.alternatives)
+            yield f"  explanation  {explanation(trace.explanation)}"
+        yield from (f"    or         {explanation(other)}" for other in trace.alternatives)
         if trace.more_alternatives:
             yield "    or         others, not all of which are listed"
         yield f"  intention    {trace.intention or '-'}{self._new_plan(trace)}"
@@ -133,13 +133,6 @@ class Teller:
 def _difference(belief: Iterable[str], truth: Iterable[str]) -> str:
     missing, wrong = sorted(set(truth) - set(belief)), sorted(set(belief) - set(truth))
     return " ".join([*missing, *(f"-{atom}" for atom in wrong)])
-
-
-def _explanation(explanation: Explanation) -> str:
-    exceptions = [f"exception {literal}" for literal in explanation.exceptions]
-    events = [f"{event.action} at step {event.step}" for event in explanation.unobserved]
-    false = [f"false news of {e.action} at step {e.step}" for e in explanation.distrusted]
-    return ", ".join([*exceptions, *events, *false]) or "nothing unobserved"
 
 
 def _action(moment: Moment) -> str:

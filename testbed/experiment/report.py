@@ -9,10 +9,11 @@ from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 
-from testbed.experiment.record import FAILURES, Explained, TrialRecord
+from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.store import REPORT, read_records, replace_text
 from testbed.experiment.summary import write_summary
 from testbed.experiment.tables import COLUMNS, Row, rows_of
+from testbed.experiment.wording import explanation
 
 SHOWN = 60  # trials told step by step; of a larger run those that failed come first
 
@@ -68,14 +69,8 @@ def timeline(record: TrialRecord) -> Iterator[Step]:
             kind = "mental"
             robot = mental.get(number, "wait")
         seen = "" if event is None else f"{event.action}{'' if event.observed else ', unseen'}"
-        yield Step(number, kind, robot, seen, _explanation(explanations.get(number)))
-
-
-def _explanation(explained: Explained | None) -> str:
-    if explained is None:
-        return ""
-    events = [f"{event.action} at {event.step}" for event in explained.unobserved]
-    return ", ".join([*events, *(f"exception {literal}" for literal in explained.exceptions)])
+        adopted = explanations.get(number)
+        yield Step(number, kind, robot, seen, explanation(adopted) if adopted else "")
 
 
 def _worth_telling(folder: Path) -> list[TrialRecord]:

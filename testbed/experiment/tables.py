@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from rich.table import Table
 
 from testbed.experiment.record import FAILURES, OUTCOMES, Outcome, TrialRecord
-from testbed.experiment.wording import counted, in_words
+from testbed.experiment.wording import counted, exception, in_words
 
 COLUMNS = (
     "scenario",
@@ -119,7 +119,7 @@ def explained(record: TrialRecord) -> list[str]:
     """
     explanations = record.explanations
     events = [(event.step, event.action) for own in explanations for event in own.unobserved]
-    exceptions = [f"exception {literal}" for own in explanations for literal in own.exceptions]
+    exceptions = [exception(literal) for own in explanations for literal in own.exceptions]
     return list(dict.fromkeys([*sorted(exceptions), *(action for _, action in sorted(events))]))
 
 

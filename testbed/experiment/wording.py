@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from testbed.experiment.record import Explained
+from testbed.link.messages import Explanation
+
 
 def counted(number: int, noun: str) -> str:
     """`1 trial`, `2 trials`: nouns whose plural ends in s."""
@@ -11,3 +14,15 @@ def counted(number: int, noun: str) -> str:
 def in_words(name: str) -> str:
     """A name of the record as text: `false_finish` is `false finish`."""
     return name.replace("_", " ")
+
+
+def exception(literal: str) -> str:
+    """What holds at step 0 against a default."""
+    return f"exception {literal}"
+
+
+def explanation(told: Explanation | Explained) -> str:
+    """An explanation as text: how it began, what others did, which news is false."""
+    events = [f"{event.action} at step {event.step}" for event in told.unobserved]
+    false = [f"false news of {event.action} at step {event.step}" for event in told.distrusted]
+    return ", ".join([*map(exception, told.exceptions), *events, *false]) or "nothing unobserved"

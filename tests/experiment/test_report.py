@@ -59,7 +59,7 @@ def test_a_timeline_has_every_step_with_who_did_what() -> None:
         steps=5,
         actions=[Attempt(2, "go", True), Attempt(3, "take", False)],
         exogenous=[Occurrence(2, "shift", False)],
-        explanations=[Explained(4, [At(2, "shift")], ["-home"])],
+        explanations=[Explained(4, [At(2, "shift")], ["-home"], [At(3, "shift")])],
         mental=[At(1, "start(1)"), At(5, "finish")],
     )
     told = [(s.number, s.kind, s.robot, s.others, s.explained) for s in timeline(record)]
@@ -67,7 +67,13 @@ def test_a_timeline_has_every_step_with_who_did_what() -> None:
         (1, "mental", "start(1)", "", ""),
         (2, "done", "go", "shift, unseen", ""),
         (3, "failed", "take failed", "", ""),
-        (4, "mental", "wait", "", "shift at 2, exception -home"),
+        (
+            4,
+            "mental",
+            "wait",
+            "",
+            "exception -home, shift at step 2, false news of shift at step 3",
+        ),
         (5, "mental", "finish", "", ""),
     ]
 
