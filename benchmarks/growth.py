@@ -14,7 +14,7 @@ from agents.shared.knowledge import Knowledge, knowledge
 from benchmarks.measuring import forget, median, no_collection, timed, within
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.problems import Problem, delivered, drawn, placed
-from benchmarks.sheets import DisagreementError, Row, Sheet, Value
+from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
 from benchmarks.sieges import Question, Siege, besiege
 
 Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
@@ -64,7 +64,7 @@ def main(size: str) -> list[Sheet]:
         title = "The first decision, 3 books wanted of 16, 32 rooms in a grid"
         families["largest"] = (title, iter([("16 books, 32 rooms", largest)]))
     sheets = [
-        Sheet(name, title, list(_family(name, points, LIMIT_S[size])), note)
+        Sheet(name, title, gathered(_family(name, points, LIMIT_S[size])), note)
         for name, (title, points) in families.items()
     ]
     return [*sheets, _history(size)]  # last, for it grounds an office in this very process
@@ -161,35 +161,35 @@ def first_decision(problem: Problem, make: Make) -> Intention:
 
 
 def _history(size: str) -> Sheet:
-    source = office()
-    initial = placed({"book1": "kitchen", "book2": "office1"}, "kitchen")
-    goal = delivered(book_names(2))
-    rows: list[Row] = []
-    given_up: dict[str, bool] = {"ordinary": False, "contradiction": False}
-    for step in STEPS[size]:
-        siege = _long_life(source, initial, goal, step, WINDOW[size])
-        for kind, (took, question) in _points(siege, step).items():
-            slow = None if given_up[kind] else _asked_again(source, goal, question, LIMIT_S[size])
-            given_up[kind] = slow is None
-            fast = median(took)
-            rows.append(
-                {
-                    "step": step,
-                    "decision": kind,
-                    "measured": len(took),
-                    "fast_median_ms": fast,
-                    "fast_worst_ms": max(took),
-                    "reference_ms": slow if slow is not None else f"> {LIMIT_S[size]} s",
-                    "times_faster": _ratio(slow, fast, LIMIT_S[size]),
-                    "agree": None if slow is None else True,
-                }
-            )
     notes = (
         "2 books, 4 rooms; an event undoes part of the goal in each step that would achieve it;",
         "ordinary: the robot is told; contradiction: once, after the given step, it is not told;",
         "answers are forgotten before each measured decision",
     )
+    rows = gathered(_lives(STEPS[size], WINDOW[size], LIMIT_S[size]))
     return Sheet("history", "A decision after a history of so many steps", rows, notes)
+
+
+def _lives(steps: Sequence[int], window: int, limit_s: float) -> Iterator[Row]:
+    source = office()
+    initial = placed({"book1": "kitchen", "book2": "office1"}, "kitchen")
+    goal = delivered(book_names(2))
+    given_up: dict[str, bool] = {}
+    for step in steps:
+        siege = _long_life(source, initial, goal, step, window)
+        for kind, (took, question) in _points(siege, step).items():
+            slow = None if given_up.get(kind) else _asked_again(source, goal, question, limit_s)
+            given_up[kind] = slow is None
+            yield {
+                "step": step,
+                "decision": kind,
+                "measured": len(took),
+                "fast_median_ms": median(took),
+                "fast_worst_ms": max(took),
+                "reference_ms": slow if slow is not None else f"> {limit_s} s",
+                "times_faster": _ratio(slow, median(took), limit_s),
+                "agree": None if slow is None else True,
+            }
 
 
 def _long_life(

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import cycle, islice
 from pathlib import Path
 
-from benchmarks.sheets import Row, Sheet
+from benchmarks.sheets import Row, Sheet, gathered
 from benchmarks.trials import SCENARIOS, play, specs
 
 _STATUS = Path("/proc/self/statm")
@@ -25,7 +25,7 @@ def main(size: str) -> list[Sheet]:
         "the first row is after the first trial",
     )
     title = "Resident memory of one process, link included"
-    return [Sheet("memory", title, list(soak(TRIALS[size], STATES[size])), notes)]
+    return [Sheet("memory", title, gathered(soak(TRIALS[size], STATES[size])), notes)]
 
 
 def soak(trials: int, states: int) -> Iterator[Row]:

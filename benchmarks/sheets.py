@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Mapping, Sequence
+import sys
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -29,6 +30,15 @@ class Sheet:
     title: str
     rows: Sequence[Row]
     notes: Sequence[str] = ()
+
+
+def gathered(rows: Iterable[Row]) -> list[Row]:
+    """The rows, each told on standard error as soon as it is measured: a run takes minutes."""
+    found: list[Row] = []
+    for row in rows:
+        print(json.dumps(row), file=sys.stderr, flush=True)
+        found.append(row)
+    return found
 
 
 class DisagreementError(AssertionError):
