@@ -21,8 +21,9 @@ class Triggered:
 
     Where the triggers draw a value, one of those that could be drawn is drawn first, and fires
     only if its own triggers apply: a draw may come to nothing, and is repeated at the next step
-    (spec 1). Where nothing is drawn, the first possible event in order is taken. A trigger upon any
-    action fires at every step that the environment leaves open, also while the robot waits.
+    (docs/action-language.md). Where nothing is drawn, the first possible event in order is taken. A
+    trigger upon any action fires at every step that the environment leaves open, also while the
+    robot waits.
     """
 
     def __init__(self, description: Description, scenario: str) -> None:

@@ -1,4 +1,4 @@
-"""The intentional robot: the adapted theory of intentions in the loop AIA (spec 2)."""
+"""The intentional robot: the adapted theory of intentions in the loop AIA (P 3.2)."""
 
 from agents.intentional.controller import IntentionalRobot
 

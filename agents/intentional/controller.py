@@ -1,4 +1,4 @@
-"""The control loop AIA: interpret, intend, attempt, observe (spec 2)."""
+"""The control loop AIA: interpret, intend, attempt, observe (D 2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Phase one: the smallest explanation of a history (spec 2, (25)-(27), and P 3.1.2)."""
+"""Phase one: the smallest explanation of a history (D 2.4, (25)-(27), and P 3.1.2)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an agent remembers: the history of spec 2, and the activities it has built."""
+"""What an agent remembers: the history (D 2.3), and the activities it has built."""
 
 from __future__ import annotations
 

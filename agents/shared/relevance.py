@@ -1,4 +1,4 @@
-"""Which of the fluents that it sees a robot takes into its history (spec 1)."""
+"""Which of the fluents that it sees a robot takes into its history (P 3.2)."""
 
 from __future__ import annotations
 

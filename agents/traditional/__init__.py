@@ -1,4 +1,4 @@
-"""The traditional planning baseline TP (spec 2, last table)."""
+"""The traditional planning baseline TP (P 4)."""
 
 from agents.traditional.robot import TraditionalRobot
 

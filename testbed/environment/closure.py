@@ -92,7 +92,7 @@ class Closure:
         """Every consistent S with S = Cn(facts + the defaults whose complement is not in S).
 
         With facts E(a,s) and defaults that say inertia and the closed world of defined fluents,
-        these are the answer sets of the translated program at the next step (spec 1). Sorted.
+        these are the answer sets of the translated program at the next step (D 2.2). Sorted.
         """
         return tuple(sorted(set(self._search(facts, 0, defaults))))
 

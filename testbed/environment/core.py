@@ -1,6 +1,6 @@
 """The game itself, without PettingZoo: one robot and one adversary, step by step.
 
-Steps are those of the robot's history (spec 2): 0 is the selection of the goal, which changes
+Steps are those of the robot's history (D 2.3): 0 is the selection of the goal, which changes
 nothing in the world, so that a game begins at step 1, at which the robot gives its first answer.
 """
 

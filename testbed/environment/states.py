@@ -1,4 +1,4 @@
-"""The states of a domain, compiled from its ground description (spec 1).
+"""The states of a domain, compiled from its ground description (P 3.1.1).
 
 A state is an integer: bit i is set where the description's i-th fluent is true.
 """

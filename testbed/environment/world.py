@@ -1,4 +1,4 @@
-"""The transition function of a domain, compiled from its ground description (spec 1).
+"""The transition function of a domain, compiled from its ground description (P 3.1.1).
 
 A successor is the closure, under the state constraints, of the direct effects and of what inertia
 keeps; a compound action without one cannot be executed.

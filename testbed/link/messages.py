@@ -2,7 +2,7 @@
 
 A driver sends a :class:`Question`, the robot answers it with a :class:`Decision`. Everything
 logical is ASP text as in the documents: an atom is ``"loc(book1,kitchen)"``, its negation
-``"-loc(book1,kitchen)"``. Steps are the environment's and the history's alike (spec 2): 0 is the
+``"-loc(book1,kitchen)"``. Steps are the environment's and the history's alike (D 2.3): 0 is the
 selection of the goal, the first decision is the one of step 1.
 """
 
@@ -79,7 +79,7 @@ class Question(Message, frozen=True, kw_only=True):
 
 
 class Explanation(Part, frozen=True, kw_only=True):
-    """What makes a history consistent (spec 2, phase one), found at ``step``.
+    """What makes a history consistent (D 2.4), found at ``step``.
 
     ``unobserved`` are exogenous actions, ``exceptions`` the literals that hold at step 0 against
     a default, ``distrusted`` reports of what did not happen.

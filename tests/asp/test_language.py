@@ -221,7 +221,7 @@ scenarios
 
 
 class TestOffice:
-    """Spec 1's signature, counted and spelt out by hand."""
+    """The signature of D 1.1, counted and spelt out by hand."""
 
     ROOMS = ("kitchen", "library", "office1", "office2")
     BOOKS = ("book1", "book2")

@@ -1,4 +1,4 @@
-"""The translated program: readable, accepted by clingo, and the transition diagram of spec 1."""
+"""The translated program: readable, accepted by clingo, and the transition diagram of D 1.1."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ class TestText:
 
 
 class TestOffice:
-    """Transitions of the published scenarios, and what spec 1 calls impossible."""
+    """Transitions of the published scenarios, and what D 1.1 calls impossible."""
 
     START = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book1,kitchen)", "loc(book2,kitchen)")
     PLAN = (

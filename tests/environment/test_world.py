@@ -1,4 +1,4 @@
-"""The compiled world of the office against hand-made facts about it (spec 1)."""
+"""The compiled world of the office against hand-made facts about it (D 1.1)."""
 
 import pytest
 
@@ -48,7 +48,7 @@ def test_the_office_has_430_states_and_192_initial_ones(world: World) -> None:
     states = list(world.states())
     assert len(states) == len(set(states)) == 430
     assert 2 * (nothing_held + held_in_a_room + held_by_a_robot_nowhere) == 430
-    # Spec 4: the library locked or not, book1 held, book2 held, or nothing held.
+    # P 4: the library locked or not, book1 held, book2 held, or nothing held.
     initial = world.initial_states()
     assert len(set(initial)) == 2 * (4 * 4 + 4 * 4 + 4 * 4 * 4) == 192
     assert set(initial) <= set(states)

@@ -1,4 +1,4 @@
-"""The triggers of the scenarios (spec 1's table), checked against the table itself."""
+"""The triggers of the scenarios, checked against a table of what fires when."""
 
 import pytest
 
