@@ -15,9 +15,11 @@ from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.pool import Play, play_all
 from testbed.experiment.record import logical
+from testbed.experiment.registry import make_robot
 from testbed.experiment.runner import Tally, player, run_trials
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import Moment, Result, blank_record, play_trial
+from testbed.link.robot import Robot
 from testbed.link.spawned import spawned_robot
 from tests.experiment.samples import Configure, ids
 
@@ -170,17 +172,20 @@ def test_an_interrupt_keeps_what_was_finished(tmp_path: Path, configure: Configu
     assert len(_run(config, tmp_path)) == 4
 
 
-def test_a_failed_trial_leaves_its_traceback_and_the_run_goes_on(
-    tmp_path: Path, configure: Configure
+def test_a_failed_robot_leaves_its_traceback_and_the_run_goes_on(
+    tmp_path: Path, configure: Configure, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    config = configure(
-        "scenarios=[1,3]",
-        "scenario_settings.3.script=[{step: 1, action: 'exo_move(book1,office1)'}]",
-    )
-    tally = run_trials(config, tmp_path, 1, _ignore)
+    def make(kind: str) -> Robot:
+        if kind == "traditional":
+            raise ArithmeticError("out of ideas")
+        return make_robot(kind)
+
+    monkeypatch.setattr("testbed.experiment.runner.make_robot", make)
+    tally = run_trials(configure("scenarios=[1,2]"), tmp_path, 1, _ignore)
     records = list(read_records(tmp_path))
-    assert [record.outcome for record in records] == ["achieved", "achieved", "error", "error"]
+    assert [record.outcome for record in records] == ["achieved", "robot_lost"] * 2
     assert tally.failed == 2
-    details = (tmp_path / "errors" / f"{records[2].trial}.txt").read_text(encoding="utf-8")
-    assert "Traceback" in details
+    details = (tmp_path / "errors" / f"{records[1].trial}.txt").read_text(encoding="utf-8")
+    assert details.startswith("Traceback")
+    assert "in make" in details
     assert not (tmp_path / "errors" / f"{records[0].trial}.txt").exists()
