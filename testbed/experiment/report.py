@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from markupsafe import Markup
 
+from asp.commentary import scenario_notes
+from asp.loading import read_domain
+from testbed.config import ExperimentConfig
+from testbed.experiment.comparison import comparisons
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.store import REPORT, read_records, replace_text
 from testbed.experiment.summary import write_summary
 from testbed.experiment.tables import COLUMNS, Row, rows_of
-from testbed.experiment.wording import explanation
+from testbed.experiment.wording import counted, explanation, in_words
 
 SHOWN = 60  # trials told step by step; of a larger run those that failed come first
 
@@ -37,21 +42,42 @@ class Story:
     steps: tuple[Step, ...]
 
 
-def write_report(folder: Path, name: str) -> list[Row]:
+@dataclass(frozen=True)
+class Chapter:
+    """The told trials of a scenario; `note` is what the domain says of it, or ""."""
+
+    scenario: str
+    note: str
+    stories: tuple[Story, ...]
+
+
+def write_report(folder: Path, config: ExperimentConfig) -> list[Row]:
     """Write `summary.json` and `report.html` from the records of a run; the rows of its table."""
-    write_summary(folder)
+    summary = write_summary(folder)
     rows = rows_of(read_records(folder))
-    stories = [Story(record, tuple(timeline(record))) for record in _worth_telling(folder)]
+    chapters = list(_chapters(folder, scenario_notes(*reversed(read_domain(config.domain)))))
     page = _template().render(
-        name=name,
+        config=config,
+        domain=Path(config.domain).stem,
         columns=COLUMNS,
         rows=rows,
+        comparisons=comparisons(summary),
         trials=sum(row.trials for row in rows),
-        stories=stories,
+        told=sum(len(chapter.stories) for chapter in chapters),
+        chapters=chapters,
         folder=shlex.quote(str(folder)),
     )
     replace_text(folder / REPORT, page)
     return rows
+
+
+def _chapters(folder: Path, notes: Mapping[str, str]) -> Iterator[Chapter]:
+    stories: dict[str, list[Story]] = {}
+    for record in _worth_telling(folder):
+        story = Story(record, tuple(timeline(record)))
+        stories.setdefault(record.scenario, []).append(story)
+    for scenario, told in stories.items():
+        yield Chapter(scenario, notes.get(scenario, ""), tuple(told))
 
 
 def timeline(record: TrialRecord) -> Iterator[Step]:
@@ -89,8 +115,14 @@ def _went_wrong(record: TrialRecord) -> bool:
     return record.outcome in FAILURES or not record.achieved
 
 
+def _atoms(text: str) -> Markup:
+    """Text that breaks at its spaces alone, and not inside of an atom."""
+    return Markup(" ").join(Markup('<span class="atom">{}</span>').format(a) for a in text.split())
+
+
 def _template() -> Template:
     loader = PackageLoader("testbed.experiment", "templates")
     environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+    environment.filters |= {"atoms": _atoms, "counted": counted, "in_words": in_words}
     environment.trim_blocks = environment.lstrip_blocks = True
     return environment.get_template("report.html.j2")

@@ -64,7 +64,7 @@ def run_session(
         tally = run_trials(config, folder, workers, notify)
     code = _exit_code(tally)
     provenance.close(code)
-    _conclude(folder, config.name, tally, _console(quiet))
+    _conclude(folder, config, tally, _console(quiet))
     return code
 
 
@@ -72,7 +72,7 @@ def report_again(folder: Path) -> None:
     """Table, summary and report of a run, made again. Raises StoreError or ConfigError."""
     config = read_config(folder)
     console = _console()
-    _show(console, write_report(folder, config.name))
+    _show(console, write_report(folder, config))
     _say(console, f"report: {folder / REPORT}")
 
 
@@ -95,8 +95,8 @@ def _exit_code(tally: Tally) -> int:
     return FAILED if tally.failed else DONE
 
 
-def _conclude(folder: Path, name: str, tally: Tally, console: Console) -> None:
-    _show(console, write_report(folder, name))
+def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Console) -> None:
+    _show(console, write_report(folder, config))
     if tally.interrupted:
         kept = f"{tally.done} of {counted(tally.planned, 'trial')}"
         _say(console, f"interrupted: {kept} kept in {folder}")

@@ -94,8 +94,10 @@ class Row:
         share = f"{self.achieved}/{self.trials}"
         return ", ".join([share, *(f"{self.endings[name]} {in_words(name)}" for name in others)])
 
-    def _mean(self, total: float) -> str:
-        return f"{total / self._played:.4g}" if self._played else "-"
+    def _mean(self, total: int) -> str:
+        if not self._played:
+            return "-"
+        return str(total) if self.trials == 1 else f"{total / self._played:.1f}"
 
     def _planning(self) -> str:
         return f"{1000 * self.planning_s / self._played:.0f} ms" if self._played else "-"

@@ -52,7 +52,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     script = "scenario_settings.1.script=[{step: 1, action: 'exo_move(book1,office1)'}]"
     config = load_config("quickstart", ["link=inprocess", "scenarios=[2,5,1]", script])
     run_trials(config, folder, 1, lambda _: None)
-    write_report(folder, config.name)
+    write_report(folder, config)
     return folder
 
 

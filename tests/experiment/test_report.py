@@ -1,18 +1,23 @@
 """The report: one self-contained file that tells every trial, readable by anyone."""
 
 import json
+import os
 import shlex
+import subprocess
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 
+from testbed.config import load_config
 from testbed.experiment.record import At, Attempt, Explained, Occurrence
 from testbed.experiment.report import SHOWN, timeline, write_report
 from testbed.experiment.store import TrialWriter
 from tests.experiment.samples import a_record
 
 LOADING = {"src", "srcset", "action", "poster", "data"}
+ROOT = Path(__file__).parents[2]
 VOID = {"meta", "link", "br", "img", "hr", "input"}
 
 
@@ -49,7 +54,7 @@ def _report(folder: Path, *records: object) -> tuple[str, Page]:
     with TrialWriter(folder) as writer:
         for record in records:
             writer.append(record)  # type: ignore[arg-type]
-    write_report(folder, "tiny")
+    write_report(folder, load_config("office", ["name=tiny", "seed=7"]))
     text = (folder / "report.html").read_text(encoding="utf-8")
     return text, Page(text)
 
@@ -98,6 +103,56 @@ def test_a_script_that_was_not_played_to_its_end_is_said_under_the_table(tmp_pat
     reason = "script step 50 was not reached"
     _, page = _report(tmp_path, a_record("a", reason=reason), a_record("b"))
     assert f"scenario 1, intentional: {reason} in 1 of 2 trials." in page.text
+
+
+def test_the_heading_says_what_was_run_and_what_the_domain_says_of_a_scenario(
+    tmp_path: Path,
+) -> None:
+    _, page = _report(tmp_path, a_record("a", scenario="6"))
+    head, _, rest = page.text.partition("What the robots achieved")
+    assert "tiny domain office seed 7 robots intentional, traditional trials 1" in head
+    assert "Failure to execute: the library is locked" in rest.partition("Scenario 6")[2]
+
+
+def test_robots_are_compared_where_both_have_played(tmp_path: Path) -> None:
+    (tmp_path / "alone").mkdir()
+    (tmp_path / "both").mkdir()
+    intentional = a_record("a", pair="one", action_count=4)
+    traditional = a_record("b", pair="one", robot="traditional", action_count=10, correct=False)
+    _, alone = _report(tmp_path / "alone", intentional)
+    assert "How they compare" not in alone.text
+    _, both = _report(tmp_path / "both", intentional, traditional)
+    table = both.text.partition("How they compare")[2].partition("Behind the shares")[0]
+    assert "1 1 100.0 % 0.0 % - - - - 2.50" in table
+
+
+def test_text_does_not_break_inside_of_an_atom(tmp_path: Path) -> None:
+    explanation = Explained(2, [At(1, "exo_move(book2,library)")], ["-loc(book1,kitchen)"])
+    text, _ = _report(tmp_path, a_record(steps=2, explanations=[explanation]))
+    for atom in ("exo_move(book2,library)", "-loc(book1,kitchen)", "loc(book1,library)"):
+        assert f'<span class="atom">{atom}' in text
+    assert "overflow-wrap: anywhere" not in text
+
+
+def test_on_a_narrow_screen_every_cell_has_its_label(tmp_path: Path) -> None:
+    text, page = _report(tmp_path, a_record(steps=2), a_record("b", robot="traditional", steps=2))
+    assert page.tags.count("td") == text.count("<td ") == text.count("data-label=")
+    assert page.tags.count("table") == text.count('stack">') == 4
+
+
+def test_the_same_records_give_the_same_page(tmp_path: Path) -> None:
+    events = [At(step, f"exo_move(book{step},kitchen)") for step in range(1, 9)]
+    text, _ = _report(tmp_path, a_record(explanations=[Explained(9, events, ["b", "a"])]))
+    program = (
+        "import sys; from pathlib import Path; from testbed.config import load_config; "
+        "from testbed.experiment.report import write_report; "
+        "write_report(Path(sys.argv[1]), load_config('office', ['name=tiny', 'seed=7']))"
+    )
+    for seed in ("1", "2"):
+        environment = os.environ | {"PYTHONHASHSEED": seed}
+        command = [sys.executable, "-c", program, str(tmp_path)]
+        subprocess.run(command, check=True, env=environment, cwd=ROOT)
+        assert (tmp_path / "report.html").read_text(encoding="utf-8") == text
 
 
 def test_what_comes_from_outside_is_escaped(tmp_path: Path) -> None:

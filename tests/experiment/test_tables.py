@@ -65,6 +65,12 @@ def test_several_trials_are_counted_and_averaged() -> None:
     assert [row.robot for row in rows] == ["intentional", "traditional"]
 
 
+def test_means_have_one_decimal_whatever_they_are() -> None:
+    rows = rows_of(a_record(n, action_count=100, execution_units=25 * int(n)) for n in "124")
+    cells = dict(zip(COLUMNS, rows[0].cells(), strict=True))
+    assert (cells["actions"], cells["units"], cells["plans"]) == ("100.0", "58.3", "0.0")
+
+
 def test_a_row_of_failures_alone_has_no_means() -> None:
     (row,) = rows_of([a_record(outcome="error", achieved=False)])
     cells = dict(zip(COLUMNS, row.cells(), strict=True))

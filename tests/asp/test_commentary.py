@@ -1,0 +1,33 @@
+"""What a description's comments say of its scenarios."""
+
+from asp.commentary import scenario_notes
+from asp.loading import read_domain
+
+TEXT = """\
+scenarios
+  % On scenarios in general.
+
+  % 1: nothing happens.
+  1: nothing.
+  % 2, a gust: it blows while
+  % the robot carries.
+  2: blow upon carry(T).  % not this
+  % nor this
+  2: blow upon any.
+  3: blow upon any.
+  % at any time
+  random: blow upon any.
+"""
+
+
+def test_the_comment_above_the_first_statement_tells_of_a_scenario() -> None:
+    assert scenario_notes(TEXT) == {
+        "1": "Nothing happens.",
+        "2": "A gust: it blows while the robot carries.",
+        "random": "At any time",
+    }
+
+
+def test_the_office_tells_of_all_its_scenarios() -> None:
+    file, text = read_domain("office")
+    assert list(scenario_notes(text, file)) == ["1", "2", "3", "4", "5", "6", "random"]

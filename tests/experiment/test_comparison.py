@@ -1,0 +1,51 @@
+"""The comparison of the robots: numbers of one precision, rows of scenarios and of all."""
+
+from testbed.experiment.comparison import Cell, comparisons
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.summary import summarise
+from tests.experiment.samples import a_record
+
+
+def _pairs(scenario: str, count: int, actions: int) -> list[TrialRecord]:
+    return [
+        a_record(
+            f"{robot} {scenario} {number}",
+            pair=f"{scenario} {number}",
+            scenario=scenario,
+            robot=robot,
+            action_count=needed,
+            correct=robot == "intentional",
+        )
+        for number in range(count)
+        for robot, needed in (("intentional", actions), ("traditional", 10 + number))
+    ]
+
+
+def test_shares_ratios_and_chances_have_one_precision() -> None:
+    (row,) = comparisons(summarise(_pairs("2", 12, 3)))
+    cells = {cell.label: cell for cell in row.cells}
+    assert cells["pairs"].value == "12"
+    assert cells["intentional correct"] == Cell("intentional correct", "100.0 %", "p < 0.001")
+    assert cells["traditional correct"] == Cell("traditional correct", "0.0 %")
+    # The mean of 10/3 to 21/3; twelve differences of one sign are 2 of 2^12 equally likely ways.
+    assert cells["actions"] == Cell("actions", "5.17", "p < 0.001")
+    assert cells["plans"] == Cell("plans", "-")
+
+
+def test_a_single_pair_has_no_chance() -> None:
+    (row,) = comparisons(summarise(_pairs("2", 1, 5)))
+    assert {cell.label: cell for cell in row.cells}["actions"] == Cell("actions", "2.00")
+
+
+def test_a_last_row_is_about_all_scenarios() -> None:
+    rows = comparisons(summarise([*_pairs("2", 1, 5), *_pairs("random", 2, 10)]))
+    assert [(row.scenario, row.cells[0].value) for row in rows] == [
+        ("2", "1"),
+        ("random", "2"),
+        ("all", "3"),
+    ]
+
+
+def test_one_robot_alone_is_not_compared() -> None:
+    assert comparisons(summarise([a_record("a")])) == []
+    assert comparisons(summarise([])) == []
