@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -155,11 +156,12 @@ def _symbol(text: str) -> Symbol:
     return clingo.parse_term(text)
 
 
-class Claim:
+class Claim(ABC):
     """A statement about the answer sets of a program."""
 
+    @abstractmethod
     def holds(self, solver: Solver) -> bool:
-        raise NotImplementedError
+        """Whether it is true of the program."""
 
 
 @dataclass(frozen=True)
