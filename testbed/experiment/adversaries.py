@@ -6,7 +6,6 @@ import dataclasses
 
 from agents.adversary.base import Adversary, AdversaryView
 from agents.adversary.scripted import Script, Triggered
-
 from asp import Description
 from testbed.experiment.plan import TrialSpec
 
