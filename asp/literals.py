@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from functools import lru_cache
-
-_ATOM = re.compile(r"(-?)\s*([a-z_][A-Za-z0-9_]*)\s*(?:\(([^()]*)\))?\s*")
 
 
 def complement(literal: str) -> str:
@@ -39,15 +36,3 @@ def ground(name: str, args: Iterable[str]) -> str:
     """The atom of a name and its argument constants."""
     inside = ",".join(args)
     return f"{name}({inside})" if inside else name
-
-
-def normalise(text: str) -> str:
-    """The literal a person wrote, without blanks. Raises ValueError if it is not one."""
-    match = _ATOM.fullmatch(text.strip())
-    if match is None:
-        raise ValueError(f"{text!r} is not a literal such as loc(a,b) or -loc(a,b)")
-    sign, functor, inner = match.groups()
-    args = [part.strip() for part in inner.split(",")] if inner is not None else []
-    if not all(args) and inner is not None:
-        raise ValueError(f"{text!r} has an empty argument")
-    return sign + ground(functor, args)

@@ -183,7 +183,6 @@ def core(
             return found
         found.append(left[low])
         left = left[low + 1 :]
-    return found
 
 
 @contextmanager

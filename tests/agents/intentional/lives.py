@@ -39,6 +39,13 @@ def place(domain: str, dark: bool = False) -> Place:
 
 OFFICE = place("office")
 DOMAIN, WORLD, SOURCE = OFFICE.domain, OFFICE.world, OFFICE.source
+STATES = list(WORLD.initial_states())
+GOAL_LITERALS = [
+    literal
+    for fluent in WORLD.fluents
+    if not fluent.startswith("locked")
+    for literal in (fluent, f"-{fluent}")
+]
 BOTH_IN_THE_LIBRARY = (
     "loc(book1,library)",
     "loc(book2,library)",

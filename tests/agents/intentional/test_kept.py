@@ -14,15 +14,13 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office
-from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
-
-STATES = list(WORLD.initial_states())
-LITERALS = [
-    literal
-    for fluent in WORLD.fluents
-    if not fluent.startswith("locked")
-    for literal in (fluent, f"-{fluent}")
-]
+from tests.agents.intentional.lives import (
+    BOTH_IN_THE_LIBRARY,
+    GOAL_LITERALS,
+    STATES,
+    Wish,
+    live,
+)
 
 
 class Both:
@@ -61,7 +59,7 @@ def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wi
 @settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(
     initial=st.sampled_from(STATES),
-    goal=st.lists(st.sampled_from(LITERALS), min_size=1, max_size=2),
+    goal=st.lists(st.sampled_from(GOAL_LITERALS), min_size=1, max_size=2),
     wishes=wishes,
 )
 def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish]) -> None:
