@@ -102,7 +102,7 @@ def solving(
 
     Raises TimeLimitError. An interrupt from the keyboard reaches Python, whatever the solver does.
     """
-    _check_time()
+    check_time()
     with _undisturbed(), control.solve(assumptions=assumptions, yield_=True) as handle:
         model = handle.model()
         if model is not None or not handle.get().unknown:
@@ -129,7 +129,7 @@ def answer_sets(
 
     Raises TimeLimitError.
     """
-    _check_time()
+    check_time()
     settings: Any = control.configuration.solve
     before = settings.models, settings.project
     settings.models, settings.project = "0", "show"
@@ -231,7 +231,8 @@ def _wait(handle: clingo.SolveHandle) -> None:
             raise TimeLimitError(OUT_OF_TIME)
 
 
-def _check_time() -> None:
+def check_time() -> None:
+    """Raises TimeLimitError where the time of a `time_limit` has run out."""
     deadline = _deadline.get()
     if deadline is not None and time.monotonic() > deadline:
         raise TimeLimitError(OUT_OF_TIME)
@@ -248,6 +249,22 @@ def first_model(
         return None
     with solving(control, assumptions) as model:
         return None if model is None else tuple(model.symbols(shown=True))
+
+
+def optimal_model(control: clingo.Control) -> tuple[Symbol, ...] | None:
+    """The shown symbols of the first answer set that is best by `#minimize`; None: there is none.
+
+    The program is solved in one call, in which clasp betters one answer set after another. Raises
+    TimeLimitError.
+    """
+    check_time()
+    best = None
+    with _in_background(control, ()) as handle:
+        while (model := handle.model()) is not None:
+            best = tuple(model.symbols(shown=True))
+            handle.resume()
+            _wait(handle)
+    return best
 
 
 def _is_known(control: clingo.Control, atom: Symbol) -> bool:

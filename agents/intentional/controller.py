@@ -94,9 +94,9 @@ class IntentionalRobot:
         thought.stop(reasoning_clock())
         thought.intention = intention
         if intention.under is not None:
-            kept = intention.under == thought.before
-            thought.explained = replace(explained, diagnosis=intention.under, kept=kept)
-            self._diagnosis = intention.under
+            self._diagnosis = intention.under.diagnosis
+            kept = self._diagnosis == thought.before
+            thought.explained = replace(intention.under, kept=kept)
 
     def _observe(self, percept: Percept) -> None:
         """Steps 4 and 1 of the loop: the result of the last attempt, then what is relevant."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from agents.shared.history import Diagnosis
+from agents.shared.diagnosis import Explained
 
 
 @dataclass(frozen=True)
@@ -17,4 +17,4 @@ class Intention:
     action: str
     plan: tuple[str, ...]
     believed: frozenset[str]
-    under: Diagnosis | None = None
+    under: Explained | None = None

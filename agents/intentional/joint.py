@@ -71,8 +71,7 @@ class JointLogician(Logician):
         for kind in kinds:
             model = first_model(control, [*smallest, (fact(kind), True)])
             if model is not None:
-                under = explained_by(model, kept=False).diagnosis
-                return replace(read_intention(model), under=under)
+                return replace(read_intention(model), under=explained_by(model, kept=False))
         return None
 
 

@@ -48,16 +48,33 @@ def diagnose(
     """
     given = [*facts, fact("explaining", history.step), *adopted.facts("adopted")]
     programs = [*texts, theory("defaults"), theory("order"), theory("diagnosis")]
-    actions = sum(symbol.match("rank", 2) for symbol in given)
-    for most in _limits(adopted.size, history.step * actions):
+
+    def explained(most: int) -> Explained | None:
         control = ground(programs, {**constants, "max_unobserved": most}, given)
-        explained = _kept(control) or _smallest(control)
-        if explained is not None:
-            return explained
-        found = conflict(programs[0], given, history.step)
+        return _kept(control) or _smallest(control)
+
+    limits = event_limits(programs[0], given, history.step, adopted.size)
+    return next(filter(None, map(explained, limits)))
+
+
+def event_limits(program: str, facts: Sequence[Symbol], step: int, adopted: int) -> Iterator[int]:
+    """Ever larger numbers of unobserved events to try on a history up to `step`, without an end.
+
+    `program` is the domain; an explanation of `adopted` events is within the first limit.
+
+    Raises:
+        InconsistentHistoryError: instead of the next number, if no number suffices.
+    """
+    possible = step * sum(symbol.match("rank", 2) for symbol in facts)
+    most = max(_FIRST_TRY, adopted)
+    while True:
+        yield most
+        found = conflict(program, facts, step)
         if found is not None:
             raise InconsistentHistoryError(f"inconsistent history: {cannot_hold(found)}")
-    raise InconsistentHistoryError(f"nothing explains the observations up to step {history.step}")
+        if most >= possible:
+            raise InconsistentHistoryError(f"nothing explains the observations up to step {step}")
+        most *= 4
 
 
 def _kept(control: clingo.Control) -> Explained | None:
@@ -94,16 +111,6 @@ def _preferred(
 ) -> Explained | None:
     with preferring(control, assumptions) as model:
         return None if model is None else explained_by(model.symbols(shown=True), kept)
-
-
-def _limits(adopted: int, possible: int) -> Iterator[int]:
-    """Ever larger numbers of events to try, until all the possible ones are among them."""
-    most = max(_FIRST_TRY, adopted)
-    while True:
-        yield most
-        if most >= possible:
-            return
-        most *= 4
 
 
 def explained_by(model: Sequence[Symbol], kept: bool) -> Explained:

@@ -9,6 +9,7 @@ from agents.intentional import IntentionalRobot
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.joint import JointLogician
 from agents.intentional.logician import Logician
+from agents.intentional.undivided import UndividedLogician
 from agents.traditional import TraditionalRobot
 from agents.traditional.planner import Planner
 from testbed.config.errors import nearest
@@ -18,6 +19,7 @@ ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "intentional": IntentionalRobot,
     "intentional-plain": partial(IntentionalRobot, Logician),
     "intentional-joint": partial(IntentionalRobot, JointLogician),
+    "intentional-joint-plain": partial(IntentionalRobot, UndividedLogician),
     "intentional-checking": CheckingRobot,
     "traditional": TraditionalRobot,
     "traditional-plain": partial(TraditionalRobot, Planner),
