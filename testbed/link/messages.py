@@ -31,7 +31,9 @@ class Task(Part, frozen=True, kw_only=True):
     ``domain`` and ``source`` are the name and the AL_d text of the domain, ``goal`` a list of
     literals, ``initial`` what the robot knows to hold at step 0, perhaps not everything,
     ``plan_limit`` the greatest number of actions in a plan, ``decision_s`` the seconds that a
-    decision may take, None if it may take any time.
+    decision may take, None if it may take any time. Where the robot acts at the fine resolution,
+    ``refinement`` is the text that refines ``source``, and ``initial_fine`` what it knows there at
+    step 0; ``goal`` and ``initial`` are coarse all the same.
     """
 
     trial: str
@@ -43,6 +45,8 @@ class Task(Part, frozen=True, kw_only=True):
     plan_limit: int
     seed: int
     decision_s: float | None = None
+    refinement: str = ""
+    initial_fine: list[str] = []
 
 
 class Event(Part, frozen=True, kw_only=True):
@@ -103,6 +107,38 @@ class Contradiction(Part, frozen=True, kw_only=True):
     believed: str
 
 
+class FineTrace(Part, frozen=True, kw_only=True):
+    """How an abstract action is carried out at the fine resolution, at one step of it.
+
+    ``abstract`` is the action, empty where the robot thinks or finishes; ``begun`` the step at
+    which it was begun; ``zoomed`` the coarse constants relevant to it (all of them without
+    zooming), and ``plan`` the concrete actions ahead, each given when newly found or made.
+    ``plans``, ``actions`` and ``tests`` count refined plans, concrete physical actions and tests
+    so far in the trial, the one of this step among them. ``committed`` are fine literals newly
+    taken for certain, ``failed`` says in one line what did not come about. When the abstract
+    action is over (and another decision is given with the same answer) ``ended`` names it,
+    ``inferred`` are the coarse literals that follow from what was observed during it, and
+    ``happened`` says whether it had its effects; None while no action is over.
+    ``planning_time_s`` is that of zooming and refined plans at this step, ``infer_time_s`` that of
+    what follows from observations.
+    """
+
+    abstract: str = ""
+    begun: int | None = None
+    zoomed: list[str] = []
+    plan: list[str] = []
+    plans: int = 0
+    actions: int = 0
+    tests: int = 0
+    committed: list[str] = []
+    failed: str = ""
+    ended: str = ""
+    inferred: list[str] = []
+    happened: bool | None = None
+    planning_time_s: float = 0.0
+    infer_time_s: float = 0.0
+
+
 class Trace(Part, frozen=True, kw_only=True):
     """The mind behind a decision, for records and readers; the environment never acts on it.
 
@@ -113,6 +149,8 @@ class Trace(Part, frozen=True, kw_only=True):
     all are given). ``reason`` says why the intention is what it is; where an activity is stopped,
     ``futile_at`` is the first step at which its plan, projected from now on, breaks. ``plans`` is
     the number of activities so far. Times are seconds for this step, without those for reasons.
+    ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
+    one, empty in the steps between the first and the last of an abstract action.
     """
 
     mental: str | None = None
@@ -129,6 +167,7 @@ class Trace(Part, frozen=True, kw_only=True):
     plans: int = 0
     planning_time_s: float = 0.0
     diagnosis_time_s: float = 0.0
+    fine: FineTrace | None = None
 
 
 class Decision(Message, frozen=True, kw_only=True):
