@@ -9,7 +9,7 @@ from asp import Description, literals
 from asp.errors import SourceError
 from asp.literals import atom, complement
 from testbed.config.errors import ConfigError, nearest
-from testbed.config.models import ExperimentConfig, ScenarioSettings, ScriptEntry
+from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings, ScriptEntry
 from testbed.config.places import Key, Places
 from testbed.environment.errors import StateError
 from testbed.environment.world import World
@@ -28,6 +28,8 @@ def check(config: ExperimentConfig, places: Places, robots: Collection[str] | No
 
 def _domain_findings(config: ExperimentConfig, description: Description) -> list[Finding]:
     findings = [*_scenarios(config, description), *_observability(config, description)]
+    if not config.goal:
+        findings.append((("goal",), f"should not be empty; for example {GOAL}"))
     for key, owner in _owners(config):
         findings += _goal((*key, "goal"), owner.goal or (), description)
         findings += _initial((*key, "initial"), owner.initial, description)

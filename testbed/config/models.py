@@ -9,12 +9,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from testbed.environment import rules
 
 LinkKind = Literal["zenoh", "inprocess"]
 KnowledgeKind = Literal["complete", "seen"]
+Strategy = Literal["triggers", "random"]
+Pace = Literal["concrete", "abstract"]
+GOAL = 'goal: ["f(a,b)", "-g(a)"]'
+"""How a goal is written."""
 
 
 def _tidy(text: object) -> object:
@@ -91,9 +95,38 @@ class Limits(Section):
 
 
 class AdversarySettings(Section):
-    """`rate`: probability a step that a trigger fires; absent: as the domain states it."""
+    """What others do, and when.
 
+    `strategy`: the domain's `triggers`, or `random` events; absent: triggers in scenarios, random
+    at levels. `rate`: probability a step that a trigger fires, absent: as the domain states it;
+    or that a random event happens, absent: never. `pace`: at the fine resolution, at each
+    `concrete` action or only at those that change what holds at the coarse one (`abstract`).
+    """
+
+    strategy: Strategy | None = None
     rate: Probability | None = None
+    pace: Pace = "concrete"
+
+
+class LevelSize(Section):
+    """Rooms in a row, each a grid of cells; `objects` are kinds of them, each (number, parts)."""
+
+    rooms: Annotated[int, Field(strict=True, ge=2)]
+    rows: Count
+    columns: Count
+    objects: Annotated[tuple[tuple[Count, Count], ...], Field(min_length=1)]
+
+
+class Drawing(Section):
+    """What a trial at a level draws with its seed.
+
+    `goal`: literals with sorts in place of constants, equal sorts being one constant, which is
+    drawn such that the goal does not hold yet. `holding`: probability that the robot starts with
+    something in its hand.
+    """
+
+    goal: Annotated[Literals, Field(min_length=1)] = ("loc(object,room)",)
+    holding: Probability = 0.2
 
 
 class ScenarioSettings(Section):
@@ -112,17 +145,26 @@ class ExperimentConfig(Section):
     `initial` absent means every state that the domain's `initially` allows. A `script` replaces
     the scenario's triggers; an empty one means that nothing exogenous happens. `knowledge` is what
     robots know of the initial state: all of it, or only what they see.
+
+    With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
+    resolution. They are drawn: each has its initial state and its goal unless these are given.
     """
 
     name: Annotated[Name, Field(pattern=r"^[A-Za-z0-9][\w.-]*$", examples=["name: quickstart"])]
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
     domain: Name = "office"
-    goal: Annotated[Literals, Field(min_length=1, examples=['goal: ["f(a,b)", "-g(a)"]'])]
+    refinement: Name | None = None
+    goal: Annotated[Literals, Field(examples=[GOAL])]
     initial: Literals | None = None
     scenarios: Annotated[tuple[Name, ...], Field(min_length=1)] = ("1",)
     scenario_settings: Annotated[dict[str, ScenarioSettings], BeforeValidator(_named_keys)] = Field(
         default_factory=dict
     )
+    levels: tuple[Name, ...] = ()
+    level_sizes: Annotated[dict[str, LevelSize], BeforeValidator(_named_keys)] = Field(
+        default_factory=dict
+    )
+    draw: Drawing = Drawing()
     robots: Annotated[tuple[Name, ...], Field(min_length=1)] = ("intentional", "traditional")
     limit: Count | None = None
     link: LinkKind = "zenoh"
@@ -131,8 +173,21 @@ class ExperimentConfig(Section):
     goal_feedback: Flag = True
     exogenous_while_thinking: Flag = False
     script: tuple[ScriptEntry, ...] | None = None
+    statistics: dict[str, Probability] = Field(default_factory=dict)
     adversary: AdversarySettings = AdversarySettings()
     limits: Limits = Limits()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _goal_may_be_drawn(cls, given: object) -> object:
+        if not isinstance(given, Mapping) or given.get("goal") is not None:
+            return given
+        return {**given, "goal": ()} if given.get("levels") or given.get("refinement") else given
+
+    @property
+    def is_fine(self) -> bool:
+        """Whether trials are played at the fine resolution."""
+        return bool(self.levels) or self.refinement is not None
 
     def rules_of_news(self) -> dict[str, rules.Observability]:
         """`observability` as the environment has it, by the name of the exogenous action."""

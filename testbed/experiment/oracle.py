@@ -5,8 +5,16 @@ Breadth-first search over the compiled world: it shares no line with the robots'
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
+from functools import lru_cache
 
+from asp.description import Description
+from asp.grounding import ground_description
+from asp.kept.independence import Independence
+from asp.literals import atom
+from asp.restriction import narrowed, restrict
+from asp.signature import Signature
+from asp.syntax import Source
 from testbed.environment.world import World
 
 
@@ -48,3 +56,25 @@ def _path(came_from: dict[int, tuple[int, str] | None], last: int) -> list[str]:
         actions.append(step[1])
         step = came_from[step[0]]
     return actions[::-1]
+
+
+class Oracle:
+    """The oracle of a domain with many constants: it leaves out those that no plan needs."""
+
+    def __init__(self, description: Description, source: Source, signature: Signature) -> None:
+        self._name, self._source, self._signature = description.name, source, signature
+        self._independence = Independence(description, source, signature)
+        self._world = lru_cache(maxsize=64)(self._without)
+
+    def minimal_actions(self, state: Collection[str], goal: Iterable[str]) -> int | None:
+        """As `minimal_actions`, from the state with these true atoms."""
+        wanted = tuple(goal)
+        dropped = self._independence.droppable(state, wanted)
+        world = self._world(dropped)
+        known = frozenset(world.fluents)
+        left = [literal for literal in wanted if atom(literal) in known]
+        return minimal_actions(world, world.state(a for a in state if a in known), left)
+
+    def _without(self, dropped: frozenset[str]) -> World:
+        source, signature = restrict(self._source, dropped), narrowed(self._signature, dropped)
+        return World(ground_description(source, signature, self._name))

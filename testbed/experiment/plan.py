@@ -16,8 +16,7 @@ from testbed.config.models import ExperimentConfig, KnowledgeKind
 from testbed.environment.rules import Observability
 from testbed.environment.world import World
 from testbed.experiment.domains import load_world
-
-LEVEL = "coarse"
+from testbed.experiment.record import COARSE
 
 
 class Setting(msgspec.Struct, frozen=True, kw_only=True):
@@ -87,7 +86,7 @@ def _pair(
     config: ExperimentConfig, scenario: str, initial: tuple[str, ...], domain: str
 ) -> Iterator[TrialSpec]:
     setting = setting_of(config, scenario)
-    path = [domain, LEVEL, scenario, list(initial), sorted(setting.goal)]
+    path = [domain, COARSE, scenario, list(initial), sorted(setting.goal)]
     seed = trial_seed(config.seed, path)
     logical = [
         config.seed,
@@ -99,7 +98,7 @@ def _pair(
             trial=_short_hash([*logical, robot]),
             pair=_short_hash(logical),
             scenario=scenario,
-            level=LEVEL,
+            level=COARSE,
             seed=seed,
             robot=robot,
             initial=initial,

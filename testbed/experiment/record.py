@@ -5,14 +5,22 @@ Steps are the environment's: 0 is the selection of the goal, the robot's first a
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import msgspec
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 FAILURES: tuple[Outcome, ...] = ("robot_lost", "error")
-TIMES = ("planning_time_s", "diagnosis_time_s", "reasoning_time_s", "wall_time_s")
+COARSE = "coarse"
+"""The level of trials at the coarse resolution."""
+TIMES = (
+    "planning_time_s",
+    "diagnosis_time_s",
+    "reasoning_time_s",
+    "wall_time_s",
+    "infer_time_s",
+)
 
 
 class Attempt(msgspec.Struct):
@@ -85,9 +93,26 @@ class Activity(msgspec.Struct):
     reason: str | None = None
 
 
+class FineCounts(msgspec.Struct):
+    """What was done at the fine resolution: how many refined plans, concrete actions and tests.
+
+    `planning_time_s` is that of zooming and planning, `infer_time_s` that of what follows from
+    observations.
+    """
+
+    plans: int = 0
+    actions: int = 0
+    tests: int = 0
+    planning_time_s: float = 0.0
+    infer_time_s: float = 0.0
+
+
 class TrialRecord(msgspec.Struct, kw_only=True):
     """The record of a trial.
 
+    At the fine resolution `initial` and `exogenous` are of that resolution, `actions` are the
+    abstract ones, each at the step at which it began. `in_reach` says of a trial that does not
+    achieve its goal whether that could still be achieved from where the trial ended.
     `reason` is one line that says why a trial was lost, given up, or ended in error, or that it was
     over before its script. `minimal_actions` is the oracle's, from the initial state with nothing
     exogenous; None where no plan exists.
@@ -123,7 +148,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     diagnosis_time_s: float = 0.0
     reasoning_time_s: float = 0.0
     wall_time_s: float = 0.0
-    fine: dict[str, float] | None = None
+    fine: FineCounts | None = None
+    in_reach: bool | None = None
 
 
 def encode(record: TrialRecord) -> bytes:
@@ -138,4 +164,9 @@ def decode(line: bytes) -> TrialRecord:
 
 def logical(record: TrialRecord) -> dict[str, object]:
     """The record without its times: what the same seed must give again."""
-    return {key: value for key, value in msgspec.to_builtins(record).items() if key not in TIMES}
+    kept = _timeless(msgspec.to_builtins(record))
+    return kept | {"fine": None if record.fine is None else _timeless(kept["fine"])}
+
+
+def _timeless(values: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if key not in TIMES}

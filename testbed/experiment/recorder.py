@@ -12,12 +12,13 @@ from testbed.experiment.record import (
     Attempt,
     Contradicted,
     Explained,
+    FineCounts,
     Occurrence,
     Outcome,
     Report,
     TrialRecord,
 )
-from testbed.link.messages import Decision, Event, Explanation, Trace
+from testbed.link.messages import Decision, Event, Explanation, FineTrace, Trace
 
 
 class Recorder:
@@ -36,17 +37,23 @@ class Recorder:
         """What the robot decided; `happened` is None unless it attempted a physical action."""
         record, trace = self.record, decision.trace
         record.steps = decision.step
-        record.plans = trace.plans
+        record.plans = max(record.plans, trace.plans)
         record.planning_time_s += trace.planning_time_s
         record.diagnosis_time_s += trace.diagnosis_time_s
         record.reasoning_time_s = record.planning_time_s + record.diagnosis_time_s
         self._believes_goal = decision.believes_goal
         self._last_reason = trace.reason or None
-        if decision.action not in (WAIT, FINISH):
-            record.actions.append(Attempt(decision.step, decision.action, bool(happened)))
-            record.action_count += 1
-            record.execution_units += costs.get(decision.action, 0)
+        self._acted(decision, happened, costs)
         self._mind(decision.step, decision.action, trace)
+
+    def _acted(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
+        if decision.action not in (WAIT, FINISH):
+            self._attempt(decision.step, decision.action, bool(happened), costs)
+
+    def _attempt(self, step: int, action: str, happened: bool, costs: Mapping[str, int]) -> None:
+        self.record.actions.append(Attempt(step, action, happened))
+        self.record.action_count += 1
+        self.record.execution_units += costs.get(action, 0)
 
     def _mind(self, step: int, action: str, trace: Trace) -> None:
         record = self.record
@@ -86,6 +93,10 @@ class Recorder:
     def achieved(self, truly: bool) -> None:
         """Whether the goal holds in the world where the trial stops, whatever stops it."""
         self.record.achieved = truly
+
+    def in_reach(self, still: bool) -> None:
+        """Whether the goal could still be achieved where the trial ended without it."""
+        self.record.in_reach = still
 
     def end(self, ending: Ending) -> None:
         """The end of the game; after it is known whether the goal was achieved."""
@@ -130,3 +141,38 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
         alternatives=len(trace.alternatives),
         more_alternatives=trace.more_alternatives,
     )
+
+
+class FineRecorder(Recorder):
+    """The record of a trial at the fine resolution: its actions are the abstract ones.
+
+    The robot says which concrete actions belong to which; whether an abstract action happened is
+    what the robot inferred of it. One that the trial ends in the middle of did not happen.
+    """
+
+    def __init__(self, record: TrialRecord, counts: FineCounts) -> None:
+        super().__init__(record)
+        self._counts = counts
+
+    def _acted(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
+        del happened  # of a concrete action, which is told from what came of the abstract one
+        fine = decision.trace.fine
+        if fine is None:
+            return
+        if fine.happened and self.record.actions:
+            self.record.actions[-1].happened = True
+        if fine.begun == decision.step:
+            self._attempt(fine.begun, fine.abstract, False, costs)
+        self._count(fine)
+
+    def _count(self, fine: FineTrace) -> None:
+        counts = self._counts
+        counts.plans, counts.actions, counts.tests = fine.plans, fine.actions, fine.tests
+        counts.planning_time_s += fine.planning_time_s
+        counts.infer_time_s += fine.infer_time_s
+        self.record.reasoning_time_s += counts.planning_time_s + counts.infer_time_s
+
+
+def recorder_of(record: TrialRecord) -> Recorder:
+    """What fills a record: one with counts of the fine resolution is filled from there."""
+    return Recorder(record) if record.fine is None else FineRecorder(record, record.fine)

@@ -14,11 +14,12 @@ from asp.commentary import scenario_notes
 from asp.loading import read_domain
 from testbed.config import ExperimentConfig
 from testbed.experiment.comparison import comparisons
-from testbed.experiment.record import FAILURES, TrialRecord
+from testbed.experiment.level_table import LEVEL_COLUMNS, Cells, level_rows
+from testbed.experiment.record import COARSE, FAILURES, TrialRecord
 from testbed.experiment.store import REPORT, read_records, replace_text
 from testbed.experiment.summary import write_summary
-from testbed.experiment.tables import COLUMNS, Row, rows_of
-from testbed.experiment.wording import counted, explanation, in_words
+from testbed.experiment.tables import Row, headings, rows_of
+from testbed.experiment.wording import counted, explanation, in_words, of_place
 
 SHOWN = 60  # trials told step by step; of a larger run those that failed come first
 
@@ -44,22 +45,32 @@ class Story:
 
 @dataclass(frozen=True)
 class Chapter:
-    """The told trials of a scenario; `note` is what the domain says of it, or ""."""
+    """The told trials of a scenario or level; `note` is what the domain says of it, or ""."""
 
-    scenario: str
+    title: str
     note: str
     stories: tuple[Story, ...]
 
 
-def write_report(folder: Path, config: ExperimentConfig) -> list[Row]:
-    """Write `summary.json` and `report.html` from the records of a run; the rows of its table."""
+@dataclass(frozen=True)
+class Tables:
+    """What a run comes to: a row a scenario (or level) and robot, and the table of the levels."""
+
+    rows: list[Row]
+    levels: list[Cells]
+
+
+def write_report(folder: Path, config: ExperimentConfig) -> Tables:
+    """Write `summary.json` and `report.html` from the records of a run; its tables."""
     summary = write_summary(folder)
-    rows = rows_of(read_records(folder))
+    rows, levels = rows_of(read_records(folder)), level_rows(summary)
     chapters = list(_chapters(folder, scenario_notes(*reversed(read_domain(config.domain)))))
     page = _template().render(
         config=config,
         domain=Path(config.domain).stem,
-        columns=COLUMNS,
+        columns=headings(rows),
+        level_columns=LEVEL_COLUMNS,
+        levels=levels,
         rows=rows,
         comparisons=comparisons(summary),
         trials=sum(row.trials for row in rows),
@@ -68,26 +79,33 @@ def write_report(folder: Path, config: ExperimentConfig) -> list[Row]:
         folder=shlex.quote(str(folder)),
     )
     replace_text(folder / REPORT, page)
-    return rows
+    return Tables(rows, levels)
 
 
 def _chapters(folder: Path, notes: Mapping[str, str]) -> Iterator[Chapter]:
-    stories: dict[str, list[Story]] = {}
+    stories: dict[tuple[str, str], list[Story]] = {}
     for record in _worth_telling(folder):
         story = Story(record, tuple(timeline(record)))
-        stories.setdefault(record.scenario, []).append(story)
-    for scenario, told in stories.items():
-        yield Chapter(scenario, notes.get(scenario, ""), tuple(told))
+        stories.setdefault((record.scenario, record.level), []).append(story)
+    for (scenario, level), told in stories.items():
+        note = notes.get(scenario, "") if level == COARSE else ""
+        yield Chapter(of_place(scenario, level), note, tuple(told))
 
 
 def timeline(record: TrialRecord) -> Iterator[Step]:
-    """The steps of a trial: what the robot did, what others did, what the robot explained."""
+    """The steps of a trial: what the robot did, what others did, what the robot explained.
+
+    At the fine resolution those alone at which something begins or is heard of.
+    """
     attempts = {attempt.step: attempt for attempt in record.actions}
     mental = {item.step: item.action for item in record.mental}
     others = {item.step: item for item in record.exogenous}
     explanations = {item.step: item for item in record.explanations}
+    told = {*attempts, *mental, *others, *explanations}
     for number in range(1, record.steps + 1):
         attempt, event = attempts.get(number), others.get(number)
+        if record.fine is not None and number not in told:
+            continue
         if attempt is not None:
             kind = "done" if attempt.happened else "failed"
             robot = attempt.action if attempt.happened else f"{attempt.action} failed"

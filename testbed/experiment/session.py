@@ -19,9 +19,10 @@ from rich.progress import (
 from rich.text import Text
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.level_table import rich_level_table
 from testbed.experiment.provenance import Provenance, session_arguments
 from testbed.experiment.registry import ROBOTS
-from testbed.experiment.report import write_report
+from testbed.experiment.report import Tables, write_report
 from testbed.experiment.runner import Notify, Tally, run_trials
 from testbed.experiment.store import (
     REPORT,
@@ -31,7 +32,7 @@ from testbed.experiment.store import (
     read_config,
     write_config,
 )
-from testbed.experiment.tables import Row, rich_table
+from testbed.experiment.tables import rich_table
 from testbed.experiment.wording import counted
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
@@ -107,9 +108,11 @@ def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Con
     _say(console, f"report: {folder / REPORT}")
 
 
-def _show(console: Console, rows: Sequence[Row]) -> None:
-    console.print(rich_table(rows))
-    for row in rows:
+def _show(console: Console, tables: Tables) -> None:
+    console.print(rich_table(tables.rows))
+    if tables.levels:
+        console.print(rich_level_table(tables.levels))
+    for row in tables.rows:
         for note in row.notes():
             _say(console, note)
 

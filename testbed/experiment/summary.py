@@ -10,6 +10,7 @@ from statistics import fmean
 
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
+from testbed.experiment.levels import FineOutline, fine_outline, summarise_level
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import SUMMARY, read_records, replace_text
 
@@ -49,21 +50,29 @@ def write_summary(folder: Path) -> dict[str, object]:
 def summarise(records: Iterable[TrialRecord]) -> dict[str, object]:
     """Counts, accuracy, ratios (traditional / intentional) and p-values by scenario and by level.
 
+    At a level of the fine resolution come its columns of Tables 2 and 3 (`summarise_level`).
     A ratio is left out of the mean where the intentional robot's measure is 0; a measure without
     any ratio, and a test without any difference, is null.
     """
     scenarios: dict[str, Pairs] = defaultdict(lambda: defaultdict(dict))
     levels: dict[str, Pairs] = defaultdict(lambda: defaultdict(dict))
+    fine: dict[str, list[FineOutline]] = defaultdict(list)
     trials = 0
     for record in records:
         trials += 1
+        if record.fine is not None:
+            fine[record.level].append(fine_outline(record, record.fine))
         scenarios[record.scenario][record.pair][record.robot] = Outline(record)
         levels[record.level][record.pair][record.robot] = Outline(record)
     return {
         "trials": trials,
         "scenarios": {name: _group(pairs) for name, pairs in scenarios.items()},
-        "levels": {name: _group(pairs) for name, pairs in levels.items()},
+        "levels": {name: _group(pairs) | _columns(fine[name]) for name, pairs in levels.items()},
     }
+
+
+def _columns(outlines: Sequence[FineOutline]) -> dict[str, object]:
+    return summarise_level(outlines) if outlines else {}
 
 
 def _group(pairs: Pairs) -> dict[str, object]:

@@ -1,15 +1,15 @@
-"""The table of a run: one row a scenario and robot, means over their trials."""
+"""The table of a run: one row a scenario (or level) and robot, means over their trials."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from rich.table import Table
 
-from testbed.experiment.record import FAILURES, OUTCOMES, Outcome, TrialRecord
-from testbed.experiment.wording import counted, exception, in_words
+from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome, TrialRecord
+from testbed.experiment.wording import counted, exception, in_words, of_place, place
 
 COLUMNS = (
     "scenario",
@@ -26,12 +26,13 @@ MOST_COMMON = 3
 
 @dataclass
 class Row:
-    """What the trials of one robot in one scenario come to; sums, from which means are taken.
+    """What the trials of one robot in one scenario, or at one level, come to: sums for means.
 
     Trials that failed (a lost robot, an error) count as trials and nowhere else.
     """
 
     scenario: str
+    level: str
     robot: str
     trials: int = 0
     failed: int = 0
@@ -63,7 +64,7 @@ class Row:
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the order of `COLUMNS`."""
         return (
-            self.scenario,
+            place(self.scenario, self.level),
             self.robot,
             self._achieved(),
             self._mean(self.plans),
@@ -75,7 +76,7 @@ class Row:
 
     def notes(self) -> tuple[str, ...]:
         """What is to be known of trials that were played to their end, one line each."""
-        whose = f"scenario {self.scenario}, {self.robot}"
+        whose = f"{of_place(self.scenario, self.level)}, {self.robot}"
         if self.trials == 1:
             return tuple(f"{whose}: {reason}" for reason in self.reasons)
         trials = f"of {self.trials} trials"
@@ -127,25 +128,31 @@ def explained(record: TrialRecord) -> list[str]:
 
 def rows_of(records: Iterable[TrialRecord]) -> list[Row]:
     """The rows of a table, in the order in which the records name them first."""
-    rows: dict[tuple[str, str], Row] = {}
+    rows: dict[tuple[str, str, str], Row] = {}
     for record in records:
-        key = (record.scenario, record.robot)
+        key = (record.scenario, record.level, record.robot)
         rows.setdefault(key, Row(*key)).add(record)
     return list(rows.values())
 
 
-def rich_table(rows: Iterable[Row]) -> Table:
-    """The table for a terminal, with an empty line between scenarios."""
-    table = Table(*COLUMNS[:-1], box=None, padding=(0, 2, 0, 0), collapse_padding=True)
+def headings(rows: Iterable[Row]) -> tuple[str, ...]:
+    """The columns by the names that fit the rows: the first is the level where all have one."""
+    fine = all(row.level != COARSE for row in rows)
+    return ("level", *COLUMNS[1:]) if fine else COLUMNS
+
+
+def rich_table(rows: Sequence[Row]) -> Table:
+    """The table for a terminal, with an empty line between scenarios, or levels."""
+    table = Table(*headings(rows)[:-1], box=None, padding=(0, 2, 0, 0), collapse_padding=True)
     table.add_column(COLUMNS[-1], overflow="fold")
     for column in table.columns[:-1]:
         column.no_wrap = column.header != "achieved"
     for column in table.columns[3:-1]:
         column.justify = "right"
-    before: str | None = None
+    before: tuple[str, str] | None = None
     for row in rows:
-        if before not in (None, row.scenario):
+        if before not in (None, (row.scenario, row.level)):
             table.add_row()
-        before = row.scenario
+        before = (row.scenario, row.level)
         table.add_row(*row.cells())
     return table

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import msgspec
@@ -12,17 +12,14 @@ import numpy as np
 
 from testbed.environment.core import NONE, Core
 from testbed.environment.errors import IllegalActionError
-from testbed.environment.rules import Rules as GameRules
-from testbed.environment.world import World
-from testbed.experiment.adversaries import Adversary, AdversaryView, make_adversary
-from testbed.experiment.domains import load_world
-from testbed.experiment.oracle import minimal_actions
+from testbed.experiment.adversaries import Adversary, AdversaryView
 from testbed.experiment.plan import TrialSpec
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.recorder import Recorder
+from testbed.experiment.recorder import Recorder, recorder_of
+from testbed.experiment.stage import load_stage
 from testbed.link.errors import RobotLost, RobotStopped
 from testbed.link.exchange import in_one_line
-from testbed.link.messages import Decision, Percept, Task
+from testbed.link.messages import Decision, Percept
 from testbed.link.robot import RobotClient
 
 
@@ -54,7 +51,7 @@ Watch = Callable[[Moment], None]
 
 def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None) -> Result:
     """The result of a trial. A lost robot and any error end in the record, never in a raise."""
-    recorder = Recorder(blank_record(spec))
+    recorder = recorder_of(blank_record(spec))
     started = time.perf_counter()
     details: str | None = None
     try:
@@ -75,7 +72,7 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
 
 def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
     """The result of a trial whose worker process ended in the middle of it."""
-    recorder = Recorder(blank_record(spec))
+    recorder = recorder_of(blank_record(spec))
     recorder.fail("error", f"worker process ended with exit code {exit_code}")
     return Result(recorder.record)
 
@@ -96,27 +93,35 @@ def blank_record(spec: TrialSpec) -> TrialRecord:
 
 
 def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch | None) -> None:
-    world = load_world(spec.setting.domain)
+    stage, goal = load_stage(spec.setting), spec.setting.goal
     for_world, for_adversary, for_robot = _seeds(spec.seed)
-    core = Core(world, _game_rules(spec), ())
+    core = stage.core(spec.setting)
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
-    recorder.minimal_actions(minimal_actions(world, core.situation.state, spec.setting.goal))
-    adversary = make_adversary(spec, world.description)
+    recorder.minimal_actions(stage.minimal_actions(core.situation.state, goal))
+    adversary = stage.adversary(spec)
     adversary.reset(for_adversary)
     try:
-        client.begin(_task(spec, world, core.situation.state, for_robot))
+        client.begin(stage.task(spec, core.situation.state, for_robot))
         while core.situation.ending is None:
-            moment = _step(core, client, adversary, recorder)
+            moment = _step(core, client, adversary, recorder, stage.costs)
             if watch is not None:
                 watch(moment)
     finally:
         recorder.achieved(core.achieved)
     recorder.end(core.situation.ending)
+    if not core.achieved:
+        recorder.in_reach(stage.minimal_actions(core.situation.state, goal) is not None)
     script = spec.setting.script or ()
     recorder.unreached(sorted(step for step, _ in script if step >= core.situation.step))
 
 
-def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recorder) -> Moment:
+def _step(
+    core: Core,
+    client: RobotClient,
+    adversary: Adversary,
+    recorder: Recorder,
+    costs: Mapping[str, int],
+) -> Moment:
     before, percept = core.situation, core.percept
     decision = client.ask(percept)
     if decision.action not in core.robot_actions:
@@ -124,7 +129,7 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     event = adversary.act(_view(core, decision.action))
     core.advance(decision.action, event)
     after = core.situation
-    recorder.step(decision, after.happened, core.world.description.costs)
+    recorder.step(decision, after.happened, costs)
     exogenous = None if event == NONE else event
     if exogenous is not None:
         recorder.exogenous(before.step, exogenous)
@@ -140,38 +145,6 @@ def _view(core: Core, robot_action: str) -> AdversaryView:
         state=frozenset(core.world.true_atoms(now.state)),
         robot_action=robot_action,
         legal=core.events(robot_action),
-    )
-
-
-def _task(spec: TrialSpec, world: World, state: int, seed: int) -> Task:
-    return Task(
-        trial=spec.trial,
-        robot=spec.robot,
-        domain=spec.domain,
-        source=world.description.source,
-        goal=list(spec.setting.goal),
-        initial=list(_known(spec, world, state)),
-        plan_limit=spec.setting.plan_limit,
-        seed=seed,
-        decision_s=spec.setting.decision_s,
-    )
-
-
-def _known(spec: TrialSpec, world: World, state: int) -> tuple[str, ...]:
-    """What the robot knows of the initial state."""
-    if spec.setting.knowledge == "complete":
-        return world.literals(state)
-    return world.visible(state, world.description.robots[0])
-
-
-def _game_rules(spec: TrialSpec) -> GameRules:
-    setting = spec.setting
-    return GameRules(
-        goal=setting.goal,
-        steps=setting.step_limit,
-        observability=setting.observability,
-        goal_feedback=setting.goal_feedback,
-        exogenous_while_thinking=setting.exogenous_while_thinking,
     )
 
 

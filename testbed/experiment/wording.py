@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from testbed.experiment.record import Explained
+from testbed.experiment.record import COARSE, Explained
 from testbed.link.messages import Explanation
 
 
 def counted(number: int, noun: str) -> str:
     """`1 trial`, `2 trials`: nouns whose plural ends in s."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def place(scenario: str, level: str) -> str:
+    """What a trial is listed under: its scenario, or at the fine resolution its level."""
+    return scenario if level == COARSE else level
+
+
+def of_place(scenario: str, level: str) -> str:
+    """The same with the word for it."""
+    return f"scenario {scenario}" if level == COARSE else f"level {level}"
 
 
 def in_words(name: str) -> str:

@@ -129,6 +129,11 @@ def test_packaged_configurations_are_found_by_name(name: str) -> None:
             "did you mean 'book1'?",
         ),
         (
+            '["loc(book1,library)"]\n',
+            "[]\n",
+            'tiny.yaml:3: goal: should not be empty; for example goal: ["f(a,b)", "-g(a)"]',
+        ),
+        (
             "loc(book1,lib",
             "lok(book1,lib",
             "tiny.yaml:3: goal[0]: no fluent 'lok'; did you mean 'locked'?",

@@ -38,7 +38,7 @@ def test_the_configuration_is_told_with_every_key(tmp_path: Path) -> None:
     assert told["initial"] is told["limit"] is told["script"] is None
     assert (told["seed"], told["robots"]) == (0, ["intentional", "traditional"])
     assert list(told["limits"]) == list(Limits.model_fields)
-    assert told["adversary"] == {"rate": None}
+    assert told["adversary"] == {"strategy": None, "rate": None, "pace": "concrete"}
     assert told["scenario_settings"] == {"1": {"script": []}}
 
 

@@ -1,0 +1,93 @@
+"""Where a trial is played: its world, the game in it, and what the robot is told at the start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Protocol
+
+from agents.adversary.base import Adversary
+from testbed.environment.core import Core
+from testbed.environment.rules import Rules
+from testbed.environment.world import World
+from testbed.experiment.adversaries import make_adversary
+from testbed.experiment.domains import load_world
+from testbed.experiment.oracle import minimal_actions
+from testbed.experiment.plan import Setting, TrialSpec
+from testbed.link.messages import Task
+
+
+class Stage(Protocol):
+    """The place of a setting's trials at one resolution; it lives across them."""
+
+    @property
+    def costs(self) -> Mapping[str, int]:
+        """Execution units of the actions that a record counts."""
+
+    def core(self, setting: Setting) -> Core:
+        """A new game."""
+
+    def adversary(self, spec: TrialSpec) -> Adversary:
+        """Who plays against the robot."""
+
+    def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
+        """What the robot is told of a trial that begins in `state`."""
+
+    def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
+        """The least number of recorded actions that achieves the goal; None: out of reach."""
+
+
+class CoarseStage:
+    """A domain as it is described."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self.costs = world.description.costs
+
+    def core(self, setting: Setting) -> Core:
+        """A new game."""
+        return Core(self._world, rules_of(setting), ())
+
+    def adversary(self, spec: TrialSpec) -> Adversary:
+        """The scenario's triggers, or the script."""
+        return make_adversary(spec, self._world.description)
+
+    def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
+        """Of the initial state the robot is told what the setting says that it knows."""
+        return Task(
+            trial=spec.trial,
+            robot=spec.robot,
+            domain=spec.domain,
+            source=self._world.description.source,
+            goal=list(spec.setting.goal),
+            initial=list(known(spec.setting, self._world, state)),
+            plan_limit=spec.setting.plan_limit,
+            seed=seed,
+            decision_s=spec.setting.decision_s,
+        )
+
+    def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
+        """By search over the world itself."""
+        return minimal_actions(self._world, state, goal)
+
+
+def load_stage(setting: Setting) -> Stage:
+    """The stage of a setting; its world is loaded once. Raises what `asp.load_description` does."""
+    return CoarseStage(load_world(setting.domain))
+
+
+def known(setting: Setting, world: World, state: int) -> tuple[str, ...]:
+    """What the robot knows of the initial state."""
+    if setting.knowledge == "complete":
+        return world.literals(state)
+    return world.visible(state, world.description.robots[0])
+
+
+def rules_of(setting: Setting) -> Rules:
+    """The rules of the game."""
+    return Rules(
+        goal=setting.goal,
+        steps=setting.step_limit,
+        observability=setting.observability,
+        goal_feedback=setting.goal_feedback,
+        exogenous_while_thinking=setting.exogenous_while_thinking,
+    )
