@@ -71,7 +71,11 @@ def _tree(rooms: Sequence[str]) -> Iterator[tuple[str, str]]:
         yield rooms[(number - 1) // 2], room
 
 
-MAPS: Mapping[str, Map] = {"row": _row, "grid": _grid, "tree": _tree}
+def _hub(rooms: Sequence[str]) -> Iterator[tuple[str, str]]:
+    yield from ((rooms[0], room) for room in rooms[1:])
+
+
+MAPS: Mapping[str, Map] = {"row": _row, "grid": _grid, "tree": _tree, "hub": _hub}
 """Which rooms are next to each other, of rooms in the order of `room_names`."""
 
 

@@ -24,6 +24,10 @@ class JointLogician(Logician):
     one program with every explanation that takes no more of them.
     """
 
+    def diagnose(self, history: History, _adopted: Diagnosis, /) -> Explained:
+        """The first of all smallest explanations; none is kept. Raises InconsistentHistoryError."""
+        return super().diagnose(history, Diagnosis())
+
     def intend(self, history: History, explained: Explained) -> Intention:
         """The intention that is best under any smallest explanation; its `under` says which.
 

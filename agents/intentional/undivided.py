@@ -20,7 +20,7 @@ class UndividedLogician(Logician):
     plan is, and the horizon lets a plan be as long as the limit: for small domains only.
     """
 
-    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:  # noqa: ARG002 - later
+    def diagnose(self, _history: History, adopted: Diagnosis, /) -> Explained:
         """What was held before: there is no phase of its own."""
         return Explained(adopted, True, {})
 

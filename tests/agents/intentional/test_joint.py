@@ -74,3 +74,37 @@ def test_of_all_explanations_the_one_with_the_shortest_plan_counts() -> None:
         assert (intention.action, len(intention.plan)) == ("start(2)", 2)
         assert intention.under is not None
         assert intention.under.diagnosis.size == 1
+
+
+LAMP = """
+sorts
+  robot = {rob}.
+fluents
+  inertial lit.
+  inertial here(robot).
+actions
+  agent     leave(robot).
+  exogenous switch_on.
+  exogenous strike.
+laws
+  leave(R) causes -here(R).
+  switch_on causes lit.
+  strike    causes lit.
+"""
+
+
+def test_an_explanation_that_news_makes_needless_is_not_kept() -> None:
+    """ATI keeps what agrees with the news; TI considers only explanations that are smallest."""
+    goal = ("-here(rob)",)
+    sizes = dict[type[Logician], list[int]]()
+    for make in (Logician, JointLogician):
+        reasoner = make(knowledge("lamp", LAMP), goal, 3)
+        history = History(step=3)
+        history.observe(["-lit", "here(rob)"], 0)
+        history.happened(f"select({GOAL})", True, 0)
+        history.observe(["lit"], 3)
+        first = reasoner.diagnose(history, Diagnosis()).diagnosis
+        history.happened("strike", True, 1)
+        second = reasoner.diagnose(history, first).diagnosis
+        sizes[make] = [first.size, second.size]
+    assert sizes == {Logician: [1, 1], JointLogician: [1, 0]}

@@ -1,0 +1,25 @@
+"""ATI whose plan is found as TI to the letter finds it."""
+
+from __future__ import annotations
+
+from agents.intentional.intention import Intention
+from agents.intentional.logician import Logician, read_intention
+from agents.shared.diagnosis import Explained
+from agents.shared.history import History
+from asp.solving import fact, ground, optimal_model, theory
+
+
+class OneCallLogician(Logician):
+    """Plans in one call, with a horizon for the longest plan, but under one explanation."""
+
+    def intend(self, history: History, explained: Explained) -> Intention:
+        horizon = history.step + 1 + self._plan_limit
+        constants = self._constants(history, horizon, self._plan_limit)
+        constants["plan_limit"] = self._plan_limit
+        adopted = explained.diagnosis
+        facts = [*self._facts(history), *adopted.facts("explained")]
+        facts.append(fact("explanation", len(adopted.unobserved), history.step))
+        texts = [*self._base, *map(theory, ("planning", "joint", "undivided"))]
+        model = optimal_model(ground(texts, constants, facts))
+        assert model is not None
+        return read_intention(model)

@@ -1,0 +1,67 @@
+"""A robot that finds books gone: a question whose explanations all matter to the plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from agents.intentional.controller import Reasoner
+from agents.shared.history import GOAL, Diagnosis, History
+from agents.shared.knowledge import Knowledge, knowledge
+from benchmarks.offices import book_names, office, room_names
+from benchmarks.problems import delivered, placed
+from benchmarks.sheets import DisagreementError
+
+ACTIONS_A_BOOK = 4
+
+
+@dataclass(frozen=True)
+class Vanished:
+    """In a hub with rooms around it the robot finds that the books are gone that it left there.
+
+    It went to and fro for `steps` steps, and nobody knows when each of the `books` went and to
+    which of the `rooms`. It wants them back. From each of the rooms that takes four actions a book,
+    so that under all explanations the shortest plan is equally long.
+    """
+
+    steps: int
+    books: int
+    rooms: int
+
+    @property
+    def knowledge(self) -> Knowledge:
+        return knowledge("office", office(self.books, self.rooms, "hub"))
+
+    @property
+    def goal(self) -> tuple[str, ...]:
+        return delivered(book_names(self.books), room_names(self.rooms)[0])
+
+    @property
+    def explanations(self) -> int:
+        """How many smallest explanations there are: for each book a step and a room."""
+        return int(((self.steps - 1) * (self.rooms - 1)) ** self.books)
+
+    def ask(self, reasoner: Reasoner) -> int:
+        """The length of the plan that is decided on at the last step. Raises DisagreementError."""
+        history = self.history()
+        plan = reasoner.intend(history, reasoner.diagnose(history, Diagnosis())).plan
+        if len(plan) != ACTIONS_A_BOOK * self.books:
+            raise DisagreementError(f"{len(plan)} actions for {self}: {type(reasoner).__name__}")
+        return len(plan)
+
+    def history(self) -> History:
+        """What the robot did and saw."""
+        hub, near, *_ = room_names(self.rooms)
+        books = book_names(self.books)
+        start, *way = ([hub, near] * self.steps)[: self.steps][::-1]
+        true = placed(dict.fromkeys(books, hub), start)
+        history = History()
+        fluents = self.knowledge.description.fluents
+        history.observe([f if f in true else f"-{f}" for f in fluents], 0)
+        history.happened(f"select({GOAL})", True, 0)
+        for step, room in enumerate(way, start=1):
+            history.attempt(f"move(rob1,{room})", step)
+            history.happened(f"move(rob1,{room})", True, step)
+            history.observe([f"loc(rob1,{room})"], step + 1)
+        history.observe([f"-loc({book},{hub})" for book in books], self.steps)
+        history.step = self.steps
+        return history
