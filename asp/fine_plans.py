@@ -1,0 +1,148 @@
+"""Plans at the fine resolution as the theory says: the literal translation, solved from scratch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import product
+
+from clingo import Symbol
+
+from asp import literals, syntax
+from asp.kept.patterns import Function, functions
+from asp.rules import term_text
+from asp.signature import Signature
+from asp.solving import fact, first_model, ground, select, theory
+from asp.translation import translate_source
+
+FinePlan = tuple[str, ...]
+"""Concrete actions, in order."""
+
+_TEST, _OBSERVED = "test_", "observed_"
+
+
+class NoPlan(Enum):
+    """Why there is no plan: none of any length, or none of at most so many actions."""
+
+    OUT_OF_REACH = "out of reach"
+    BEYOND_LIMIT = "beyond the limit"
+
+
+@dataclass(frozen=True)
+class FineStart:
+    """What is taken for certain of the present state at the fine resolution, and what is not.
+
+    `true` are inertial fluents, `candidates` groups of them of each of which exactly one holds; all
+    other inertial fluents are false. A group without members is a contradiction.
+    """
+
+    true: frozenset[str]
+    candidates: tuple[tuple[str, ...], ...] = ()
+
+
+def plain_plan(
+    strong: syntax.Source,
+    signature: Signature,
+    start: FineStart,
+    goal: Sequence[str],
+    limit: int,
+) -> FinePlan | NoPlan:
+    """The first shortest plan of at most `limit` actions and tests in the strong refinement.
+
+    Every concrete action is followed by a test of its outcome, and what is not certain is found by
+    a test before anything is done with it. Raises TimeLimitError.
+    """
+    if not all(start.candidates):
+        return NoPlan.OUT_OF_REACH
+    texts = (
+        translate_source(strong, signature),
+        "\n".join([*_tests(signature), *_changes(strong)]),
+        theory("fine_planning"),
+    )
+    actions = _concrete_actions(signature)
+    facts = [fact("ranks", len(actions))]
+    facts += (fact("rank", action, number) for number, action in enumerate(actions))
+    facts += _start(start, subjects(start, functions(strong, signature)), actions)
+    facts += (
+        fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
+        for literal in goal
+    )
+    for length in range(limit + 1):
+        model = first_model(ground(texts, {"n": length}, facts))
+        if model is not None:
+            steps = sorted(select(model, "occurs", 2), key=lambda pair: pair[1])
+            return tuple(str(action) for action, _ in steps)
+    return NoPlan.BEYOND_LIMIT
+
+
+def physical(plan: Iterable[str]) -> FinePlan:
+    """The plan without its tests."""
+    return tuple(action for action in plan if not literals.name(action).startswith(_TEST))
+
+
+def _tests(signature: Signature) -> Iterator[str]:
+    """tests_fluent(A,F,O): by the names that refinement gives to tests and to what they tell."""
+    for symbol in signature.symbols.values():
+        if not symbol.name.startswith(_TEST):
+            continue
+        tested = signature.symbols[symbol.name.removeprefix(_TEST)]
+        outcomes = signature.sorts[signature.symbols[_OBSERVED + tested.name].sorts[-1].name]
+        given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
+        # The robot that tests comes first; where the fluent is about this robot, only once.
+        about = given[len(given) - len(tested.sorts) :]
+        test, fluent = literals.ground(symbol.name, given), literals.ground(tested.name, about)
+        found = literals.ground(_OBSERVED + tested.name, [*given, outcomes[0]])
+        yield f"tests_fluent({test},{fluent},{found}) :- agent_action({test})."
+
+
+def _changes(source: syntax.Source) -> Iterator[str]:
+    for law in source.each(syntax.CausalLaw):
+        action, fluent = term_text(law.action), term_text(law.head.atom)
+        yield f"changes({action},{fluent}) :- agent_action({action}), inertial({fluent})."
+
+
+def _concrete_actions(signature: Signature) -> list[str]:
+    """The agent actions that are no tests, in the order of declaration."""
+    return [
+        literals.ground(symbol.name, members)
+        for symbol in signature.symbols.values()
+        if symbol.kind == "agent" and not symbol.name.startswith(_TEST)
+        for members in product(*(signature.sorts[sort.name] for sort in symbol.sorts))
+    ]
+
+
+def _start(
+    start: FineStart, groups: Sequence[frozenset[str]], actions: Iterable[str]
+) -> Iterator[Symbol]:
+    yield from (fact("certain", fluent) for fluent in sorted(start.true))
+    for number, candidates in enumerate(start.candidates):
+        yield from (fact("candidate", number, fluent) for fluent in candidates)
+    for action in actions:
+        named = frozenset(literals.arguments(action))
+        yield from (
+            fact("deals_with", action, n) for n, about in enumerate(groups) if about <= named
+        )
+
+
+def subjects(start: FineStart, known: Mapping[str, Function]) -> list[frozenset[str]]:
+    """Of each group of candidates the constants that it is about: all but those that may differ.
+
+    Raises ValueError for a group that is not made of the values of one function.
+    """
+    return [_subject(group, known) for group in start.candidates]
+
+
+def _subject(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:
+    found = set()
+    for fluent in group:
+        function = known.get(literals.name(fluent))
+        if function is not None and function.total:
+            args = literals.arguments(fluent)
+            found.add(
+                (fluent.partition("(")[0], *args[: function.place], "", *args[function.place + 1 :])
+            )
+    if len(found) != 1:
+        raise ValueError(f"not the values of one function: {', '.join(group)}")
+    _, *constants = found.pop()
+    return frozenset(constants) - {""}
