@@ -23,8 +23,8 @@ def parse(text: str, file: str = "<text>") -> syntax.Source:
     except UnexpectedInput as error:
         raise syntax_error(error, text, file) from None
     check_section_words(tree, text, file)
-    statements = _with_defaults(_ToSyntax().transform(tree))
-    return syntax.Source(file, text, statements, _comments(text))
+    statements = _with_defaults(ToSyntax().transform(tree))
+    return syntax.Source(file, text, statements, comments_of(text))
 
 
 def _with_defaults(statements: tuple[syntax.Statement, ...]) -> tuple[syntax.Statement, ...]:
@@ -42,7 +42,8 @@ def _grammar() -> Lark:
     return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
 
 
-def _comments(text: str) -> tuple[syntax.Comment, ...]:
+def comments_of(text: str) -> tuple[syntax.Comment, ...]:
+    """The comments of a text, line by line."""
     found = []
     for number, line in enumerate(text.split("\n"), start=1):
         match = re.search(r"%.*", line)
@@ -52,28 +53,29 @@ def _comments(text: str) -> tuple[syntax.Comment, ...]:
     return tuple(found)
 
 
-def _place(meta: Meta | Token) -> syntax.Place:
+def place_of(meta: Meta | Token) -> syntax.Place:
+    """Where a node of the parse tree begins."""
     assert meta.line is not None
     assert meta.column is not None
     return syntax.Place(meta.line, meta.column)
 
 
 @v_args(meta=True)
-class _ToSyntax(Transformer[Token, Any]):
+class ToSyntax(Transformer[Token, Any]):
     """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules."""
 
-    def _section(self, _: Meta, children: list[Any]) -> list[syntax.Statement]:
+    def section(self, _: Meta, children: list[Any]) -> list[syntax.Statement]:
         return children[1:]
 
-    sorts = statics = fluents = actions = laws = facts = costs = scenarios = _section
-    sees_section = shows_section = initially_section = defaults = _section
+    sorts = statics = fluents = actions = laws = facts = costs = scenarios = section
+    sees_section = shows_section = initially_section = defaults = section
 
     def start(self, _: Meta, sections: list[list[syntax.Statement]]) -> Any:
         return tuple(statement for section in sections for statement in section)
 
     def sort(self, meta: Meta, children: list[Any]) -> syntax.SortDefinition:
         return syntax.SortDefinition(
-            _place(meta), meta.end_line, str(children[0]), tuple(children[1:])
+            place_of(meta), meta.end_line, str(children[0]), tuple(children[1:])
         )
 
     def members(self, _: Meta, constants: list[syntax.Term]) -> tuple[syntax.Term, ...]:
@@ -81,65 +83,65 @@ class _ToSyntax(Transformer[Token, Any]):
 
     def range(self, meta: Meta, bounds: list[Token]) -> tuple[syntax.Term, ...]:
         low, high = map(int, bounds)
-        return tuple(syntax.Term(str(n), _place(meta)) for n in range(low, high + 1))
+        return tuple(syntax.Term(str(n), place_of(meta)) for n in range(low, high + 1))
 
     def signature(self, meta: Meta, children: list[Any]) -> tuple[str, tuple[syntax.Term, ...]]:
         return str(children[0]), tuple(c for c in children[1:] if c is not None)
 
     def static(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
-        return syntax.Declaration(_place(meta), meta.end_line, "static", *children[0])
+        return syntax.Declaration(place_of(meta), meta.end_line, "static", *children[0])
 
     def fluent(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
         kind, (name, sorts) = children
-        return syntax.Declaration(_place(meta), meta.end_line, kind.value, name, sorts)
+        return syntax.Declaration(place_of(meta), meta.end_line, kind.value, name, sorts)
 
     action = fluent
 
     def causal_law(self, meta: Meta, children: list[Any]) -> syntax.CausalLaw:
         action, head, body = children
-        return syntax.CausalLaw(_place(meta), meta.end_line, action, head, body or ())
+        return syntax.CausalLaw(place_of(meta), meta.end_line, action, head, body or ())
 
     def executability(self, meta: Meta, children: list[Any]) -> syntax.ExecutabilityCondition:
         *actions, body = children
         return syntax.ExecutabilityCondition(
-            _place(meta), meta.end_line, tuple(actions), body or ()
+            place_of(meta), meta.end_line, tuple(actions), body or ()
         )
 
     def state_constraint(self, meta: Meta, children: list[Any]) -> syntax.StateConstraint:
         head, body = children
-        return syntax.StateConstraint(_place(meta), meta.end_line, head, body or ())
+        return syntax.StateConstraint(place_of(meta), meta.end_line, head, body or ())
 
     def fact(self, meta: Meta, children: list[Any]) -> syntax.Fact:
-        return syntax.Fact(_place(meta), meta.end_line, children[0])
+        return syntax.Fact(place_of(meta), meta.end_line, children[0])
 
     def sees(self, meta: Meta, children: list[Any]) -> syntax.SeesStatement:
         robot, fluent, body = children
-        return syntax.SeesStatement(_place(meta), meta.end_line, robot, fluent, body or ())
+        return syntax.SeesStatement(place_of(meta), meta.end_line, robot, fluent, body or ())
 
     def shows(self, meta: Meta, children: list[Any]) -> syntax.ShowsStatement:
         action, fluent, body = children
-        return syntax.ShowsStatement(_place(meta), meta.end_line, action, fluent, body or ())
+        return syntax.ShowsStatement(place_of(meta), meta.end_line, action, fluent, body or ())
 
     def cost(self, meta: Meta, children: list[Any]) -> syntax.CostStatement:
         action, units = children
-        return syntax.CostStatement(_place(meta), meta.end_line, action, int(units))
+        return syntax.CostStatement(place_of(meta), meta.end_line, action, int(units))
 
     def initially(self, meta: Meta, children: list[Any]) -> syntax.InitiallyStatement:
-        return syntax.InitiallyStatement(_place(meta), meta.end_line, *children)
+        return syntax.InitiallyStatement(place_of(meta), meta.end_line, *children)
 
     def default(self, meta: Meta, children: list[Any]) -> syntax.DefaultStatement:
         name, head, body = children
-        return syntax.DefaultStatement(_place(meta), meta.end_line, str(name), head, body or ())
+        return syntax.DefaultStatement(place_of(meta), meta.end_line, str(name), head, body or ())
 
     def exception(self, meta: Meta, children: list[Any]) -> syntax.ExceptionStatement:
         name, body = children
-        return syntax.ExceptionStatement(_place(meta), meta.end_line, str(name), body, None)
+        return syntax.ExceptionStatement(place_of(meta), meta.end_line, str(name), body, None)
 
     def trigger(self, meta: Meta, children: list[Any]) -> syntax.TriggerStatement:
         scenario, event, upon, drawing, body, probability = children
         drawn, pool = drawing or (None, ())
         return syntax.TriggerStatement(
-            _place(meta),
+            place_of(meta),
             meta.end_line,
             scenario=str(scenario),
             event=event,
@@ -151,7 +153,7 @@ class _ToSyntax(Transformer[Token, Any]):
         )
 
     def quiet(self, meta: Meta, children: list[Token]) -> syntax.QuietStatement:
-        return syntax.QuietStatement(_place(meta), meta.end_line, str(children[0]))
+        return syntax.QuietStatement(place_of(meta), meta.end_line, str(children[0]))
 
     def drawing(self, _: Meta, children: list[Any]) -> tuple[syntax.Term, syntax.Body]:
         variable, body = children
@@ -168,7 +170,7 @@ class _ToSyntax(Transformer[Token, Any]):
 
     def comparison(self, meta: Meta, children: list[Any]) -> syntax.Comparison:
         left, sign, right = children
-        return syntax.Comparison(left, right, sign.type == "EQUAL", _place(meta))
+        return syntax.Comparison(left, right, sign.type == "EQUAL", place_of(meta))
 
     def literal(self, _: Meta, children: list[Any]) -> syntax.Literal:
         minus, atom = children
@@ -176,11 +178,11 @@ class _ToSyntax(Transformer[Token, Any]):
 
     def atom(self, meta: Meta, children: list[Any]) -> syntax.Atom:
         args = tuple(c for c in children[1:] if c is not None)
-        return syntax.Atom(str(children[0]), args, _place(meta))
+        return syntax.Atom(str(children[0]), args, place_of(meta))
 
     def constant(self, _: Meta, children: list[Token]) -> syntax.Term:
         token = children[0]
         name = str(int(token)) if token.type == "NUMBER" else str(token)
-        return syntax.Term(name, _place(token))
+        return syntax.Term(name, place_of(token))
 
     variable = constant

@@ -35,20 +35,20 @@ def uses(_statement: syntax.Statement) -> Iterator[Use]:
 def _(law: syntax.CausalLaw) -> Iterator[Use]:
     yield Use(law.action, ACTIONS, "an action before 'causes'")
     yield Use(law.head.atom, frozenset({"inertial"}), "an inertial fluent as the effect")
-    yield from _body(law.body)
+    yield from body_uses(law.body)
 
 
 @uses.register
 def _(law: syntax.StateConstraint) -> Iterator[Use]:
     yield Use(law.head.atom, DOMAIN, "a fluent or a static as the head")
-    yield from _body(law.body)
+    yield from body_uses(law.body)
 
 
 @uses.register
 def _(law: syntax.ExecutabilityCondition) -> Iterator[Use]:
     for action in law.actions:
         yield Use(action, ACTIONS, "an action after 'impossible'")
-    yield from _body(law.body)
+    yield from body_uses(law.body)
 
 
 @uses.register
@@ -59,14 +59,14 @@ def _(fact: syntax.Fact) -> Iterator[Use]:
 @uses.register
 def _(statement: syntax.SeesStatement) -> Iterator[Use]:
     yield Use(statement.fluent, FLUENTS, "a fluent after 'sees'")
-    yield from _body(statement.body)
+    yield from body_uses(statement.body)
 
 
 @uses.register
 def _(statement: syntax.ShowsStatement) -> Iterator[Use]:
     yield Use(statement.action, AGENT, "an agent action before 'shows'")
     yield Use(statement.fluent, FLUENTS, "a fluent after 'shows'")
-    yield from _body(statement.body)
+    yield from body_uses(statement.body)
 
 
 @uses.register
@@ -82,12 +82,12 @@ def _(statement: syntax.InitiallyStatement) -> Iterator[Use]:
 @uses.register
 def _(default: syntax.DefaultStatement) -> Iterator[Use]:
     yield Use(default.head.atom, frozenset({"inertial"}), "an inertial fluent as the conclusion")
-    yield from _body(default.body)
+    yield from body_uses(default.body)
 
 
 @uses.register
 def _(exception: syntax.ExceptionStatement) -> Iterator[Use]:
-    yield from _body(exception.body)
+    yield from body_uses(exception.body)
 
 
 @uses.register
@@ -95,8 +95,8 @@ def _(statement: syntax.TriggerStatement) -> Iterator[Use]:
     yield Use(statement.event, EXOGENOUS, "an exogenous action as the event")
     if statement.upon is not None:
         yield Use(statement.upon, AGENT, "an agent action after 'upon'")
-    yield from _body(statement.pool)
-    yield from _body(statement.body)
+    yield from body_uses(statement.pool)
+    yield from body_uses(statement.body)
 
 
 def scope(statement: syntax.Statement) -> Iterator[Use]:
@@ -113,7 +113,8 @@ def noun(kinds: frozenset[str]) -> str:
     return "static" if kinds == {"static"} else "fluent"
 
 
-def _body(body: syntax.Body) -> Iterator[Use]:
+def body_uses(body: syntax.Body) -> Iterator[Use]:
+    """The atoms of a body with their role."""
     for literal in literals(body):
         yield Use(literal.atom, DOMAIN | {SORT}, "a fluent, a static or a sort in a body")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from difflib import get_close_matches
 
 from lark import ParseTree, Token, Tree
@@ -27,16 +28,33 @@ _READABLE = {
     "COLON": "':'",
     "_TO": "'..'",
 }
-_SECTIONS = {
-    *("SORTS", "STATICS", "FLUENTS", "ACTIONS", "LAWS", "FACTS"),
-    *("SEES", "SHOWS", "COSTS", "INITIALLY", "DEFAULTS", "SCENARIOS"),
-}
 
 
-def syntax_error(error: UnexpectedInput, text: str, file: str) -> SourceError:
+@dataclass(frozen=True)
+class Words:
+    """The names of a grammar's section words, and two of them to give as examples."""
+
+    names: frozenset[str]
+    examples: str
+
+
+AL_WORDS = Words(
+    frozenset(
+        {
+            *("SORTS", "STATICS", "FLUENTS", "ACTIONS", "LAWS", "FACTS"),
+            *("SEES", "SHOWS", "COSTS", "INITIALLY", "DEFAULTS", "SCENARIOS"),
+        }
+    ),
+    "sorts or laws",
+)
+
+
+def syntax_error(
+    error: UnexpectedInput, text: str, file: str, words: Words = AL_WORDS
+) -> SourceError:
     """What lark found, with its place, in the words of the language."""
     for token in _last(error):
-        section = _meant_section(token, text)
+        section = _meant_section(token, text, words)
         if section is not None:
             message = f"unknown section '{token}'; did you mean '{section}'?"
             return SourceError(file, *_place(token), message)
@@ -47,9 +65,9 @@ def syntax_error(error: UnexpectedInput, text: str, file: str) -> SourceError:
         return SourceError(file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement")
     assert isinstance(error, UnexpectedToken)
     for token in _on_one_line(error):
-        if token.upper() in _SECTIONS and _is_first_in_line(token, text):
+        if token.upper() in words.names and _is_first_in_line(token, text):
             return SourceError(file, error.line, error.column, _alone(token))
-    expected = _describe(set(error.accepts or error.expected))
+    expected = _describe(set(error.accepts or error.expected), words)
     message = f"unexpected {str(error.token)!r}; expected {expected}"
     return SourceError(file, error.line, error.column, message)
 
@@ -73,17 +91,17 @@ def _last(error: UnexpectedInput) -> list[Token]:
     return [*unexpected, *(token for token in history if isinstance(token, Token))]
 
 
-def _meant_section(token: Token, text: str) -> str | None:
+def _meant_section(token: Token, text: str, words: Words) -> str | None:
     """The section word nearest to one alone on its line, where a statement or section begins."""
     if token.type != "NAME":
         return None
     line, _ = _place(token)
     lines = [_without_comment(part) for part in text.split("\n")]
     before = " ".join(lines[: line - 1]).split()
-    begins = not before or before[-1].endswith(".") or before[-1].upper() in _SECTIONS
+    begins = not before or before[-1].endswith(".") or before[-1].upper() in words.names
     if not begins or lines[line - 1].strip() != token:
         return None
-    return next(iter(get_close_matches(token, sorted(map(str.lower, _SECTIONS)), n=1)), None)
+    return next(iter(get_close_matches(token, sorted(map(str.lower, words.names)), n=1)), None)
 
 
 def _without_comment(line: str) -> str:
@@ -115,13 +133,12 @@ def check_section_words(tree: ParseTree, text: str, file: str) -> None:
             raise SourceError(file, *_place(word), _alone(word))
 
 
-def _describe(expected: set[str]) -> str:
-    if expected.issuperset(_SECTIONS):
-        expected = expected.difference(_SECTIONS)
-        words = ["a section word such as sorts or laws"]
-    else:
-        words = []
-    words += sorted(
+def _describe(expected: set[str], words: Words) -> str:
+    found = []
+    if expected.issuperset(words.names):
+        expected = expected.difference(words.names)
+        found.append(f"a section word such as {words.examples}")
+    found += sorted(
         _READABLE.get(name, repr(name.lower().strip("_"))) for name in expected - {"$END"}
     )
-    return " or ".join(dict.fromkeys(words))
+    return " or ".join(dict.fromkeys(found))

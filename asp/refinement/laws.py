@@ -1,0 +1,285 @@
+"""The laws of a coarse description at the fine resolution, one coarse law after the other.
+
+A law about attributes and actions with counterparts becomes a law about the counterparts; one
+without any stays; a condition that ties an action with a counterpart to an attribute without one
+is kept as it is about the coarse attributes, for the fine actions that would bring about what the
+coarse action does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import singledispatch
+from itertools import product
+
+from asp import roles, syntax
+from asp.refinement.renaming import Renaming
+from asp.refinement.vocabulary import Vocabulary
+from asp.signature import Problems
+from asp.writing import atom_text, text_of
+
+KEPT, REFINED, LIFTED = "kept", "refined", "lifted"
+
+
+@dataclass(frozen=True)
+class Result:
+    """A statement of the refined description: what it is, and what it came from."""
+
+    statement: syntax.Statement
+    manner: str
+    origin: str
+
+
+@dataclass(frozen=True)
+class Rewriting:
+    """What refining one law needs: the names, the coarse text, the fine text's own laws."""
+
+    vocabulary: Vocabulary
+    coarse: syntax.Source
+    shared: frozenset[tuple[str, int]]
+    problems: Problems
+
+    def refine(self, law: syntax.Statement) -> Iterator[Result]:
+        """The statements that a coarse one becomes. Reports a law that cannot be refined."""
+        for statement, manner in refined(law, self):
+            yield Result(statement, manner, f"line {law.place.line}: {text_of(law)}")
+
+    def has_counterpart(self, atom: syntax.Atom) -> bool:
+        return atom.name in self.vocabulary.counterparts
+
+
+Refined = Iterator[tuple[syntax.Statement, str]]
+
+
+@singledispatch
+def refined(_law: syntax.Statement, _: Rewriting) -> Refined:
+    """What a statement becomes, with the manner in which; nothing: it falls away."""
+    yield from ()
+
+
+@refined.register
+def _(fact: syntax.Fact, _: Rewriting) -> Refined:
+    yield fact, KEPT
+
+
+@refined.register
+def _(law: syntax.CausalLaw, rewriting: Rewriting) -> Refined:
+    acts, concerns = map(rewriting.has_counterpart, (law.action, law.head.atom))
+    if acts:
+        yield _refined_causal(law, rewriting), REFINED
+    elif not concerns:
+        yield law, KEPT
+    else:
+        name = law.action.name
+        rewriting.problems.report(
+            law.place,
+            f"'{name}' changes '{law.head.atom.name}', which has a counterpart, so that '{name}' "
+            "needs one",
+        )
+
+
+def _refined_causal(law: syntax.CausalLaw, rewriting: Rewriting) -> syntax.CausalLaw:
+    renaming = Renaming(law, rewriting.vocabulary)
+    action, head = renaming.atom(law.action), renaming.literal(law.head)
+    body = renaming.body(law.body)
+    bound = {term.name for term in action.args}
+    if head.positive and rewriting.has_counterpart(law.head.atom):
+        free = [t for t in head.atom.args if t.is_variable and t.name not in bound]
+        _check_head(law, free, renaming, rewriting)
+    return replace(law, action=action, head=head, body=(*renaming.links(), *body))
+
+
+@refined.register
+def _(law: syntax.StateConstraint, rewriting: Rewriting) -> Refined:
+    static = rewriting.vocabulary.coarse.symbols[law.head.atom.name].kind == "static"
+    concerns = rewriting.has_counterpart(law.head.atom)
+    if static or not concerns:
+        yield law, KEPT
+    if concerns:
+        renaming = Renaming(law, rewriting.vocabulary)
+        head, body = renaming.literal(law.head), renaming.body(law.body)
+        statement = replace(law, head=head, body=(*renaming.links(), *body))
+        if static and renaming.links():
+            return
+        if head.positive:
+            _check_head(law, head.atom.args, renaming, rewriting)
+        yield statement, REFINED
+
+
+def _check_head(
+    law: syntax.Statement,
+    terms: list[syntax.Term] | tuple[syntax.Term, ...],
+    renaming: Renaming,
+    rewriting: Rewriting,
+) -> None:
+    """A component that is only known by its whole: the law would hold for all the components."""
+    tied = {link.atom.args[0].name for link in roles.literals(renaming.links())}
+    if any(term.name in tied for term in terms):
+        rewriting.problems.report(
+            law.place, "this law does not say for which of the components it holds"
+        )
+
+
+@refined.register
+def _(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Refined:
+    if not any(map(rewriting.has_counterpart, law.actions)):
+        yield law, KEPT
+        return
+    renaming = Renaming(law, rewriting.vocabulary)
+    if any(renaming.is_whole(literal.atom) for literal in roles.literals(law.body)):
+        for statement in _lifted(law, rewriting):
+            yield statement, LIFTED
+    else:
+        yield _refined_condition(law, renaming, rewriting), REFINED
+
+
+def _refined_condition(
+    law: syntax.ExecutabilityCondition, renaming: Renaming, rewriting: Rewriting
+) -> syntax.ExecutabilityCondition:
+    actions = tuple(map(renaming.atom, law.actions))
+    effects = {
+        atom_text(head.atom) for action in law.actions for head, _ in effects_of(action, rewriting)
+    }
+    acted = {term.name for action in law.actions for term in action.args}
+    body: list[syntax.Condition] = []
+    for part in law.body:
+        (condition,) = renaming.body((part,))
+        if isinstance(part, syntax.Literal) and atom_text(part.atom) not in effects:
+            condition = _about_any_component(part, condition, acted, renaming, rewriting)
+        body.append(condition)
+    return replace(law, actions=actions, body=(*body, *renaming.links()))
+
+
+def _about_any_component(
+    part: syntax.Literal,
+    condition: syntax.Condition,
+    acted: set[str],
+    renaming: Renaming,
+    rewriting: Rewriting,
+) -> syntax.Condition:
+    """A condition on what the action is about: any of its components may meet it.
+
+    Not so where a law of the refinement says that the components share the fluent anyway.
+    """
+    assert isinstance(condition, syntax.Literal)
+    symbol = rewriting.vocabulary.coarse.symbols.get(part.atom.name)
+    if not part.positive or symbol is None or symbol.kind not in roles.FLUENTS:
+        return condition
+    terms = tuple(
+        renaming.another(whole)
+        if renaming.is_magnified(whole)
+        and whole.name in acted
+        and (condition.atom.name, place) not in rewriting.shared
+        else term
+        for place, (whole, term) in enumerate(zip(part.atom.args, condition.atom.args, strict=True))
+    )
+    return replace(condition, atom=replace(condition.atom, args=terms))
+
+
+def _lifted(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Iterator[syntax.Statement]:
+    """The condition as it is, for the fine actions that would bring about the coarse effects."""
+    effects = [effects_of(a, rewriting) for a in law.actions if rewriting.has_counterpart(a)]
+    given = set(map(_key, law.body))
+    for brought in product(*filter(None, effects)):
+        if any(_key(head) in given for head, _ in brought):
+            continue
+        changes: list[syntax.Condition] = []
+        for head, conditions in brought:
+            changes += (replace(head, positive=not head.positive), *conditions)
+        body = (*(c for c in changes if _key(c) not in given), *law.body)
+        renaming = Renaming(law, rewriting.vocabulary)
+        actions = tuple(
+            renaming.atom(action) if rewriting.has_counterpart(action) else action
+            for action in law.actions
+        )
+        for literal in roles.literals(body):
+            for term in literal.atom.args:
+                renaming.whole(term)
+        yield replace(law, actions=actions, body=(*renaming.links(), *body))
+
+
+Effect = tuple[syntax.Literal, syntax.Body]
+
+
+def effects_of(action: syntax.Atom, rewriting: Rewriting) -> list[Effect]:
+    """What the coarse action causes and under which conditions, in the terms of this atom."""
+    found = []
+    for law in rewriting.coarse.each(syntax.CausalLaw):
+        terms = _matched(law.action, action)
+        if terms is not None:
+            head = replace(law.head, atom=_substituted(law.head.atom, terms))
+            found.append((head, tuple(_condition(part, terms) for part in law.body)))
+    return found
+
+
+def _matched(of_law: syntax.Atom, action: syntax.Atom) -> dict[str, syntax.Term] | None:
+    """The terms for the variables of a causal law's action that make it the given one."""
+    if of_law.name != action.name:
+        return None
+    terms: dict[str, syntax.Term] = {}
+    for variable, term in zip(of_law.args, action.args, strict=True):
+        if not variable.is_variable:
+            if not term.is_variable and term.name != variable.name:
+                return None
+        elif terms.setdefault(variable.name, term).name != term.name:
+            return None
+    return terms
+
+
+def _condition(part: syntax.Condition, terms: dict[str, syntax.Term]) -> syntax.Condition:
+    if isinstance(part, syntax.Literal):
+        return replace(part, atom=_substituted(part.atom, terms))
+    left, right = (_term(side, terms) for side in (part.left, part.right))
+    return replace(part, left=left, right=right)
+
+
+def _substituted(atom: syntax.Atom, terms: dict[str, syntax.Term]) -> syntax.Atom:
+    return replace(atom, args=tuple(_term(term, terms) for term in atom.args))
+
+
+def _term(term: syntax.Term, terms: dict[str, syntax.Term]) -> syntax.Term:
+    """The term for a variable of the action; another variable gets a name of the effect's own."""
+    if not term.is_variable:
+        return term
+    return terms.get(term.name, replace(term, name=f"{term.name}_"))
+
+
+def _key(part: syntax.Condition) -> str:
+    """The text of a condition: equal conditions stand at different places."""
+    if isinstance(part, syntax.Literal):
+        return ("" if part.positive else "-") + atom_text(part.atom)
+    return f"{part.left.name}{part.equal}{part.right.name}"
+
+
+@refined.register
+def _(statement: syntax.InitiallyStatement, rewriting: Rewriting) -> Refined:
+    if not rewriting.has_counterpart(statement.fluent):
+        yield statement, KEPT
+        return
+    renaming = Renaming(statement, rewriting.vocabulary)
+    fluent = renaming.atom(statement.fluent)
+    yield replace(statement, fluent=fluent, variable=renaming.fine(statement.variable)), REFINED
+
+
+@refined.register
+def _(statement: syntax.SeesStatement, rewriting: Rewriting) -> Refined:
+    if not rewriting.has_counterpart(statement.fluent):
+        yield statement, KEPT
+
+
+@refined.register
+def _(statement: syntax.ShowsStatement, rewriting: Rewriting) -> Refined:
+    if rewriting.has_counterpart(statement.fluent):
+        return
+    if not rewriting.has_counterpart(statement.action):
+        yield statement, KEPT
+        return
+    renaming = Renaming(statement, rewriting.vocabulary)
+    action = renaming.atom(statement.action)
+    for term in statement.fluent.args:
+        renaming.whole(term)
+    for literal in roles.literals(statement.body):
+        for term in literal.atom.args:
+            renaming.whole(term)
+    yield replace(statement, action=action, body=(*renaming.links(), *statement.body)), REFINED

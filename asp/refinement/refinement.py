@@ -1,0 +1,120 @@
+"""A coarse description together with its refinements."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import product
+
+from asp import syntax
+from asp.checker import check
+from asp.description import Description
+from asp.literals import arguments, atom, complement, ground, is_positive, name
+from asp.loading import analyse, parse_description
+from asp.parser import parse
+from asp.refinement.language import parse_fine
+from asp.refinement.observation import observation_text, tested_fluents
+from asp.refinement.refining import weak_text
+from asp.refinement.vocabulary import Vocabulary, vocabulary_of
+from asp.signature import Problems, Signature, signature_of
+
+
+@dataclass(frozen=True, eq=False)
+class Refinement:
+    """D_c and D_f: `weak` is the physics of D_f, `strong` has the theory of observation, too.
+
+    The refined descriptions are texts and their syntax: their instances are many more than a
+    program needs, so that nothing here makes them.
+    """
+
+    coarse: syntax.Source
+    coarse_signature: Signature
+    vocabulary: Vocabulary
+    weak: syntax.Source
+    weak_signature: Signature
+    strong: syntax.Source
+    strong_signature: Signature
+
+    @cached_property
+    def description(self) -> Description:
+        """The ground coarse description."""
+        return parse_description(self.coarse.text, self.coarse.file)
+
+    @property
+    def components(self) -> Mapping[str, tuple[str, ...]]:
+        """The components of each coarse constant; one that is not magnified is its own."""
+        return self.vocabulary.components
+
+    @cached_property
+    def wholes(self) -> Mapping[str, str]:
+        """The coarse constant to which each fine constant belongs."""
+        return {part: whole for whole, parts in self.components.items() for part in parts}
+
+    @property
+    def counterparts(self) -> Mapping[str, str]:
+        """The names of the counterparts: `loc` to `fine_loc`, `move` to `fine_move`."""
+        return self.vocabulary.counterparts
+
+    @cached_property
+    def _coarse_names(self) -> Mapping[str, str]:
+        return {fine: coarse for coarse, fine in self.counterparts.items()}
+
+    def coarse_of(self, literal: str) -> tuple[str, ...]:
+        """What a fine literal or action says at the coarse resolution by itself.
+
+        `fine_loc(object1_1,room1_2)` says `loc(object1,room1)`; a negative one says something
+        only of constants with one component. What has no counterpart says itself.
+        """
+        coarse = self._coarse_names.get(name(literal))
+        if coarse is None:
+            return (literal,)
+        lifted = ground(coarse, (self.wholes[part] for part in arguments(literal)))
+        if is_positive(literal):
+            return (lifted,)
+        return (complement(lifted),) if len(self._components(lifted)) == 1 else ()
+
+    def counterpart(self, literal: str) -> tuple[tuple[str, ...], ...]:
+        """The groups of fine literals each of which makes the coarse literal true.
+
+        A fluent is true if its counterpart is true of some components, and false if it is false
+        of all. What has no counterpart is its own.
+        """
+        if name(literal) not in self.counterparts:
+            return ((literal,),)
+        fine = self._components(atom(literal))
+        if is_positive(literal):
+            return tuple((found,) for found in fine)
+        return (tuple(map(complement, fine)),)
+
+    def _components(self, coarse: str) -> tuple[str, ...]:
+        parts = product(*(self.components[constant] for constant in arguments(coarse)))
+        return tuple(ground(self.counterparts[name(coarse)], args) for args in parts)
+
+
+@cache
+def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> Refinement:
+    """The refinement of a coarse AL_d text by the text of a refinement. Raises SourceError."""
+    coarse, signature = analyse(coarse_text, coarse_file)
+    fine = parse_fine(fine_text, fine_file)
+    problems = Problems(fine_file)
+    vocabulary = vocabulary_of(fine, signature, problems)
+    problems.raise_first()
+    in_coarse = Problems(coarse_file)
+    text = weak_text(coarse, fine, vocabulary, in_coarse)
+    in_coarse.raise_first()
+    weak = parse(text, f"{fine_file} (refined)")
+    weak_signature = signature_of(weak, Problems(weak.file))
+    _check_own(fine, weak_signature)
+    tested = tested_fluents(fine, vocabulary, weak_signature, problems)
+    problems.raise_first()
+    strong = parse(f"{text}\n{observation_text(fine, vocabulary, tested)}", weak.file)
+    strong_signature = signature_of(strong, Problems(strong.file))
+    return Refinement(coarse, signature, vocabulary, weak, weak_signature, strong, strong_signature)
+
+
+def _check_own(fine: syntax.Source, weak: Signature) -> None:
+    """Checks the facts, laws and tests of a refinement's text, at their places in it."""
+    problems = Problems(fine.file)
+    check(fine, weak, problems)
+    problems.raise_first()

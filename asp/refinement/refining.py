@@ -1,0 +1,232 @@
+"""The refined description D_f as AL_d text, of a coarse description and the text that refines it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from asp import roles, syntax
+from asp.refinement.laws import KEPT, LIFTED, REFINED, Result, Rewriting
+from asp.refinement.vocabulary import COARSE, COMPONENT, FINE, Vocabulary
+from asp.signature import Problems
+from asp.writing import text_of
+
+_HEADINGS = {
+    KEPT: "As in the coarse description: nothing in it has a counterpart.",
+    REFINED: "About the counterparts of what the coarse law is about.",
+    LIFTED: "Conditions on coarse attributes, for what would bring about the coarse effect.",
+}
+
+
+def weak_text(
+    coarse: syntax.Source, fine: syntax.Source, vocabulary: Vocabulary, problems: Problems
+) -> str:
+    """The weak refinement: the physics of the fine resolution, not yet what can be observed.
+
+    Reports, with the place in the coarse text, each law that cannot be refined.
+    """
+    rewriting = Rewriting(vocabulary, coarse, shared_places(fine), problems)
+    results = [result for s in coarse.statements for result in rewriting.refine(s)]
+    laws = [result for result in results if isinstance(result.statement, _LAWS)]
+    sections = [
+        _head(coarse, fine),
+        *_signature(coarse, vocabulary, [r.statement for r in results], fine),
+        _laws([*_law_groups(laws), _bridges(vocabulary), *_own_laws(fine)]),
+        _facts(coarse, fine, vocabulary),
+        *(_further(title, kind, results) for title, kind in _FURTHER),
+    ]
+    return "\n\n".join(filter(None, sections)) + "\n"
+
+
+_LAWS = (syntax.CausalLaw, syntax.StateConstraint, syntax.ExecutabilityCondition)
+_FURTHER: Sequence[tuple[str, type[syntax.Statement]]] = (
+    ("initially", syntax.InitiallyStatement),
+    ("sees", syntax.SeesStatement),
+    ("shows", syntax.ShowsStatement),
+)
+
+
+def shared_places(fine: syntax.Source) -> frozenset[tuple[str, int]]:
+    """The arguments in which all components of one whole share a fluent, by a law of the text.
+
+    `fine_loc(P1, C) if fine_loc(P2, C), component(P1, O), component(P2, O)`: ("fine_loc", 0).
+    """
+    found = (_shared_place(law) for law in fine.each(syntax.StateConstraint))
+    return frozenset(place for place in found if place is not None)
+
+
+def _shared_place(law: syntax.StateConstraint) -> tuple[str, int] | None:
+    body = list(roles.literals(law.body))
+    same = [part for part in body if part.atom.name == law.head.atom.name]
+    wholes = {
+        part.atom.args[0].name: part.atom.args[1].name
+        for part in body
+        if part.atom.name == COMPONENT
+    }
+    if len(same) != 1 or len(wholes) != 2 or len(law.body) != 3:
+        return None
+    pairs = zip(law.head.atom.args, same[0].atom.args, strict=False)
+    differ = [(place, a.name, b.name) for place, (a, b) in enumerate(pairs) if a.name != b.name]
+    if len(differ) != 1 or not law.head.positive or not same[0].positive:
+        return None
+    ((place, one, other),) = differ
+    known = one in wholes and other in wholes and wholes[one] == wholes[other]
+    return (law.head.atom.name, place) if known else None
+
+
+def _head(coarse: syntax.Source, fine: syntax.Source) -> str:
+    return f"% The refinement of {coarse.file} by {fine.file}. Lines are those of {coarse.file}."
+
+
+def _signature(
+    coarse: syntax.Source,
+    vocabulary: Vocabulary,
+    statements: Iterable[syntax.Statement],
+    fine: syntax.Source,
+) -> Iterator[str]:
+    yield _section("sorts", _sorts(coarse, vocabulary, _named_sorts(statements, fine)))
+    declared = list(coarse.each(syntax.Declaration))
+    statics = [d for d in declared if d.kind == "static"]
+    fluents = [d for d in declared if d.kind in roles.FLUENTS]
+    actions = [d for d in declared if d.kind in roles.ACTIONS]
+    bridged = [replace(d, kind="defined") for d in fluents if d.name in vocabulary.counterparts]
+    finer = [_counterpart(d, vocabulary) for d in statics if d.name in vocabulary.counterparts]
+    component = f"{COMPONENT}({FINE}, {COARSE})."
+    yield _section("statics", [*map(text_of, (*statics, *finer)), component])
+    here = [*(_counterpart(d, vocabulary) for d in fluents), *bridged]
+    yield _section("fluents", map(text_of, here))
+    yield _section("actions", (text_of(_counterpart(d, vocabulary)) for d in actions))
+
+
+def _counterpart(declaration: syntax.Declaration, vocabulary: Vocabulary) -> syntax.Declaration:
+    """The declaration of a symbol's counterpart; the declaration itself where there is none."""
+    if declaration.name not in vocabulary.counterparts:
+        return declaration
+    sorts = vocabulary.fine_sorts(declaration.name)
+    return replace(
+        declaration,
+        name=vocabulary.counterparts[declaration.name],
+        sorts=tuple(
+            replace(sort, name=fine) for sort, fine in zip(declaration.sorts, sorts, strict=True)
+        ),
+    )
+
+
+def _named_sorts(statements: Iterable[syntax.Statement], fine: syntax.Source) -> set[str]:
+    """The names that stand as sorts, or as anything else, in laws."""
+    return {use.atom.name for law in (*statements, *fine.statements) for use in roles.uses(law)}
+
+
+def _sorts(coarse: syntax.Source, vocabulary: Vocabulary, named: set[str]) -> Iterator[str]:
+    definitions = {d.name: d for d in coarse.each(syntax.SortDefinition)}
+    wanted = _wanted(definitions, vocabulary, named)
+    for name, definition in definitions.items():
+        yield text_of(definition)
+        if name in vocabulary.magnified:
+            yield f"{vocabulary.magnified[name]} = {{{', '.join(vocabulary.fine_members(name))}}}."
+        elif name in wanted:
+            yield f"{vocabulary.fine_sort(name)} = {_fine_parts(definition, vocabulary)}."
+    bridged = vocabulary.bridged()
+    yield f"{FINE} = {' + '.join(map(vocabulary.fine_sort, bridged))}."
+    yield f"{COARSE} = {' + '.join(bridged)}."
+
+
+def _wanted(
+    definitions: Mapping[str, syntax.SortDefinition], vocabulary: Vocabulary, named: set[str]
+) -> set[str]:
+    """The coarse sorts, mixed or parts of magnified ones, whose fine counterparts are used."""
+    stack = [*vocabulary.bridged()]
+    stack += (name for name in definitions if vocabulary.fine_sort(name) in named)
+    found: set[str] = set()
+    while stack:
+        name = stack.pop()
+        if name not in found and name not in vocabulary.magnified and vocabulary.touches(name):
+            found.add(name)
+            parts = definitions[name].parts
+            stack += (part.name for part in parts if isinstance(part, syntax.Term))
+    return found
+
+
+def _fine_parts(definition: syntax.SortDefinition, vocabulary: Vocabulary) -> str:
+    parts = []
+    for part in definition.parts:
+        if isinstance(part, syntax.Term):
+            parts.append(vocabulary.fine_sort(part.name))
+        else:
+            members = (fine for whole in part for fine in vocabulary.components[whole.name])
+            parts.append("{" + ", ".join(dict.fromkeys(members)) + "}")
+    return " + ".join(parts)
+
+
+def _section(title: str, lines: Iterable[str]) -> str:
+    body = "\n".join(f"  {line}" for line in lines)
+    return f"{title}\n{body}" if body else ""
+
+
+def _laws(groups: Iterable[str]) -> str:
+    filled = "\n\n".join(filter(None, groups))
+    return f"laws\n{filled}" if filled else ""
+
+
+def _law_groups(laws: Sequence[Result]) -> Iterator[str]:
+    for manner, heading in _HEADINGS.items():
+        lines = [
+            f"  {text_of(law.statement)}  % {law.origin}" for law in laws if law.manner == manner
+        ]
+        if lines:
+            yield "\n".join([f"  % {heading}", *lines])
+
+
+def _bridges(vocabulary: Vocabulary) -> str:
+    """Bridge axioms (P 15): a coarse fluent holds where its counterpart holds of components."""
+    lines = [
+        f"  {_bridge(name, vocabulary)}  % {name}"
+        for name in vocabulary.counterparts
+        if vocabulary.coarse.symbols[name].kind in roles.FLUENTS
+    ]
+    heading = "  % Bridge axioms: a coarse fluent holds where its counterpart holds of components."
+    return "\n".join([heading, *lines]) if lines else ""
+
+
+def _bridge(name: str, vocabulary: Vocabulary) -> str:
+    wholes, parts, links = [], [], []
+    for place, sort in enumerate(vocabulary.coarse.symbols[name].sorts, start=1):
+        whole, part = f"X{place}", f"Y{place}"
+        wholes.append(whole)
+        if vocabulary.touches(sort.name):
+            parts.append(part)
+            links.append(f"{COMPONENT}({part}, {whole})")
+        else:
+            parts.append(whole)
+    counterpart = f"{vocabulary.counterparts[name]}({', '.join(parts)})"
+    return f"{name}({', '.join(wholes)}) if {', '.join([*links, counterpart])}."
+
+
+def _own_laws(fine: syntax.Source) -> Iterator[str]:
+    lines = [
+        f"  {text_of(law)}  % {fine.file}, line {law.place.line}"
+        for law in fine.statements
+        if isinstance(law, _LAWS)
+    ]
+    if lines:
+        yield "\n".join(["  % Particular to the fine resolution.", *lines])
+
+
+def _facts(coarse: syntax.Source, fine: syntax.Source, vocabulary: Vocabulary) -> str:
+    wholes = dict.fromkeys(
+        constant for sort in vocabulary.bridged() for constant in vocabulary.coarse.sorts[sort]
+    )
+    components = (
+        f"{COMPONENT}({part}, {whole})."
+        for whole in wholes
+        for part in vocabulary.components[whole]
+    )
+    stated = (text_of(fact) for text in (coarse, fine) for fact in text.each(syntax.Fact))
+    return _section("facts", [*stated, *components])
+
+
+def _further(title: str, kind: type[syntax.Statement], results: Iterable[Result]) -> str:
+    lines = (
+        f"{text_of(r.statement)}  % {r.origin}" for r in results if isinstance(r.statement, kind)
+    )
+    return _section(title, lines)

@@ -1,0 +1,152 @@
+"""One law at the fine resolution: its counterparts, and the variables that change with them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain, count
+
+from asp import roles, syntax
+from asp.checker import variable_domains
+from asp.refinement.vocabulary import COMPONENT, Vocabulary
+
+
+class Renaming:
+    """How the variables and constants of one coarse law are called where it is refined.
+
+    A variable over magnified constants has a name for the component, in atoms with counterparts,
+    and keeps its own for the whole, in all others; `links` tie together the two.
+    """
+
+    def __init__(self, law: syntax.Statement, vocabulary: Vocabulary) -> None:
+        self._vocabulary = vocabulary
+        self._domains = variable_domains(law, vocabulary.coarse)
+        self._magnified = {
+            name
+            for name, members in self._domains.items()
+            if any(map(vocabulary.is_magnified, members))
+        }
+        self._taken = {*self._domains}
+        self._fine: dict[str, syntax.Term] = {}
+        self._wholes: dict[str, None] = {}
+        self._others: list[syntax.Literal] = []
+        self._inside = {
+            term.name
+            for atom in _atoms(law)
+            if atom.name in vocabulary.counterparts
+            for term in atom.args
+            if self.is_magnified(term)
+        }
+
+    def is_magnified(self, term: syntax.Term) -> bool:
+        if term.is_variable:
+            return term.name in self._magnified
+        return self._vocabulary.is_magnified(term.name)
+
+    def is_refined(self, atom: syntax.Atom) -> bool:
+        return atom.name in self._vocabulary.counterparts
+
+    def is_whole(self, atom: syntax.Atom) -> bool:
+        """Whether the atom is an attribute of magnified constants that stays as it is."""
+        return (
+            atom.name in self._vocabulary.coarse.symbols
+            and not self.is_refined(atom)
+            and any(map(self.is_magnified, atom.args))
+        )
+
+    def atom(self, atom: syntax.Atom) -> syntax.Atom:
+        """The counterpart of an atom that has one; another atom as it is, about the wholes."""
+        if self.is_refined(atom):
+            name = self._vocabulary.counterparts[atom.name]
+            return replace(atom, name=name, args=tuple(map(self.fine, atom.args)))
+        if atom.name in self._vocabulary.coarse.sorts and self._is_only_inside(atom.args[0]):
+            name = self._vocabulary.fine_sort(atom.name)
+            return replace(atom, name=name, args=(self.fine(atom.args[0]),))
+        for term in atom.args:
+            self.whole(term)
+        return atom
+
+    def literal(self, literal: syntax.Literal) -> syntax.Literal:
+        return replace(literal, atom=self.atom(literal.atom))
+
+    def body(self, body: syntax.Body) -> syntax.Body:
+        return tuple(
+            self.literal(part) if isinstance(part, syntax.Literal) else self._comparison(part)
+            for part in body
+        )
+
+    def fine(self, term: syntax.Term) -> syntax.Term:
+        """The component in a counterpart's place: a variable of its own, or what is not magnified.
+
+        A magnified constant stands for any of its components, so that a variable takes its place.
+        """
+        if not self.is_magnified(term):
+            return term
+        if not term.is_variable:
+            self.whole(term)
+        if term.name not in self._fine:
+            self._fine[term.name] = replace(term, name=self._new_name(term))
+        return self._fine[term.name]
+
+    def another(self, term: syntax.Term) -> syntax.Term:
+        """A further component of the whole to which the term's component belongs."""
+        self.fine(term)
+        self._wholes[term.name] = None
+        other = replace(term, name=self._new_name(term))
+        self._others.append(component(other, term))
+        return other
+
+    def whole(self, term: syntax.Term) -> syntax.Term:
+        """Notes that the law speaks of a whole, so that its component is tied to it."""
+        if self.is_magnified(term):
+            self._wholes[term.name] = None
+        return term
+
+    def links(self) -> syntax.Body:
+        """`component(P, O)` for every whole of which the law names a component."""
+        links = (
+            component(self._fine[name], replace(self._fine[name], name=name))
+            for name in self._wholes
+            if name in self._fine
+        )
+        return (*links, *self._others)
+
+    def _is_only_inside(self, term: syntax.Term) -> bool:
+        return self.is_magnified(term) and term.name in self._inside
+
+    def _comparison(self, comparison: syntax.Comparison) -> syntax.Comparison:
+        sides = comparison.left, comparison.right
+        if all(side.is_variable and self._is_only_inside(side) for side in sides):
+            left, right = map(self.fine, sides)
+            return replace(comparison, left=left, right=right)
+        for side in sides:
+            self.whole(side)
+        return comparison
+
+    def _new_name(self, term: syntax.Term) -> str:
+        """The initial of the fine sort, with the number of the variable that it stands for."""
+        letter = self._initial(term)
+        digits = re.sub(r"^.*?(\d*)$", r"\1", term.name) if term.is_variable else ""
+        candidates = chain([letter + digits], (f"{letter}{number}" for number in count(1)))
+        name = next(candidate for candidate in candidates if candidate not in self._taken)
+        self._taken.add(name)
+        return name
+
+    def _initial(self, term: syntax.Term) -> str:
+        """That of the magnified sort's fine sort; over a mixed sort the variable's own."""
+        vocabulary = self._vocabulary
+        members = self._domains[term.name] if term.is_variable else (term.name,)
+        for sort, fine in vocabulary.magnified.items():
+            if set(members) <= set(vocabulary.coarse.sorts[sort]):
+                return fine[0].upper()
+        return term.name[0]
+
+
+def component(part: syntax.Term, whole: syntax.Term) -> syntax.Literal:
+    """`component(part, whole)`."""
+    return syntax.Literal(syntax.Atom(COMPONENT, (part, whole), part.place), True)
+
+
+def _atoms(law: syntax.Statement) -> Iterator[syntax.Atom]:
+    return (use.atom for use in roles.uses(law))
