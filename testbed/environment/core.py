@@ -6,37 +6,52 @@ nothing in the world, so that a game begins at step 1, at which the robot gives 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeAlias
 
 import numpy as np
 from gymnasium.utils import seeding
 
-from asp import literals as text
+from testbed.environment.dynamics import Dynamics
 from testbed.environment.errors import IllegalActionError
-from testbed.environment.rules import Observability, Rules
+from testbed.environment.execution import Exact, Execution
+from testbed.environment.legality import LegalEvents
+from testbed.environment.news import News, Played
+from testbed.environment.rules import Rules
 from testbed.environment.situation import Ending, Situation, Snapshot
-from testbed.environment.world import World
 from testbed.link.messages import Event, Percept
 
 WAIT, FINISH, NONE = "wait", "finish", "none"
 """The actions that are the environment's own: of the robot, and of the adversary."""
 
+Draw: TypeAlias = Callable[[np.random.Generator], int]
+"""Draws the state in which a game begins."""
+
 
 class Core:
-    """A game in a world under rules; `initial` are the states that it may begin in.
+    """A game in a world under rules; `initial` are the states that it may begin in, or a draw.
 
+    `execution` says how the robot's attempts come out; by default what is possible takes effect.
     Raises UnknownFluentError if the goal is not of the domain.
     """
 
     situation: Situation
 
-    def __init__(self, world: World, rules: Rules, initial: Sequence[int]) -> None:
+    def __init__(
+        self,
+        world: Dynamics,
+        rules: Rules,
+        initial: Sequence[int] | Draw,
+        execution: Execution | None = None,
+    ) -> None:
         world.satisfies(0, rules.goal)
         self.world = world
         self.rules = rules
         self.initial = initial
-        self.robot = world.description.robots[0]
-        self.robot_actions = (WAIT, FINISH, *world.agent_actions)
+        self.execution = execution or Exact(world, world.description.robots[0])
+        self.robot = self.execution.robot
+        self._news_desk = News(world, self.execution)
+        self.robot_actions = (WAIT, FINISH, *self.execution.actions)
         self.adversary_actions = (NONE, *world.exogenous_actions)
         self._random: np.random.Generator | None = None
 
@@ -49,7 +64,7 @@ class Core:
         """
         if seed is not None or self._random is None:
             self._random, _ = seeding.np_random(seed)
-        state = self._draw(self.initial) if initial is None else self.world.state(initial)
+        state = self._begin() if initial is None else self.world.state(initial)
         self.situation = Situation(trial=trial, step=1, state=state)
 
     def snapshot(self) -> Snapshot:
@@ -69,15 +84,21 @@ class Core:
         return self.world.satisfies(self.situation.state, self.rules.goal)
 
     @property
+    def visible(self) -> tuple[str, ...]:
+        """The literals that the robot is shown now, by its action and by what it always sees."""
+        return (*self.situation.sensed, *self.execution.visible(self.situation.state))
+
+    @property
     def percept(self) -> Percept:
         """What the robot is told before its next answer."""
         now = self.situation
+        attempted = now.happened is not None
         return Percept(
             trial=now.trial,
             step=now.step,
-            visible=list(self.world.visible(now.state, self.robot)),
-            attempted=None if now.happened is None else now.answer,
-            happened=now.happened,
+            visible=list(self.visible),
+            attempted=now.answer if attempted else None,
+            happened=None if now.happened is None else self.execution.told(now.happened),
             events=list(now.told),
             goal_holds=now.goal_holds,
         )
@@ -87,22 +108,31 @@ class Core:
 
         Not knowing it (None), the adversary may try all that is possible by itself.
         """
-        if robot_action == FINISH or (robot_action == WAIT and not self._opens_thinking):
+        if robot_action is not None and self._closed(robot_action):
             return (NONE,)
-        beside = () if robot_action is None else self._effective(robot_action)
+        events = self.world.exogenous_actions
+        return (NONE, *(event for event in events if self.legal(robot_action, event)))
+
+    def legal_events(self, robot_action: str | None) -> LegalEvents:
+        """The same, each asked for only when it is looked at; another step makes it stale."""
+        return LegalEvents(self.adversary_actions, lambda event: self.legal(robot_action, event))
+
+    def legal(self, robot_action: str | None, event: str) -> bool:
+        """Whether `event` is among `events(robot_action)`."""
+        if event == NONE:
+            return True
+        if robot_action is not None and self._closed(robot_action):
+            return False
         executable, state = self.world.executable, self.situation.state
-        return (NONE, *(e for e in self.world.exogenous_actions if executable(state, (*beside, e))))
+        return all(executable(state, (*way, event)) for way in self._ways(robot_action))
 
     def why_not(self, robot_action: str, event: str) -> str | None:
         """One line that says why the event is impossible beside the robot's action; else None."""
-        if event in self.events(robot_action):
+        if event == NONE:
             return None
-        if robot_action == FINISH:
-            return "nothing exogenous happens while the robot finishes"
-        if robot_action == WAIT and not self._opens_thinking:
-            return "nothing exogenous happens while the robot waits (exogenous_while_thinking)"
-        compound = (*self._effective(robot_action), event)
-        return self.world.why_not(self.situation.state, compound)
+        why_not, state = self.world.why_not, self.situation.state
+        reasons = (why_not(state, (*way, event)) for way in self._ways(robot_action))
+        return self._closed(robot_action) or next(filter(None, reasons), None)
 
     def advance(self, robot_action: str, event: str = NONE) -> None:
         """Plays a step: both actions at once. An attempt at the impossible changes nothing.
@@ -111,17 +141,20 @@ class Core:
         no such action, or the event is not one of `events(robot_action)`.
         """
         self._check(robot_action, event)
-        effective = self._effective(robot_action)
+        happened = self._takes_effect(robot_action)
+        effective = self.execution.physical(robot_action) if happened else ()
         state = self._outcome(effective, event)
+        sensed = self._sensed(robot_action, state) if happened else ()
         step = self.situation.step + 1
-        news = (*self.situation.pending, *self._news(robot_action, event, state))
+        news = (*self.situation.pending, *self._news(robot_action, effective, event, state))
         self.situation = Situation(
             trial=self.situation.trial,
             step=step,
             state=state,
             answer=robot_action,
-            happened=None if robot_action in (WAIT, FINISH) else bool(effective),
+            happened=None if robot_action in (WAIT, FINISH) else happened,
             event=event,
+            sensed=sensed,
             told=tuple(report for due, report in news if due <= step),
             pending=tuple((due, report) for due, report in news if due > step),
             goal_holds=False if self._answers(robot_action) else None,
@@ -129,14 +162,13 @@ class Core:
         )
 
     @property
-    def _opens_thinking(self) -> bool:
-        return self.rules.exogenous_while_thinking
-
-    @property
     def _generator(self) -> np.random.Generator:
         if self._random is None:
             raise RuntimeError("the environment must be reset first")
         return self._random
+
+    def _begin(self) -> int:
+        return self.initial(self._generator) if callable(self.initial) else self._draw(self.initial)
 
     def _draw(self, states: Sequence[int]) -> int:
         if len(states) == 1:
@@ -155,48 +187,55 @@ class Core:
             step = self.situation.step
             raise IllegalActionError(f"step {step}: {event} beside {robot_action}: {reason}")
 
-    def _effective(self, robot_action: str) -> tuple[str, ...]:
-        """The robot's part of the compound action: nothing if it thinks or tries in vain."""
+    def _closed(self, robot_action: str) -> str | None:
+        """Why nothing exogenous happens beside the robot's action, if so."""
+        if robot_action == FINISH:
+            return "nothing exogenous happens while the robot finishes"
+        if robot_action == WAIT:
+            closed = "nothing exogenous happens while the robot waits (exogenous_while_thinking)"
+            return None if self.rules.exogenous_while_thinking else closed
+        return self.execution.closed_to_events(self.situation.state, robot_action)
+
+    def _ways(self, robot_action: str | None) -> Iterator[tuple[str, ...]]:
+        """The robot's part of the compound action, in each way in which it may come out."""
+        if robot_action is None or not self._possible(robot_action):
+            yield ()
+            return
+        yield self.execution.physical(robot_action)
+        if self.execution.chance(robot_action) < 1:
+            yield ()
+
+    def _possible(self, robot_action: str) -> bool:
         if robot_action in (WAIT, FINISH):
-            return ()
-        possible = self.world.executable(self.situation.state, (robot_action,))
-        return (robot_action,) if possible else ()
+            return False
+        return self.execution.possible(self.situation.state, robot_action)
+
+    def _takes_effect(self, robot_action: str) -> bool:
+        if not self._possible(robot_action):
+            return False
+        chance = self.execution.chance(robot_action)
+        return chance >= 1 or bool(self._generator.random() < chance)
+
+    def _sensed(self, robot_action: str, after: int) -> tuple[str, ...]:
+        return self.execution.sensed(robot_action, after, self._generator)
 
     def _outcome(self, effective: tuple[str, ...], event: str) -> int:
         compound = effective if event == NONE else (*effective, event)
         return self._draw(self.world.successors(self.situation.state, compound))
 
-    def _news(self, robot_action: str, event: str, after: int) -> Iterator[tuple[int, Event]]:
-        """Reports of this step, true and false, with the steps at which they reach the robot."""
-        step = self.situation.step
-        told = [event] if self._is_told(self._effective(robot_action), event, after) else []
-        for action in (*told, *self._false_reports(robot_action, event)):
-            late = self.rules.observability[text.name(action)].delay
-            yield step + 1 + late, Event(step=step, action=action)
-
-    def _is_told(self, effective: tuple[str, ...], event: str, after: int) -> bool:
-        how = self.rules.observability.get(text.name(event), Observability())
-        if event == NONE or how.mode == "never":
-            return False
-        if how.mode == "colocated" and not self._witnessed(effective, after):
-            return False
-        return bool(self._generator.random() < how.probability)
-
-    def _false_reports(self, robot_action: str, event: str) -> Iterator[str]:
-        for name, how in self.rules.observability.items():
-            if how.false_reports > 0.0 and self._generator.random() < how.false_reports:
-                possible = (e for e in self.events(robot_action) if text.name(e) == name)
-                others = [other for other in possible if other != event]
-                if others:
-                    yield others[int(self._generator.integers(len(others)))]
-
-    def _witnessed(self, effective: tuple[str, ...], after: int) -> bool:
-        """Whether the robot sees, before or after, what is as it is because of the event."""
-        before = self.situation.state
-        alone = self.world.successors(before, effective)
-        changed = self.world.true_atoms(after ^ (alone[0] if alone else before))
-        seen = self.world.visible(before, self.robot) + self.world.visible(after, self.robot)
-        return not set(changed).isdisjoint(map(text.atom, seen))
+    def _news(
+        self, robot_action: str, effective: tuple[str, ...], event: str, after: int
+    ) -> Iterator[tuple[int, Event]]:
+        """Reports of this step with the steps at which they reach the robot."""
+        played = Played(
+            step=self.situation.step,
+            before=self.situation.state,
+            effective=effective,
+            event=None if event == NONE else event,
+            after=after,
+            possible=lambda: self.events(robot_action),
+        )
+        return self._news_desk.reports(played, self.rules.observability, self._generator)
 
     def _answers(self, robot_action: str) -> bool:
         """Whether this is a wrong `finish` to which the game goes on."""

@@ -67,9 +67,8 @@ def infos(core: Core, robot_action: str | None) -> dict[str, dict[str, Any]]:
 
 
 def _robot(core: Core) -> Observation:
-    seen = core.world.visible(core.situation.state, core.robot)
     return {
-        "observation": _vector(core.world.fluents, seen),
+        "observation": _vector(core.world.fluents, core.visible),
         "action_mask": np.ones(len(core.robot_actions), np.int8),
     }
 

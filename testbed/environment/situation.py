@@ -27,9 +27,9 @@ class Situation:
     """Everything about a running game that changes.
 
     `answer` and `event` are what both agents did at the step before (None at step 1), `happened`
-    whether the robot's physical action took effect (None if it waited or finished); `told` is the
-    news that reaches the robot now, `pending` news with the step at which it will; `goal_holds` is
-    False after a `finish` that was answered, else None.
+    whether the robot's action took effect (None if it waited or finished), `sensed` the literals
+    that it showed; `told` is the news that reaches the robot now, `pending` news with the step at
+    which it will; `goal_holds` is False after a `finish` that was answered, else None.
     """
 
     trial: str
@@ -38,6 +38,7 @@ class Situation:
     answer: str | None = None
     happened: bool | None = None
     event: str | None = None
+    sensed: tuple[str, ...] = ()
     told: tuple[Event, ...] = ()
     pending: tuple[tuple[int, Event], ...] = ()
     goal_holds: bool | None = None
