@@ -13,6 +13,7 @@ from typing import Any
 
 import msgspec
 
+from testbed.link.errors import RobotStops
 from testbed.link.messages import Decision, Percept, Task, Trace
 from testbed.link.serve import serve_forever
 
@@ -56,6 +57,10 @@ def _raise(_: Percept) -> Decision:
     raise ArithmeticError("out of\nideas")
 
 
+def _stop(_: Percept) -> Decision:
+    raise RobotStops("nothing explains what was seen")
+
+
 def _die(_: Percept) -> Decision:
     os.kill(os.getpid(), signal.SIGKILL)
     raise AssertionError("unreachable")
@@ -75,6 +80,7 @@ def _think(_: Percept) -> Decision:
 BEHAVIOURS: dict[str, Callable[[Percept], Any]] = {
     "sound": decision,
     "raising": _raise,
+    "stopping": _stop,
     "dying": _die,
     "exiting": _exit,
     "thinking": _think,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from testbed.link.errors import RobotLost
+from testbed.link.errors import RobotLost, RobotStopped
 from testbed.link.robot import RobotClient
 from tests.link.scripted import percept, task
 
@@ -40,6 +40,17 @@ def test_a_fault_loses_the_robot_for_one_trial(client: RobotClient, fault: str) 
     assert "\n" not in lost.value.reason
     client.begin(task("sound", "t2"))
     assert client.ask(percept(1, "t2")).step == 1
+
+
+def test_a_robot_that_stops_is_not_lost(client: RobotClient) -> None:
+    client.begin(task("sound", "t0"))
+    before = client.ask(percept(1, "t0")).action
+    client.begin(task("stopping"))
+    with pytest.raises(RobotStopped) as stopped:
+        client.ask(percept())
+    assert (stopped.value.reason, stopped.value.details) == ("nothing explains what was seen", "")
+    client.begin(task("sound", "t2"))
+    assert client.ask(percept(1, "t2")).action == before, "the same process"
 
 
 def test_the_details_of_a_failure_are_the_robots_traceback(client: RobotClient) -> None:
