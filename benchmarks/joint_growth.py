@@ -160,4 +160,4 @@ LABELS = {
     "rooms": "rooms",
     "plan": "actions of the shortest plan",
 }
-SCALES = {"history": "log", "rooms": "log", "plan": "linear"}
+SCALES = {"history": "log", "rooms": "linear", "plan": "linear"}
