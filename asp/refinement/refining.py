@@ -1,4 +1,4 @@
-"""The refined description D_f as AL_d text, of a coarse description and the text that refines it."""
+"""D_f as AL_d text, made of a coarse description and the text that refines it."""
 
 from __future__ import annotations
 
