@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
 
@@ -15,8 +15,12 @@ from asp.parser import parse
 from asp.signature import Problems, Signature, signature_of
 
 
+@lru_cache(maxsize=16)
 def analyse(text: str, file: str = "<text>") -> tuple[syntax.Source, Signature]:
-    """Parses and checks a text. Raises SourceError, whose `all` holds every mistake found."""
+    """Parses and checks a text, each of the last few once.
+
+    Raises SourceError, whose `all` holds every mistake found.
+    """
     source = parse(text, file)
     problems = Problems(file)
     signature = signature_of(source, problems)

@@ -22,6 +22,11 @@ _HEADER = """\
 #const n = 1.
 step(0..n)."""
 
+AWARENESS = """\
+% Awareness: initially every inertial fluent is true or false.
+1 { holds(F,0); -holds(F,0) } 1 :- inertial(F).
+"""
+
 _GENERAL = """\
 % Inertia.
 holds(F,I+1)  :- inertial(F), holds(F,I),  not -holds(F,I+1), step(I), I < n.
@@ -32,10 +37,7 @@ holds(F,I+1)  :- inertial(F), holds(F,I),  not -holds(F,I+1), step(I), I < n.
 
 % An action that is impossible does not occur; neither does one of which nothing says that it does.
 -occurs(A,I) :- impossible(A,I).
--occurs(A,I) :- action(A), not occurs(A,I), step(I).
-
-% Awareness: initially every inertial fluent is true or false.
-1 { holds(F,0); -holds(F,0) } 1 :- inertial(F)."""
+-occurs(A,I) :- action(A), not occurs(A,I), step(I)."""
 
 _ACTIONS = """\
 action(A) :- agent_action(A).
@@ -52,8 +54,8 @@ def translate_source(source: syntax.Source, signature: Signature) -> str:
     writer = _Writer(source)
     for statement in source.statements:
         writer.write(statement, _rules(statement, signature))
-    sections = [_HEADER, writer.text(), _signature_rules(signature), _GENERAL]
-    return "\n\n".join(section for section in sections if section) + "\n"
+    sections = [_HEADER, writer.text(), _signature_rules(signature), _GENERAL, AWARENESS]
+    return "\n\n".join(section for section in sections if section)
 
 
 class _Writer:

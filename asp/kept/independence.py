@@ -92,6 +92,15 @@ class Independence:
             )
         )
 
+    @cached_property
+    def _hindered(self) -> Mapping[tuple[str, ...], set[str]]:
+        """Of each condition, the actions that it makes impossible by itself."""
+        found: dict[tuple[str, ...], set[str]] = {}
+        for law in self._description.executability:
+            if len(law.actions) == 1:
+                found.setdefault(law.body, set()).add(law.actions[0])
+        return found
+
     def _is_independent(self, constant: str) -> bool:
         description = self._description
         return (
@@ -127,11 +136,7 @@ class Independence:
     def _only_while(self, condition: str, head: str) -> bool:
         description = self._description
         makers = {law.action for law in description.causal if law.head == condition}
-        guarded = {
-            law.actions[0]
-            for law in description.executability
-            if len(law.actions) == 1 and law.body == (complement(head),)
-        }
+        guarded = self._hindered.get((complement(head),), set())
         derived = any(law.head == condition for law in description.constraints)
         return not derived and makers <= guarded and atom(condition) in description.inertial
 

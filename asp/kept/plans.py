@@ -11,7 +11,7 @@ from asp.kept.control import State
 from asp.kept.independence import Independence, symmetric_pairs
 from asp.kept.planner import Planner
 from asp.literals import arguments, ground, is_positive, name
-from asp.loading import analyse
+from asp.loading import analyse, parse_description
 from asp.restriction import narrowed, restrict, without_exogenous
 from asp.translation import translate_source
 
@@ -28,30 +28,31 @@ class Plans:
         """`text` is an AL_d text, `file` its name in errors. Raises SourceError."""
         self._source, self._signature = analyse(text, file)
         self._name = Path(file).stem
-        description = ground_description(self._source, self._signature, self._name)
+        description = parse_description(text, file)
         self._independence = Independence(description, self._source, self._signature)
         self._planners: dict[frozenset[str], Planner] = {}
 
     def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
-        """The first of the shortest plans of at most `limit` actions, or None."""
+        """The first of the shortest plans of at most `limit` actions, or None.
+
+        Raises TimeLimitError; asked the same again, it goes on where it was.
+        """
         view = _View(self._independence, state, goal)
         planner = self._planner(view.dropped)
         pairs = symmetric_pairs(planner.classes, view.state, view.goal)
-        for length in range(1, limit + 1):
-            plan = planner.plan(view.state, view.goal, length, pairs)
-            if plan is not None:
-                return view.back(plan)
-        return None
+        plan = planner.shortest(view.state, view.goal, limit, pairs)
+        return None if plan is None else view.back(plan)
 
     def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         view = _View(self._independence, state, (*goal, *plan))
         planner = self._planner(view.dropped)
-        goal, plan = view.seen(goal), view.seen(plan)
-        # Most plans reach their goal with the last action, so that the longest part comes first.
-        return any(
-            planner.reaches(view.state, goal, plan[:length]) for length in range(len(plan), 0, -1)
-        )
+        return planner.succeeds(view.state, view.seen(goal), view.seen(plan))
+
+    def never(self, state: State, goal: tuple[str, ...]) -> bool:
+        """Whether it is proved, by looking at all states, that no plan of any length succeeds."""
+        view = _View(self._independence, state, goal)
+        return self._planner(view.dropped).never(view.state, view.goal)
 
     def _planner(self, dropped: frozenset[str]) -> Planner:
         if dropped not in self._planners:
