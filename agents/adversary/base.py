@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -11,13 +12,14 @@ class AdversaryView:
     """What an adversary sees before it answers.
 
     `state` are the true fluents, `robot_action` what the robot will attempt at this step, `legal`
-    what may be answered: `none`, and the exogenous actions possible beside the robot's.
+    what may be answered: `none`, and the exogenous actions possible beside the robot's. Where these
+    are many, asking whether one is legal is quick, and listing all is not.
     """
 
     step: int
     state: frozenset[str]
     robot_action: str
-    legal: tuple[str, ...]
+    legal: Sequence[str]
 
 
 class Adversary(Protocol):

@@ -39,7 +39,7 @@ class Triggered:
         self._fired = False
 
     def act(self, view: AdversaryView) -> str:
-        if self._fired or view.legal == (NONE,):
+        if self._fired or tuple(view.legal) == (NONE,):
             return NONE
         triggers = [t for t in self._triggers if t.upon in (None, view.robot_action)]
         if not self._tries(triggers):

@@ -102,26 +102,26 @@ class Laws:
                 self._add_constraint(constraint)
 
     def _add_effect(self, law: syntax.CausalLaw) -> None:
-        read = _Reader(law, self._signature, self._statics)
+        read = Reader(law, self._signature, self._statics)
         head, body = read.membership(law.head), read.conditions(law.body)
         pattern = Pattern(read.scope, [read.template(law.action)], head, body, body)
         self.effects[law.action.name].append(pattern)
 
     def _add_prohibition(self, law: syntax.ExecutabilityCondition) -> None:
-        read = _Reader(law, self._signature, self._statics)
+        read = Reader(law, self._signature, self._statics)
         body = read.conditions(law.body)
         pattern = Pattern(read.scope, [read.template(a) for a in law.actions], None, body, body)
         self.prohibitions.append(Prohibition(tuple(a.name for a in law.actions), pattern))
 
     def _add_sight(self, sight: syntax.SeesStatement) -> None:
-        read = _Reader(sight, self._signature, self._statics)
+        read = Reader(sight, self._signature, self._statics)
         head = read.membership(syntax.Literal(sight.fluent, True))
         body = read.conditions(sight.body)
         robot = Template("", (read.arg(sight.robot),))
         self.sights.append(Pattern(read.scope, [robot], head, body, body))
 
     def _add_constraint(self, law: syntax.StateConstraint) -> None:
-        read = _Reader(law, self._signature, self._statics)
+        read = Reader(law, self._signature, self._statics)
         head, body = read.membership(law.head), read.conditions(law.body)
         news = [] if head.positive else [Membership(head.atom, True, False)]
         fluents = [c for c in body if isinstance(c, Membership) and not c.static]
@@ -137,7 +137,7 @@ class Laws:
             self.groundless.append(anywhere)
 
 
-class _Reader:
+class Reader:
     """The atoms of one statement with its variables as slots."""
 
     def __init__(self, statement: syntax.Statement, signature: Signature, statics: Facts) -> None:

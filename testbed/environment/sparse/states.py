@@ -42,9 +42,10 @@ class SparseStates:
         self._atoms = tuple(map(atom_of_text, self.fluents))
         self._numbers = {atom: number for number, atom in enumerate(self._atoms)}
         self._defined = frozenset(map(text.name, self.description.defined))
-        statics = Facts(map(atom_of_text, self.description.statics))
-        self._laws = Laws(source, signature, statics)
-        self._facts = lru_cache(_REMEMBERED)(self._decode)
+        self.signature = signature
+        self.statics = Facts(map(atom_of_text, self.description.statics))
+        self._laws = Laws(source, signature, self.statics)
+        self.facts = lru_cache(_REMEMBERED)(self._decode)
 
     def state(self, literals: Iterable[str]) -> int:
         """The initial state of these literals; a fluent left out is false unless it follows.
@@ -60,6 +61,15 @@ class SparseStates:
             raise StateError(f"{found} with {self._text(map(self._literal, given))}")
         self._check_initial(states[0])
         return states[0]
+
+    def adjusted(self, state: int, literals: Iterable[str]) -> tuple[int, ...]:
+        """The states in which the literals hold, and else what holds in the given one if it can."""
+        change = Change(self._laws, self._defined, self.facts(state), map(self._literal, literals))
+        return tuple(sorted(self._changed(state, outcome) for outcome in change.outcomes()))
+
+    def bare(self) -> int:
+        """The state in which nothing is true but what must be."""
+        return next(self._changed(0, outcome) for outcome in self._described([]).outcomes())
 
     def check_together(self, literals: Iterable[str]) -> None:
         """Raises StateError where the literals, with all that follows from them, are in no state.
@@ -77,7 +87,7 @@ class SparseStates:
         twice = [(atom, sign) for atom, sign in given if (atom, not sign) in given]
         if twice:
             raise StateError(f"contradiction between {self._text(twice)}")
-        change = Change(self._laws, self._defined, self._facts(0), given, self._seeds())
+        change = Change(self._laws, self._defined, self.facts(0), given, self._seeds())
         broken = change.conflict()
         if broken is not None:
             raise StateError(self._breach(broken))
@@ -97,18 +107,18 @@ class SparseStates:
             return False
 
         for pattern in self._laws.groundless:
-            pattern.search([], self._facts(0), keep)
+            pattern.search([], self.facts(0), keep)
         return found
 
     def _check_initial(self, state: int) -> None:
-        facts = self._facts(state)
+        facts = self.facts(state)
         for some in self.description.initially:
             if not any(facts.may_hold(atom_of_text(option)) for option in some):
                 raise StateError(f"an initial state needs {' or '.join(some)}")
 
     def is_state(self, state: int) -> bool:
         """Whether the set of true fluents is closed under constraints and definitions."""
-        facts = self._facts(state)
+        facts = self.facts(state)
 
         def broken(instance: Instance) -> bool:
             atom, positive = instance.head

@@ -84,7 +84,7 @@ class SparseWorld(SparseStates):
             seen.add(instance.head[0])
             return False
 
-        facts = self._facts(state)
+        facts = self.facts(state)
         for pattern in self._laws.sights:
             pattern.search([("", robot)], facts, see)
         return self._render((atom, facts.may_hold(atom)) for atom in seen)
@@ -93,7 +93,7 @@ class SparseWorld(SparseStates):
         actions = self._read(compound)
         if self._forbidding(state, actions) is not None:
             return ()
-        facts = self._facts(state)
+        facts = self.facts(state)
         effects = self._effects(state, actions)
         change = Change(self._laws, self._defined, facts, effects)
         return tuple(sorted(self._changed(state, outcome) for outcome in change.outcomes()))
@@ -115,7 +115,7 @@ class SparseWorld(SparseStates):
 
         for action in actions:
             for pattern in self._laws.effects.get(action[0], ()):
-                pattern.search([action], self._facts(state), take)
+                pattern.search([action], self.facts(state), take)
         return list(effects)
 
     def _forbidding(self, state: int, actions: list[GroundAtom]) -> str | None:
@@ -134,7 +134,7 @@ class SparseWorld(SparseStates):
     ) -> str | None:
         if not all(name in by_name for name in law.names):
             return None
-        facts = self._facts(state)
+        facts = self.facts(state)
         reasons: list[Instance] = []
 
         def first(instance: Instance) -> bool:

@@ -1,0 +1,45 @@
+"""An adversary that now and then does something at random."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from agents.adversary.base import AdversaryView
+from asp import literals as text
+from testbed.environment.core import NONE
+
+
+class Random:
+    """At each step, with probability `rate`, one exogenous action among the legal ones.
+
+    First what it is done to is drawn (the first argument), among those to which something can be
+    done, then what is done. Only as many events are tried as it takes to find a legal one.
+    """
+
+    def __init__(self, exogenous_actions: Sequence[str], rate: float) -> None:
+        """Raises ValueError for a rate that is no probability."""
+        if not 0 <= rate <= 1:
+            raise ValueError(f"rate: {rate} does not lie between 0 and 1")
+        self._rate = rate
+        groups: dict[tuple[str, ...], list[str]] = {}
+        for event in exogenous_actions:
+            groups.setdefault(text.arguments(event)[:1], []).append(event)
+        self._groups = list(groups.values())
+        self.reset(0)
+
+    def reset(self, seed: int) -> None:
+        self._random = np.random.default_rng(seed)
+
+    def act(self, view: AdversaryView) -> str:
+        if self._random.random() >= self._rate:
+            return NONE
+        return next((event for event in self._drawn() if event in view.legal), NONE)
+
+    def _drawn(self) -> Iterator[str]:
+        """The events in a random order, those of one thing after those of another."""
+        for number in self._random.permutation(len(self._groups)):
+            group = self._groups[int(number)]
+            for place in self._random.permutation(len(group)):
+                yield group[int(place)]

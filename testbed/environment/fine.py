@@ -1,0 +1,51 @@
+"""A game at the fine resolution, made of a refinement."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+
+from asp.refinement import Refinement
+from testbed.environment.core import Core
+from testbed.environment.rules import Rules
+from testbed.environment.sparse import SparseWorld
+from testbed.environment.sparse.sensing import Sensing
+from testbed.environment.starts import RandomStart
+from testbed.environment.tested import Pace, Statistics, Tested
+
+__all__ = ["Pace", "RandomStart", "Statistics", "fine_core", "fine_world"]
+
+STATISTICS: Statistics = {}
+"""A deterministic world with right tests."""
+
+
+@cache
+def fine_world(refinement: Refinement) -> SparseWorld:
+    """The world of the weak refinement, compiled once."""
+    return SparseWorld(refinement.weak, refinement.weak_signature)
+
+
+def fine_core(
+    refinement: Refinement,
+    rules: Rules,
+    statistics: Mapping[str, float] = STATISTICS,
+    pace: Pace = "concrete",
+    initial: Sequence[int] | None = None,
+) -> Core:
+    """A game whose robot acts and tests at the fine resolution.
+
+    The goal may have literals of both resolutions. Without `initial` a game begins in a random
+    state (`RandomStart`). Raises UnknownFluentError for the goal, ValueError for the statistics.
+    """
+    world = fine_world(refinement)
+    robot = refinement.description.robots[0]
+    sensing = _sensing(refinement)
+    coarse = refinement.coarse_signature.symbols.keys()
+    execution = Tested(world, sensing, robot, statistics, coarse, pace)
+    starts = RandomStart(world, robot) if initial is None else initial
+    return Core(world, rules, starts, execution)
+
+
+@cache
+def _sensing(refinement: Refinement) -> Sensing:
+    return Sensing(fine_world(refinement), refinement.strong, refinement.strong_signature)
