@@ -3,27 +3,58 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 
 import asp
-from asp import Description, literals
+from asp import Description
 from asp.errors import SourceError
 from asp.literals import atom, complement
 from testbed.config.errors import ConfigError, nearest
+from testbed.config.grounds import grounds
+from testbed.config.levels import ground_findings, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings, ScriptEntry
 from testbed.config.places import Key, Places
+from testbed.config.words import Finding, unknown_atom
 from testbed.environment.errors import StateError
 from testbed.environment.world import World
-
-Finding = tuple[Key, str]
 
 
 def check(config: ExperimentConfig, places: Places, robots: Collection[str] | None) -> None:
     """Raise ConfigError with a line for everything in `config` that its domain does not allow."""
-    description = _description(config, places)
-    lines = _lines([*_twice(config), *_robots(config, robots)], places)
-    lines += _of_the_domain(_domain_findings(config, description), places)
+    findings = [*_twice(config), *_robots(config, robots)]
+    if config.is_fine:
+        lines = _lines([*findings, *_of_the_levels(config, places)], places)
+    else:
+        description = _description(config, places)
+        lines = _lines([*findings, *_coarse_alone(config)], places)
+        lines += _of_the_domain(_domain_findings(config, description), places)
     if lines:
         raise ConfigError(lines)
+
+
+def _of_the_levels(config: ExperimentConfig, places: Places) -> list[Finding]:
+    """Findings at the fine resolution: what all levels have in common, or else what the first has.
+
+    Raises ConfigError for mistakes in the texts of a map.
+    """
+    if findings := list(settings_findings(config)):
+        return findings
+    with _texts_read(places, "refinement"):
+        for _, ground in grounds(config):
+            if findings := list(ground_findings(config, ground.refinement)):
+                return findings
+    return []
+
+
+def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
+    for key in ("level_sizes", "statistics"):
+        if getattr(config, key):
+            yield (key,), "goes with levels, or with a refinement, and there are none"
+    if config.adversary.strategy == "random":
+        yield (
+            ("adversary", "strategy"),
+            "random events are drawn at levels; scenarios have triggers",
+        )
 
 
 def _domain_findings(config: ExperimentConfig, description: Description) -> list[Finding]:
@@ -54,12 +85,19 @@ def _lines(findings: Sequence[Finding], places: Places) -> list[str]:
 
 
 def _description(config: ExperimentConfig, places: Places) -> Description:
-    try:
+    with _texts_read(places, "domain"):
         return asp.load_description(config.domain)
+
+
+@contextmanager
+def _texts_read(places: Places, key: str) -> Iterator[None]:
+    """Mistakes in the texts that a key leads to, as those of the configuration."""
+    try:
+        yield
     except SourceError as error:
         raise ConfigError([str(mistake) for mistake in error.all]) from None
     except OSError as error:
-        raise ConfigError([f"{places.of(('domain',))}: {error.strerror or error}"]) from None
+        raise ConfigError([f"{places.of((key,))}: {error.strerror or error}"]) from None
 
 
 def _owners(
@@ -143,18 +181,3 @@ def _script(
             yield (*key, index, "action"), unknown_atom(entry.action, known, "exogenous action")
         if any(entry.step == earlier.step for earlier in entries[:index]):
             yield (*key, index, "step"), f"step {entry.step} has an action already; one a step"
-
-
-def unknown_atom(text: str, known: Sequence[str], what: str) -> str:
-    """Say what is wrong with a ground atom that is not among the known ones, and what is right."""
-    name, values = literals.name(text), literals.arguments(text)
-    same = [literals.arguments(item) for item in known if literals.name(item) == name]
-    if not same:
-        return f"no {what} '{name}'; {nearest(name, map(literals.name, known))}"
-    if len(values) != len(same[0]):
-        return f"{name} takes {len(same[0])} arguments, as in {literals.ground(name, same[0])}"
-    for position, value in enumerate(values):
-        possible = {parts[position] for parts in same}
-        if value not in possible:
-            return f"'{value}' in {text} is not known there; {nearest(value, possible)}"
-    return f"{text} is not a {what}; {nearest(text, known)}"

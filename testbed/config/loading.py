@@ -28,9 +28,9 @@ def load_config(
 ) -> ExperimentConfig:
     """The validated configuration of a file or a packaged name, with dotted overrides applied.
 
-    A `domain` given as a path is taken relative to the configuration, and is absolute in the
-    answer. `robots`, where given, are the kinds of robot that may be asked for. `given_in` is what
-    errors call the place of the overrides.
+    A `domain` given as a path, and a `refinement`, are taken relative to the configuration, and
+    are absolute in the answer. `robots`, where given, are the kinds of robot that may be asked
+    for. `given_in` is what errors call the place of the overrides.
 
     Raises:
         ConfigError: one line an error, each with its place and what would be right.
@@ -162,11 +162,15 @@ def _section_in(annotation: Any) -> type[Section] | None:
 
 
 def _located(config: ExperimentConfig, path: Path) -> ExperimentConfig:
-    if not config.domain.endswith(".al"):
-        return config
-    beside = path.parent / config.domain
-    domain = beside if beside.is_file() else Path(config.domain)
-    return config.model_copy(update={"domain": str(domain.resolve())})
+    found = {"domain": config.domain} if config.domain.endswith(".al") else {}
+    if config.refinement is not None:
+        found["refinement"] = config.refinement
+    return config.model_copy(update={key: _beside(path, file) for key, file in found.items()})
+
+
+def _beside(path: Path, file: str) -> str:
+    beside = path.parent / file
+    return str((beside if beside.is_file() else Path(file)).resolve())
 
 
 def _yaml_line(path: Path, error: yaml.YAMLError) -> str:

@@ -108,7 +108,7 @@ class AdversarySettings(Section):
     pace: Pace = "concrete"
 
 
-class LevelSize(Section):
+class LevelSettings(Section):
     """Rooms in a row, each a grid of cells; `objects` are kinds of them, each (number, parts)."""
 
     rooms: Annotated[int, Field(strict=True, ge=2)]
@@ -161,7 +161,7 @@ class ExperimentConfig(Section):
         default_factory=dict
     )
     levels: tuple[Name, ...] = ()
-    level_sizes: Annotated[dict[str, LevelSize], BeforeValidator(_named_keys)] = Field(
+    level_sizes: Annotated[dict[str, LevelSettings], BeforeValidator(_named_keys)] = Field(
         default_factory=dict
     )
     draw: Drawing = Drawing()

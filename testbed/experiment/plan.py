@@ -8,19 +8,39 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import msgspec
 import numpy as np
 
-from testbed.config.models import ExperimentConfig, KnowledgeKind
+from asp.levels import LevelSize
+from testbed.config.grounds import grounds, level_size
+from testbed.config.models import ExperimentConfig, KnowledgeKind, Pace
 from testbed.environment.rules import Observability
 from testbed.environment.world import World
 from testbed.experiment.domains import load_world
+from testbed.experiment.drawing import Drawing
 from testbed.experiment.record import COARSE
 
+PROTOCOL = "levels"
+"""The protocol of trials at the fine resolution, in place of a scenario."""
 
-class Setting(msgspec.Struct, frozen=True, kw_only=True):
-    """What holds in every trial of one scenario of a configuration.
+
+class FineSetting(msgspec.Struct, frozen=True, kw_only=True):
+    """What trials at the fine resolution have of their own.
+
+    `size` is that of a level which is made, `refinement` else the file that refines the domain;
+    `statistics` are probabilities by the name of the action.
+    """
+
+    size: LevelSize | None
+    refinement: str | None
+    statistics: dict[str, float]
+    pace: Pace
+
+
+class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """What holds in every trial of one scenario, or at one level, of a configuration.
 
     `script` is `((step, action), ...)`, or None for the scenario's triggers; `observability` is by
     the name of the exogenous action.
@@ -37,6 +57,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True):
     step_limit: int
     plan_limit: int
     decision_s: float | None
+    fine: FineSetting | None = None
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -54,7 +75,11 @@ class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
-    """The trials of a configuration in their order: scenario, pair, robot."""
+    """The trials of a configuration in their order: scenario or level, pair, robot."""
+    return list(_at_levels(config)) if config.is_fine else _in_scenarios(config)
+
+
+def _in_scenarios(config: ExperimentConfig) -> list[TrialSpec]:
     world = load_world(config.domain)
     return [
         spec
@@ -62,6 +87,34 @@ def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
         for initial in _initial_states(config, scenario, world)
         for spec in _pair(config, scenario, initial, world.description.name)
     ]
+
+
+def _at_levels(config: ExperimentConfig) -> Iterator[TrialSpec]:
+    domain = Path(config.domain).stem
+    for level, ground in grounds(config):
+        drawing = Drawing(config, ground.refinement)
+        texts = [ground.refinement.coarse.text, ground.text] if config.refinement else []
+        for number in range(1, (config.limit or 0) + 1):
+            path = [level, *texts, number]
+            initial, goal = drawing.trial(generator_of(config.seed, path))
+            setting = _fine_setting(config, level, goal)
+            yield from _specs(config, PROTOCOL, level, path, initial, setting, domain)
+
+
+def _fine_setting(config: ExperimentConfig, level: str, goal: tuple[str, ...]) -> Setting:
+    fine = FineSetting(
+        size=None if config.refinement else level_size(config, level),
+        refinement=config.refinement,
+        statistics=dict(sorted(config.statistics.items())),
+        pace=config.adversary.pace,
+    )
+    common = setting_of(config, PROTOCOL)
+    return msgspec.structs.replace(common, goal=goal, fine=fine)
+
+
+def generator_of(root: int, path: object) -> np.random.Generator:
+    """What draws the trial at a seed path."""
+    return np.random.default_rng(np.random.SeedSequence(root, spawn_key=_words(["draw", path])))
 
 
 def _initial_states(
@@ -87,24 +140,39 @@ def _pair(
 ) -> Iterator[TrialSpec]:
     setting = setting_of(config, scenario)
     path = [domain, COARSE, scenario, list(initial), sorted(setting.goal)]
+    return _specs(config, scenario, COARSE, path, initial, setting, domain)
+
+
+def _specs(
+    config: ExperimentConfig,
+    scenario: str,
+    level: str,
+    path: Sequence[object],
+    initial: tuple[str, ...],
+    setting: Setting,
+    domain: str,
+) -> Iterator[TrialSpec]:
+    """The trials of a pair, whose seed path this is: one a robot."""
     seed = trial_seed(config.seed, path)
-    logical = [
-        config.seed,
-        path,
-        msgspec.to_builtins(msgspec.structs.replace(setting, domain=domain)),
-    ]
+    logical = [config.seed, path, _without_files(setting, domain)]
     for robot in config.robots:
         yield TrialSpec(
             trial=_short_hash([*logical, robot]),
             pair=_short_hash(logical),
             scenario=scenario,
-            level=COARSE,
+            level=level,
             seed=seed,
             robot=robot,
             initial=initial,
             domain=domain,
             setting=setting,
         )
+
+
+def _without_files(setting: Setting, domain: str) -> object:
+    """The setting as it is hashed: wherever its files lie."""
+    fine = setting.fine and msgspec.structs.replace(setting.fine, refinement=None)
+    return msgspec.to_builtins(msgspec.structs.replace(setting, domain=domain, fine=fine))
 
 
 def setting_of(config: ExperimentConfig, scenario: str) -> Setting:

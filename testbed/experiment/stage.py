@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from typing import Protocol
 
 from agents.adversary.base import Adversary
+from testbed.config.grounds import Ground, of_files, of_size
 from testbed.environment.core import Core
-from testbed.environment.rules import Rules
 from testbed.environment.world import World
 from testbed.experiment.adversaries import make_adversary
+from testbed.experiment.conditions import known, rules_of
 from testbed.experiment.domains import load_world
+from testbed.experiment.fine_stage import FineStage
 from testbed.experiment.oracle import minimal_actions
 from testbed.experiment.plan import Setting, TrialSpec
 from testbed.link.messages import Task
@@ -72,22 +75,14 @@ class CoarseStage:
 
 def load_stage(setting: Setting) -> Stage:
     """The stage of a setting; its world is loaded once. Raises what `asp.load_description` does."""
-    return CoarseStage(load_world(setting.domain))
+    fine = setting.fine
+    if fine is None:
+        return CoarseStage(load_world(setting.domain))
+    if fine.size is not None:
+        return _fine_stage(of_size(fine.size))
+    return _fine_stage(of_files(setting.domain, fine.refinement or ""))
 
 
-def known(setting: Setting, world: World, state: int) -> tuple[str, ...]:
-    """What the robot knows of the initial state."""
-    if setting.knowledge == "complete":
-        return world.literals(state)
-    return world.visible(state, world.description.robots[0])
-
-
-def rules_of(setting: Setting) -> Rules:
-    """The rules of the game."""
-    return Rules(
-        goal=setting.goal,
-        steps=setting.step_limit,
-        observability=setting.observability,
-        goal_feedback=setting.goal_feedback,
-        exogenous_while_thinking=setting.exogenous_while_thinking,
-    )
+@lru_cache(maxsize=16)
+def _fine_stage(ground: Ground) -> FineStage:
+    return FineStage(ground)

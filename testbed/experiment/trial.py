@@ -14,7 +14,7 @@ from testbed.environment.core import NONE, Core
 from testbed.environment.errors import IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
 from testbed.experiment.plan import TrialSpec
-from testbed.experiment.record import TrialRecord
+from testbed.experiment.record import FineCounts, TrialRecord
 from testbed.experiment.recorder import Recorder, recorder_of
 from testbed.experiment.stage import load_stage
 from testbed.link.errors import RobotLost, RobotStopped
@@ -89,6 +89,7 @@ def blank_record(spec: TrialSpec) -> TrialRecord:
         level=spec.level,
         initial=list(spec.initial),
         goal=list(spec.setting.goal),
+        fine=None if spec.setting.fine is None else FineCounts(),
     )
 
 
@@ -144,7 +145,7 @@ def _view(core: Core, robot_action: str) -> AdversaryView:
         step=now.step,
         state=frozenset(core.world.true_atoms(now.state)),
         robot_action=robot_action,
-        legal=core.events(robot_action),
+        legal=core.legal_events(robot_action),
     )
 
 

@@ -1,0 +1,130 @@
+"""Check what a configuration says of trials at the fine resolution, against each of its levels."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from itertools import islice, product
+
+from asp import literals
+from asp.levels import LEVELS
+from asp.literals import atom
+from asp.refinement import Refinement
+from asp.signature import Signature
+from testbed.config.errors import nearest
+from testbed.config.models import ExperimentConfig
+from testbed.config.places import Key
+from testbed.config.words import Finding, unknown_atom
+from testbed.environment.errors import StateError
+from testbed.environment.sparse import SparseWorld
+from testbed.environment.world import World
+
+FLUENTS = ("inertial", "defined")
+_EXCLUDED = ("scenarios", "scenario_settings")
+
+
+def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:
+    """What can be said without the levels' descriptions: keys that do not go together, names."""
+    given = config.model_fields_set
+    for key in _EXCLUDED:
+        if key in given and getattr(config, key):
+            yield (key,), f"goes with no levels; give {key} or levels, not both"
+    if config.limit is None:
+        yield ("limit",), "is missing; a level's trials are drawn: for example limit: 200"
+    if config.refinement is not None and config.levels:
+        yield ("levels",), "goes with no refinement, which is a level of its own; give one of them"
+    elif config.levels and config.domain != ExperimentConfig.model_fields["domain"].default:
+        yield ("domain",), "goes with no levels, which are made; with a domain give its refinement"
+    if config.adversary.strategy == "triggers":
+        yield ("adversary", "strategy"), "triggers belong to scenarios; at levels events are random"
+    yield from _names(config)
+
+
+def _names(config: ExperimentConfig) -> Iterator[Finding]:
+    known = (*LEVELS, *config.level_sizes)
+    for index, name in enumerate(config.levels):
+        if name not in known:
+            yield ("levels", index), f"unknown level '{name}'; {nearest(name, known)}"
+        if name in config.levels[:index]:
+            yield ("levels", index), f"'{name}' is listed twice; keep one of the two"
+    for name in config.level_sizes:
+        if name in LEVELS:
+            yield ("level_sizes", name), "is a published level; give your own another name"
+
+
+def ground_findings(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:
+    """What the descriptions of one level do not allow."""
+    coarse, weak = refinement.coarse_signature, refinement.weak_signature
+    yield from _literals(("goal",), config.goal, coarse)
+    yield from _patterns(config.draw.goal if not config.goal else (), coarse)
+    yield from _known(("observability",), config.observability, _named(weak, "exogenous"))
+    actions = _named(refinement.strong_signature, "agent")
+    yield from _known(("statistics",), config.statistics, actions)
+    yield from _together(config, refinement)
+    for index, entry in enumerate(config.script or ()):
+        known = instances(weak, entry.action, ("exogenous",))
+        if entry.action not in known:
+            message = unknown_atom(entry.action, known, "exogenous action")
+            yield ("script", index, "action"), message
+
+
+def _together(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:
+    """Whether there is such a goal, and such an initial state."""
+    unknown = list(_literals(("initial",), config.initial or (), refinement.weak_signature))
+    yield from unknown
+    if config.initial is not None and not unknown:
+        try:
+            SparseWorld(refinement.weak, refinement.weak_signature).state(config.initial)
+        except StateError as error:
+            yield ("initial",), f"no such initial state: {error}"
+    if config.goal and not list(_literals(("goal",), config.goal, refinement.coarse_signature)):
+        try:
+            World(refinement.description).check_together(config.goal)
+        except StateError as error:
+            yield ("goal",), f"no state has all of this: {error}"
+
+
+def _literals(key: Key, given: Iterable[str], signature: Signature) -> Iterator[Finding]:
+    for index, literal in enumerate(given):
+        known = instances(signature, atom(literal), FLUENTS)
+        if atom(literal) not in known:
+            yield (*key, index), unknown_atom(atom(literal), known, "fluent")
+
+
+def _patterns(given: Iterable[str], signature: Signature) -> Iterator[Finding]:
+    for index, literal in enumerate(given):
+        key, name = ("draw", "goal", index), literals.name(literal)
+        fluents = {n: s for n, s in signature.symbols.items() if s.kind in FLUENTS}
+        if name not in fluents:
+            yield key, f"no fluent '{name}'; {nearest(name, fluents)}"
+            continue
+        sorts = literals.arguments(literal)
+        if len(sorts) != len(fluents[name].sorts):
+            example = literals.ground(name, (sort.name for sort in fluents[name].sorts))
+            yield key, f"{name} takes {len(fluents[name].sorts)} sorts, as in {example}"
+        for sort in sorts:
+            if sort not in signature.sorts:
+                yield key, f"unknown sort '{sort}'; {nearest(sort, signature.sorts)}"
+
+
+def _known(key: Key, given: Iterable[str], known: Collection[str]) -> Iterator[Finding]:
+    for name in given:
+        if name not in known:
+            yield (*key, name), f"no such action at this resolution; {nearest(name, known)}"
+
+
+def _named(signature: Signature, kind: str) -> list[str]:
+    return [name for name, symbol in signature.symbols.items() if symbol.kind == kind]
+
+
+def instances(signature: Signature, text: str, kinds: Collection[str]) -> tuple[str, ...]:
+    """The ground atoms with the name of this one; of the other symbols of these kinds one each."""
+    wanted = literals.name(text)
+    return tuple(
+        literals.ground(name, values)
+        for name, symbol in signature.symbols.items()
+        if symbol.kind in kinds
+        for values in islice(
+            product(*(signature.sorts[sort.name] for sort in symbol.sorts)),
+            None if name == wanted else 1,
+        )
+    )

@@ -1,0 +1,81 @@
+"""Where a trial is played at the fine resolution."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from agents.adversary.base import Adversary
+from agents.adversary.random import Random
+from agents.adversary.scripted import Script
+from asp.literals import arguments
+from testbed.config.grounds import Ground
+from testbed.environment.core import Core
+from testbed.environment.fine import fine_core, fine_world
+from testbed.environment.world import World
+from testbed.experiment.conditions import known, rules_of
+from testbed.experiment.oracle import Oracle
+from testbed.experiment.plan import FineSetting, Setting, TrialSpec
+from testbed.link.messages import Task
+
+
+class FineStage:
+    """A refined domain: the game is played in cells and parts, costs and goals are coarse."""
+
+    def __init__(self, ground: Ground) -> None:
+        refinement = ground.refinement
+        description = refinement.description
+        self._refinement, self._text = refinement, ground.text
+        self._world = fine_world(refinement)
+        self._coarse = World(description)
+        self._oracle = Oracle(description, refinement.coarse, refinement.coarse_signature)
+        self.costs = description.costs
+
+    def core(self, setting: Setting) -> Core:
+        """A new game, with the setting's statistics and pace."""
+        fine = fine_part(setting)
+        return fine_core(self._refinement, rules_of(setting), fine.statistics, pace=fine.pace)
+
+    def adversary(self, spec: TrialSpec) -> Adversary:
+        """Random events at the setting's rate, or the script."""
+        if spec.setting.script is not None:
+            return Script(spec.setting.script)
+        return Random(self._world.exogenous_actions, spec.setting.rate or 0.0)
+
+    def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
+        """Of the fine initial state the robot is told what is true of itself."""
+        robot = self._refinement.description.robots[0]
+        own = [atom for atom in self._true(state) if robot in arguments(atom)]
+        return Task(
+            trial=spec.trial,
+            robot=spec.robot,
+            domain=spec.domain,
+            source=self._refinement.coarse.text,
+            goal=list(spec.setting.goal),
+            initial=list(known(spec.setting, self._coarse, self._coarse_state(state))),
+            plan_limit=spec.setting.plan_limit,
+            seed=seed,
+            decision_s=spec.setting.decision_s,
+            refinement=self._text,
+            initial_fine=own,
+        )
+
+    def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
+        """The least number of abstract actions, by search over the coarse world."""
+        return self._oracle.minimal_actions(self._coarse_atoms(state), goal)
+
+    def _true(self, state: int) -> Iterable[str]:
+        inertial = frozenset(self._world.description.inertial)
+        return (atom for atom in self._world.true_atoms(state) if atom in inertial)
+
+    def _coarse_atoms(self, state: int) -> frozenset[str]:
+        return frozenset(self._world.true_atoms(state)).intersection(self._coarse.fluents)
+
+    def _coarse_state(self, state: int) -> int:
+        return self._coarse.state(self._coarse_atoms(state))
+
+
+def fine_part(setting: Setting) -> FineSetting:
+    """What a setting says of the fine resolution, which it has to."""
+    if setting.fine is None:
+        raise ValueError("this is a setting of the coarse resolution")
+    return setting.fine
