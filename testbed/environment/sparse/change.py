@@ -11,7 +11,7 @@ problem over the touched atoms alone, which the closure of ground rules finds as
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 
 from testbed.environment.closure import Closure, Rule, Vocabulary
 from testbed.environment.sparse.facts import (
@@ -50,23 +50,16 @@ class Change:
         """Adds what the literals may derive, and what may lose its derivation by them."""
         queue = [literal for literal in literals if self._possible.add(literal)]
 
-        def derived(instance: Instance) -> bool:
-            if self._possible.add(instance.head):
-                queue.append(instance.head)
-            return False
-
-        def bereft(instance: Instance) -> bool:
-            atom = instance.head[0]
-            if atom[0] in self._defined and self._possible.add((atom, False)):
-                queue.append((atom, False))
-            return False
+        def add(positive: bool, head: GroundAtom) -> None:
+            if self._possible.add((head, positive)):
+                queue.append((head, positive))
 
         while queue:
             atom, positive = queue.pop()
-            for pattern in self._laws.consequences.get((atom[0], positive), ()):
-                pattern.search([atom], self._possible, derived)
-            for pattern in self._laws.consequences.get((atom[0], not positive), ()):
-                pattern.search([atom], self._possible, bereft)
+            for sign, pattern in self._laws.consequences.get((atom[0], positive), ()):
+                pattern.search_heads([atom], self._possible, partial(add, sign))
+            for pattern in self._laws.grounds.get((atom[0], not positive), ()):
+                pattern.search_heads([atom], self._possible, partial(add, False))
 
     @cached_property
     def instances(self) -> list[Instance]:

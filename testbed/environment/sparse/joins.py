@@ -96,7 +96,7 @@ class Scope:
                 if value not in domain:
                     return False
                 env[slot] = value
-            return all(atom[place] == env[slot] for place, slot in repeats)
+            return not repeats or all(atom[place] == env[slot] for place, slot in repeats)
 
         return unify
 

@@ -10,7 +10,16 @@ from asp import syntax
 from asp.checker import variable_domains
 from asp.signature import Signature
 from testbed.environment.sparse.facts import Facts, GroundAtom, GroundLiteral, Truth
-from testbed.environment.sparse.joins import Arg, Condition, Membership, Sameness, Scope, Template
+from testbed.environment.sparse.joins import (
+    Arg,
+    Condition,
+    Emit,
+    Env,
+    Membership,
+    Sameness,
+    Scope,
+    Template,
+)
 
 
 @dataclass(frozen=True)
@@ -49,11 +58,27 @@ class Pattern:
 
     def search(self, given: Sequence[GroundAtom], truth: Truth, found: Found) -> bool:
         """Calls `found` with every instance that may apply; whether it ended the search."""
+        return self._each(given, truth, lambda env: found(self._instance(env)))
+
+    def search_heads(
+        self, given: Sequence[GroundAtom], truth: Truth, found: Callable[[GroundAtom], object]
+    ) -> None:
+        """Calls `found` with the atom of the head of every instance that may apply."""
+        assert self._head is not None
+        ground = self._head.atom.ground
+
+        def emit(env: Env) -> bool:
+            found(ground(env))
+            return False
+
+        self._each(given, truth, emit)
+
+    def _each(self, given: Sequence[GroundAtom], truth: Truth, emit: Emit) -> bool:
         env = [""] * self._slots
         for unify, atom in zip(self._unify, given, strict=True):
             if not unify(atom, env):
                 return False
-        return self._search(env, truth, lambda match: found(self._instance(match)))
+        return self._search(env, truth, emit)
 
     def _instance(self, env: list[str]) -> Instance:
         head = self._head
@@ -82,9 +107,11 @@ class Laws:
         self.prohibitions: list[Prohibition] = []
         self.sights: list[Pattern] = []
         """What is seen, given the atom `("", robot)`."""
-        self.consequences: dict[tuple[str, bool], list[Pattern]] = defaultdict(list)
-        """Constraints by a literal of the body, which is given; a negative head must be possible
-        as an atom: else it holds already."""
+        self.consequences: dict[tuple[str, bool], list[tuple[bool, Pattern]]] = defaultdict(list)
+        """Constraints by a literal of the body, which is given, each with the sign of its head; a
+        negative head must be possible as an atom: else it holds already."""
+        self.grounds: dict[tuple[str, bool], list[Pattern]] = defaultdict(list)
+        """Those of them that define a fluent, likewise."""
         self.supports: dict[tuple[str, bool], list[Pattern]] = defaultdict(list)
         """Constraints by their head, which is given."""
         self.constraints: list[Pattern] = []
@@ -128,7 +155,10 @@ class Laws:
         for given in fluents:
             rest = [c for c in body if c is not given]
             pattern = Pattern(read.scope, [given.atom], head, body, [*rest, *news])
-            self.consequences[given.atom.name, given.positive].append(pattern)
+            key = given.atom.name, given.positive
+            self.consequences[key].append((head.positive, pattern))
+            if self._signature.symbols[head.atom.name].kind == "defined":
+                self.grounds[key].append(pattern)
         by_head = Pattern(read.scope, [head.atom], head, body, body)
         self.supports[head.atom.name, head.positive].append(by_head)
         anywhere = Pattern(read.scope, [], head, body, [*body, *news])
