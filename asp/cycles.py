@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from asp import syntax
+from asp import roles, syntax
 from asp.instances import instances_of, literal_of, static_truth
 from asp.literals import atom, complement, is_positive, name
 from asp.signature import Problems, Signature
@@ -42,6 +42,34 @@ def check_cycles(source: syntax.Source, signature: Signature, problems: Problems
             problems.report(
                 law.place, f"'{head}' is defined through its own negation by way of '{condition}'"
             )
+
+
+def may_have_cycles(source: syntax.Source, signature: Signature) -> bool:
+    """Whether names alone leave a cycle through negation possible; no: `check_cycles` finds none.
+
+    It looks at laws, not at their instances, so that it takes no longer for larger sorts.
+    """
+    graph: dict[str, set[str]] = {}
+    laws = list(source.each(syntax.StateConstraint))
+    for law in laws:
+        body = {_named(part) for part in law.body if isinstance(part, syntax.Literal)}
+        graph.setdefault(_named(law.head), set()).update(body)
+    for symbol, declaration in signature.symbols.items():
+        if declaration.kind in ("defined", "static"):
+            graph.setdefault("-" + symbol, set()).add(symbol)
+    positive = {head: set(map(atom, body)) for head, body in graph.items() if is_positive(head)}
+    for law in laws:
+        head = law.head.atom.name
+        for part in roles.literals(law.body if law.head.positive else ()):
+            if not part.positive and head in _reachable(part.atom.name, positive):
+                return True
+            if "-" + head in _reachable(_named(part), graph) and "-" + head in graph:
+                return True
+    return False
+
+
+def _named(literal: syntax.Literal) -> str:
+    return ("" if literal.positive else "-") + literal.atom.name
 
 
 def _closes(head: str, condition: str, atoms: Graph, literals: Graph, signature: Signature) -> bool:

@@ -175,22 +175,36 @@ def replay(
     raise typer.Exit(DONE if as_recorded else FAILED)
 
 
-@app.command(epilog=_examples("testbed translate office -o office.lp"))
+@app.command(
+    epilog=_examples("testbed translate office -o office.lp", "testbed translate office.fine")
+)
 def translate(
     source: Annotated[
-        str, typer.Argument(metavar="FILE.al", help="A description, or a packaged domain's name.")
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="A description (.al), the refinement of one (.fine), or a packaged domain's name.",
+        ),
     ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE.lp", help="Instead of printing.")
     ] = None,
 ) -> None:
-    """Translate an action description from AL_d to answer set programming."""
+    """Translate an action description from AL_d to answer set programming.
+
+    Of a refinement it is the program of the refined description with its theory of observation.
+    """
     from asp.loading import read_domain
+    from asp.refinement import load_refinement
     from asp.translation import translate as translated
+    from asp.translation import translate_source
 
     with _input_errors():
-        file, text = read_domain(source)
-        program = translated(text, file)
+        if source.endswith(".fine"):
+            refinement = load_refinement(source)
+            program = translate_source(refinement.strong, refinement.strong_signature)
+        else:
+            program = translated(*reversed(read_domain(source)))
         if output is None:
             typer.echo(program, nl=False)
         else:

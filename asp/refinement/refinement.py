@@ -9,15 +9,19 @@ from itertools import product
 
 from asp import syntax
 from asp.checker import check
+from asp.cycles import check_cycles, may_have_cycles
 from asp.description import Description
+from asp.errors import SourceError
 from asp.literals import arguments, atom, complement, ground, is_positive, name
 from asp.loading import analyse, parse_description
 from asp.parser import parse
 from asp.refinement.language import parse_fine
+from asp.refinement.maps import check_maps
 from asp.refinement.observation import observation_text, tested_fluents
 from asp.refinement.refining import weak_text
 from asp.refinement.vocabulary import Vocabulary, vocabulary_of
 from asp.signature import Problems, Signature, signature_of
+from asp.statics import true_statics
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +110,8 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     weak = parse(text, f"{fine_file} (refined)")
     weak_signature = signature_of(weak, Problems(weak.file))
     _check_own(fine, weak_signature)
+    _check_cycles(weak, weak_signature, fine)
+    check_maps(fine, coarse, vocabulary, true_statics(weak, weak_signature), problems)
     tested = tested_fluents(fine, vocabulary, weak_signature, problems)
     problems.raise_first()
     strong = parse(f"{text}\n{observation_text(fine, vocabulary, tested)}", weak.file)
@@ -118,3 +124,17 @@ def _check_own(fine: syntax.Source, weak: Signature) -> None:
     problems = Problems(fine.file)
     check(fine, weak, problems)
     problems.raise_first()
+
+
+def _check_cycles(weak: syntax.Source, signature: Signature, fine: syntax.Source) -> None:
+    """Raises SourceError where the refined laws define something through its own negation.
+
+    The place is that of the refinement's text, the message tells the law.
+    """
+    if not may_have_cycles(weak, signature):
+        return
+    problems = Problems(weak.file)
+    check_cycles(weak, signature, problems)
+    for problem in problems:
+        law = weak.text.split("\n")[problem.line - 1].strip()
+        raise SourceError(fine.file, 1, 1, f"{problem.message}: {law}")

@@ -12,7 +12,7 @@ from asp.signature import Problems
 from asp.writing import text_of
 
 _HEADINGS = {
-    KEPT: "As in the coarse description: nothing in it has a counterpart.",
+    KEPT: "As in the coarse description; what has a counterpart is a defined fluent here.",
     REFINED: "About the counterparts of what the coarse law is about.",
     LIFTED: "Conditions on coarse attributes, for what would bring about the coarse effect.",
 }

@@ -1,0 +1,195 @@
+"""Whether the fine map fits the coarse one, so that every coarse action can be carried out.
+
+A map is a static with a counterpart that an action needs: it stands negated in an executability
+condition, as `next_to` does where nothing moves between places that are not next to each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from asp import roles, syntax
+from asp.literals import arguments, name
+from asp.refinement.language import Components, Magnification
+from asp.refinement.vocabulary import Vocabulary
+from asp.signature import Problems
+
+Pairs = frozenset[tuple[str, str]]
+
+
+def check_maps(
+    fine: syntax.Source,
+    coarse: syntax.Source,
+    vocabulary: Vocabulary,
+    statics: frozenset[str],
+    problems: Problems,
+) -> None:
+    """Reports where a fine map does not fit the coarse one, at a place of the refinement's text."""
+    places = _Places(fine)
+    for way in _ways(coarse, vocabulary):
+        fitting = _Map(way, vocabulary, _pairs(way, statics))
+        finer = _pairs(vocabulary.counterparts[way], statics)
+        for place, message in (
+            *fitting.missing(places),
+            *fitting.unreachable(finer, places),
+            *fitting.unconnected(finer, places),
+            *fitting.too_many(finer, places),
+        ):
+            problems.report(place, message)
+
+
+def _ways(coarse: syntax.Source, vocabulary: Vocabulary) -> list[str]:
+    """The statics of two magnified places that an action with a counterpart needs."""
+    found = (
+        literal.atom.name
+        for law in coarse.each(syntax.ExecutabilityCondition)
+        if any(action.name in vocabulary.counterparts for action in law.actions)
+        for literal in roles.literals(law.body)
+        if not literal.positive and _is_way(literal.atom.name, vocabulary)
+    )
+    return list(dict.fromkeys(found))
+
+
+def _is_way(symbol: str, vocabulary: Vocabulary) -> bool:
+    if symbol not in vocabulary.counterparts:
+        return False
+    declaration = vocabulary.coarse.symbols[symbol]
+    touched = [vocabulary.touches(sort.name) for sort in declaration.sorts]
+    return declaration.kind == "static" and touched == [True, True]
+
+
+def _pairs(static: str, statics: Iterable[str]) -> Pairs:
+    return frozenset(
+        (one, other) for s in statics if name(s) == static for one, other in [arguments(s)]
+    )
+
+
+class _Places:
+    """Where a refinement's text speaks of a constant, or of two at once."""
+
+    def __init__(self, fine: syntax.Source) -> None:
+        self._fine = fine
+        self._listed = {s.whole.name: s.place for s in fine.each(Components)}
+        self._parts = {p.name: p.place for s in fine.each(Components) for p in s.parts}
+        self.named = {t.name for fact in fine.each(syntax.Fact) for t in fact.literal.atom.args}
+
+    def of(self, constant: str) -> syntax.Place:
+        found = self._parts.get(constant) or self._listed.get(constant)
+        return found or next(self._fine.each(Magnification)).place
+
+    def of_fact(self, static: str, *constants: str) -> syntax.Place | None:
+        """The place of the fact, if it is one of the text's."""
+        for fact in self._fine.each(syntax.Fact):
+            atom = fact.literal.atom
+            if atom.name == static and tuple(term.name for term in atom.args) == constants:
+                return fact.place
+        return None
+
+
+Found = Iterator[tuple[syntax.Place, str]]
+
+
+@dataclass(frozen=True)
+class _Map:
+    """A coarse map, and what has to be so in a fine one."""
+
+    static: str
+    vocabulary: Vocabulary
+    coarse: Pairs
+
+    @property
+    def _counterpart(self) -> str:
+        return self.vocabulary.counterparts[self.static]
+
+    def _wholes(self) -> list[str]:
+        sorts = self.vocabulary.coarse.symbols[self.static].sorts
+        members = (member for s in sorts for member in self.vocabulary.coarse.sorts[s.name])
+        return list(dict.fromkeys(members))
+
+    def missing(self, places: _Places) -> Found:
+        """A place without components that no fact connects to a component of another."""
+        for whole in self._lost(places):
+            yield places.of(whole), f"'{whole}' has no components, and no fact speaks of it"
+
+    def _lost(self, places: _Places) -> set[str]:
+        components = self.vocabulary.components
+        return {
+            whole
+            for whole in self._wholes()
+            if components[whole] == (whole,) and whole not in places.named
+        }
+
+    def unreachable(self, finer: Pairs, places: _Places) -> Found:
+        """From each component of a whole one gets to each other without leaving the whole."""
+        for whole in self._wholes():
+            first, *others = self.vocabulary.components[whole]
+            inside = {first, *others}
+            onward = _reached(first, inside, finer)
+            back = _reached(first, inside, frozenset((b, a) for a, b in finer))
+            for part in others:
+                if part not in onward:
+                    message = f"'{part}' cannot be reached from '{first}' inside '{whole}'"
+                    yield places.of(part), message
+                elif part not in back:
+                    message = f"'{first}' cannot be reached from '{part}' inside '{whole}'"
+                    yield places.of(part), message
+
+    def unconnected(self, finer: Pairs, places: _Places) -> Found:
+        """Where the coarse map has a way there is one between components."""
+        owner = self._owner()
+        ways = {(owner[a], owner[b]) for a, b in finer if a in owner and b in owner}
+        lost = self._lost(places)
+        wholes = self._wholes()
+        for one in wholes:
+            for other in wholes:
+                gone = (one, other) in self.coarse and (one, other) not in ways
+                twice = (other, one) in self.coarse - ways and wholes.index(other) < wholes.index(
+                    one
+                )
+                if gone and one != other and not twice and not lost & {one, other}:
+                    yield (
+                        places.of(one),
+                        f"{self.static}({one}, {other}), but no component of '{one}' is "
+                        f"{self._counterpart} to one of '{other}'",
+                    )
+
+    def too_many(self, finer: Pairs, places: _Places) -> Found:
+        """A way between components of two wholes that have none between them."""
+        owner = self._owner()
+        wrong = {
+            (one, other)
+            for one, other in finer
+            if owner[one] != owner[other] and (owner[one], owner[other]) not in self.coarse
+        }
+        for one, other in sorted(wrong):
+            stated = places.of_fact(self._counterpart, one, other)
+            back = (other, one) in wrong
+            if stated or not (
+                back and (other < one or places.of_fact(self._counterpart, other, one))
+            ):
+                yield (
+                    stated or places.of(one),
+                    f"{self._counterpart}({one}, {other}) leads from '{owner[one]}' to "
+                    f"'{owner[other]}', but {self.static}({owner[one]}, {owner[other]}) "
+                    "does not hold",
+                )
+
+    def _owner(self) -> Mapping[str, str]:
+        components = self.vocabulary.components
+        return {part: whole for whole in self._wholes() for part in components[whole]}
+
+
+def _reached(start: str, inside: set[str], steps: Pairs) -> set[str]:
+    found = {start}
+    stack = [start]
+    onward: dict[str, list[str]] = {}
+    for one, other in steps:
+        if one in inside and other in inside:
+            onward.setdefault(one, []).append(other)
+    while stack:
+        for other in onward.get(stack.pop(), ()):
+            if other not in found:
+                found.add(other)
+                stack.append(other)
+    return found
