@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import product
@@ -10,7 +10,7 @@ from itertools import product
 from clingo import Symbol
 
 from asp import literals, syntax
-from asp.kept.patterns import Function, functions
+from asp.kept.patterns import Function, functions, subject, subjects
 from asp.rules import term_text
 from asp.signature import Signature
 from asp.solving import fact, first_model, ground, select, theory
@@ -40,6 +40,18 @@ class FineStart:
     true: frozenset[str]
     candidates: tuple[tuple[str, ...], ...] = ()
 
+    def within(self, constants: frozenset[str]) -> FineStart:
+        """What it says of these constants only."""
+        groups = (tuple(filter(_about_some(constants), group)) for group in self.candidates)
+        return FineStart(
+            frozenset(filter(_about_some(constants), self.true)), tuple(filter(None, groups))
+        )
+
+    @property
+    def possible(self) -> frozenset[str]:
+        """The fluents that are or may be true."""
+        return self.true.union(*self.candidates)
+
 
 def plain_plan(
     strong: syntax.Source,
@@ -63,7 +75,7 @@ def plain_plan(
     actions = _concrete_actions(signature)
     facts = [fact("ranks", len(actions))]
     facts += (fact("rank", action, number) for number, action in enumerate(actions))
-    facts += _start(start, subjects(start, functions(strong, signature)), actions)
+    facts += _start(start, actions, functions(strong, signature), signature)
     facts += (
         fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
         for literal in goal
@@ -74,6 +86,10 @@ def plain_plan(
             steps = sorted(select(model, "occurs", 2), key=lambda pair: pair[1])
             return tuple(str(action) for action, _ in steps)
     return NoPlan.BEYOND_LIMIT
+
+
+def _about_some(constants: frozenset[str]) -> Callable[[str], bool]:
+    return lambda fluent: constants.issuperset(literals.arguments(fluent))
 
 
 def physical(plan: Iterable[str]) -> FinePlan:
@@ -113,36 +129,45 @@ def _concrete_actions(signature: Signature) -> list[str]:
 
 
 def _start(
-    start: FineStart, groups: Sequence[frozenset[str]], actions: Iterable[str]
+    start: FineStart,
+    actions: Iterable[str],
+    known: Mapping[str, Function],
+    signature: Signature,
 ) -> Iterator[Symbol]:
+    """What is certain, the groups of candidates, and which actions deal with what these are about.
+
+    What is nowhere, since only a part of the description is planned in, is never found.
+    """
     yield from (fact("certain", fluent) for fluent in sorted(start.true))
-    for number, candidates in enumerate(start.candidates):
-        yield from (fact("candidate", number, fluent) for fluent in candidates)
+    for number, group in enumerate(start.candidates):
+        yield from (fact("candidate", number, fluent) for fluent in group)
+    about = dict(enumerate(_about(group, known) for group in start.candidates))
+    about |= enumerate(nowhere(start, known, subjects(known, signature)), start=len(about))
     for action in actions:
         named = frozenset(literals.arguments(action))
-        yield from (
-            fact("deals_with", action, n) for n, about in enumerate(groups) if about <= named
-        )
+        yield from (fact("deals_with", action, n) for n, some in about.items() if some <= named)
 
 
-def subjects(start: FineStart, known: Mapping[str, Function]) -> list[frozenset[str]]:
-    """Of each group of candidates the constants that it is about: all but those that may differ.
+def nowhere(
+    start: FineStart,
+    known: Mapping[str, Function],
+    places: Mapping[tuple[str, ...], frozenset[str]],
+) -> Iterator[frozenset[str]]:
+    """The constants of which a total function has no value, neither certain nor a candidate.
 
-    Raises ValueError for a group that is not made of the values of one function.
+    `places` are the `subjects` of the description or of a part of it.
     """
-    return [_subject(group, known) for group in start.candidates]
+    given = {subject(fluent, known) for fluent in start.possible}
+    return (constants for key, constants in places.items() if key not in given)
 
 
-def _subject(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:
-    found = set()
-    for fluent in group:
-        function = known.get(literals.name(fluent))
-        if function is not None and function.total:
-            args = literals.arguments(fluent)
-            found.add(
-                (fluent.partition("(")[0], *args[: function.place], "", *args[function.place + 1 :])
-            )
-    if len(found) != 1:
-        raise ValueError(f"not the values of one function: {', '.join(group)}")
-    _, *constants = found.pop()
-    return frozenset(constants) - {""}
+def _about(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:
+    """The constants that a group of candidates is about.
+
+    Raises ValueError for a group that is not made of values of one total function.
+    """
+    found = {subject(fluent, known) for fluent in group}
+    first = next(iter(found))
+    if len(found) != 1 or first is None:
+        raise ValueError(f"not candidates for the place of one thing: {', '.join(group)}")
+    return frozenset(first[1:])

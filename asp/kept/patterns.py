@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import product
 
-from asp import syntax
+from asp import literals, syntax
 from asp.signature import Signature
 
 
@@ -26,7 +27,7 @@ def functions(source: syntax.Source, signature: Signature) -> dict[str, Function
     A fluent is one by a law `-f(X, V2) if f(X, V1), V1 != V2`. It is total if the description says
     that initially it holds for some value, and nothing else makes it false.
     """
-    found = {}
+    found: dict[str, Function] = {}
     for law in source.each(syntax.StateConstraint):
         place = excluding_place(law)
         if place is not None and signature.symbols[law.head.atom.name].kind == "inertial":
@@ -35,16 +36,46 @@ def functions(source: syntax.Source, signature: Signature) -> dict[str, Function
     return found
 
 
+def subjects(
+    known: Mapping[str, Function], signature: Signature
+) -> dict[tuple[str, ...], frozenset[str]]:
+    """Of what each total function has a value: its name and other arguments, with these constants.
+
+    Keys are as `subject` makes them.
+    """
+    return {
+        (name, *others): frozenset(others)
+        for name, function in known.items()
+        if function.total
+        for others in product(
+            *(
+                signature.sorts[sort.name]
+                for place, sort in enumerate(signature.symbols[name].sorts)
+                if place != function.place
+            )
+        )
+    }
+
+
+def subject(fluent: str, known: Mapping[str, Function]) -> tuple[str, ...] | None:
+    """The function and its arguments that a fluent gives a value; None if it is of no total one."""
+    function = known.get(literals.name(fluent))
+    if function is None or not function.total:
+        return None
+    others = [a for place, a in enumerate(literals.arguments(fluent)) if place != function.place]
+    return (literals.name(fluent), *others)
+
+
 def excluding_place(law: syntax.Statement) -> int | None:
     """The place of the values that a law `-f(X, V2) if f(X, V1), V1 != V2` keeps apart, or None."""
     if not isinstance(law, syntax.StateConstraint) or law.head.positive or len(law.body) != 2:
         return None
-    literals = [part for part in law.body if isinstance(part, syntax.Literal)]
+    conditions = [part for part in law.body if isinstance(part, syntax.Literal)]
     comparisons = [part for part in law.body if isinstance(part, syntax.Comparison)]
-    if len(literals) != 1 or len(comparisons) != 1 or comparisons[0].equal:
+    if len(conditions) != 1 or len(comparisons) != 1 or comparisons[0].equal:
         return None
-    head, body = law.head.atom, literals[0].atom
-    if head.name != body.name or not literals[0].positive or not _all_variables(head, body):
+    head, body = law.head.atom, conditions[0].atom
+    if head.name != body.name or not conditions[0].positive or not _all_variables(head, body):
         return None
     apart = [n for n, (a, b) in enumerate(_pairs(head, body)) if a != b]
     sides = {comparisons[0].left.name, comparisons[0].right.name}
@@ -73,9 +104,10 @@ def _is_total(name: str, place: int, source: syntax.Source) -> bool:
         and statement.fluent.args[place].name == statement.variable.name
         for statement in source.each(syntax.InitiallyStatement)
     )
+    laws: list[syntax.CausalLaw | syntax.StateConstraint] = [*source.each(syntax.CausalLaw)]
+    laws += source.each(syntax.StateConstraint)
     denied = any(
         law.head.atom.name == name and not law.head.positive and excluding_place(law) != place
-        for kind in (syntax.CausalLaw, syntax.StateConstraint)
-        for law in source.each(kind)
+        for law in laws
     )
     return given and not denied

@@ -1,0 +1,225 @@
+"""A translation of AL_d that grounds only what can be true: falsity is the absence of truth.
+
+The literal translation has a rule for every pair of values that exclude each other, and every pair
+of places that an action cannot lead between. Where a fluent is a function (`asp.kept.patterns`),
+one rule a value says the same. The program has the parts base, state(t) and step(t), and goes with
+the theory `kept_fine`; its answer sets, where a state is complete, are those of the translation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from asp import roles, syntax
+from asp.kept.patterns import Function, excluding_place, functions
+from asp.restriction import named, without_exogenous
+from asp.rules import rule, term_text
+from asp.signature import Signature
+
+BASE, STATE, STEP = "base", "state(t)", "step(t)"
+BEFORE, NOW = "t-1", "t"
+
+
+class NotCompactError(ValueError):
+    """A description whose laws cannot be put in terms of what is true only."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A rule of a part of the program, with the constants that it names."""
+
+    part: str
+    text: str
+    constants: frozenset[str] = frozenset()
+
+
+def compact(source: syntax.Source, signature: Signature) -> tuple[Rule, ...]:
+    """The rules of a description, exogenous actions and facts apart. Raises NotCompactError."""
+    return tuple(_Translation(without_exogenous(source, signature), signature).rules())
+
+
+class _Translation:
+    def __init__(self, source: syntax.Source, signature: Signature) -> None:
+        self._source = source
+        self._signature = signature
+        self._functions = functions(source, signature)
+
+    def rules(self) -> Iterator[Rule]:
+        for symbol in self._signature.symbols.values():
+            if symbol.kind == "inertial":
+                yield from self._inertia(symbol)
+        for constraint in self._source.each(syntax.StateConstraint):
+            yield from self._constraint(constraint)
+        for law in self._source.each(syntax.CausalLaw):
+            sign = "holds" if law.head.positive else "denied"
+            head = f"{sign}({term_text(law.head.atom)},{NOW})"
+            occurs = f"occurs({term_text(law.action)},{BEFORE})"
+            yield self._rule(STEP, law, head, [occurs, *self._body(law.body, BEFORE)])
+        yield from self._actions()
+
+    def _inertia(self, symbol: syntax.Declaration) -> Iterator[Rule]:
+        """What is true at step 0 is chosen; afterwards it stays, unless something else follows."""
+        given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
+        fluent, sorts = _term(symbol.name, given), _sorts(symbol, given)
+        yield Rule(BASE, rule(f"{{ holds({fluent},0) }}", sorts))
+        stays = [f"holds({fluent},{BEFORE})", f"not denied({fluent},{NOW})"]
+        function = self._functions.get(symbol.name)
+        if function is not None:
+            subject = _term(symbol.name, _without(given, function.place))
+            stays.append(f"not changed({subject},{NOW})")
+            yield from self._function(symbol, given, function)
+        yield Rule(STEP, rule(f"holds({fluent},{NOW})", stays))
+
+    def _function(
+        self, symbol: syntax.Declaration, given: Sequence[str], function: Function
+    ) -> Iterator[Rule]:
+        """A function has one value; where a new one is true, the old one is not."""
+        fluent, sorts = _term(symbol.name, given), _sorts(symbol, given)
+        others = _without(given, function.place)
+        subject, value = _term(symbol.name, others), sorts[function.place]
+        new = [f"holds({fluent},{NOW})", f"not holds({fluent},{BEFORE})"]
+        yield Rule(STEP, rule(f"changed({subject},{NOW})", new))
+        body = _without(sorts, function.place)
+        most = f"2 {{ holds({fluent},{NOW}) : {value} }}"
+        yield Rule(STATE, rule("", [most, *body]))
+        if function.total:
+            yield Rule(BASE, rule("", [f"not 1 {{ holds({fluent},0) : {value} }}", *body]))
+
+    def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
+        name = law.head.atom.name
+        if self._signature.symbols[name].kind == "static":
+            yield self._rule(BASE, law, term_text(law.head.atom), self._body(law.body, NOW))
+            return
+        for literal in roles.literals(law.body):
+            if not literal.positive and self._kind(literal) == "inertial":
+                raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
+        function = self._functions.get(name)
+        if function is None or excluding_place(law) != function.place:
+            sign = "holds" if law.head.positive else "denied"
+            head = f"{sign}({term_text(law.head.atom)},{NOW})"
+            yield self._rule(STATE, law, head, self._body(law.body, NOW))
+
+    def _actions(self) -> Iterator[Rule]:
+        """Which actions are enabled: by conditions that each allow them, and others that forbid."""
+        allowing: dict[str, list[int]] = {}
+        for number, law in enumerate(self._source.each(syntax.ExecutabilityCondition)):
+            cases = self._allowing(law)
+            if cases is None:
+                occurs = [f"occurs({term_text(action)},{BEFORE})" for action in law.actions]
+                yield self._rule(STEP, law, "", [*occurs, *self._body(law.body, BEFORE)])
+                continue
+            action = law.actions[0]
+            allowing.setdefault(action.name, []).append(number)
+            head = f"allowed({number},{term_text(action)},{BEFORE})"
+            yield from (self._rule(STEP, law, head, case) for case in cases)
+        for symbol in self._signature.symbols.values():
+            if symbol.kind == "agent":
+                given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
+                action_term = _term(symbol.name, given)
+                body = [
+                    f"allowed({n},{action_term},{BEFORE})" for n in allowing.get(symbol.name, ())
+                ]
+                head = f"enabled({action_term},{BEFORE})"
+                yield Rule(STEP, rule(head, [*body, *_sorts(symbol, given)]))
+
+    def _allowing(self, law: syntax.ExecutabilityCondition) -> list[list[str]] | None:
+        """Bodies one of which is true exactly where the law says nothing; None: no such.
+
+        It has where all its variables are the action's, or values of total functions of these: then
+        there is one instance, and one of its other conditions has to be false.
+        """
+        if len(law.actions) != 1 or not _all_different(law.actions[0]):
+            return None
+        known = {term.name for term in law.actions[0].args}
+        values = [part for part in law.body if self._is_value(part, known)]
+        guards = [part for part in law.body if part not in values]
+        named_values = [self._value(part) for part in values]
+        known.update(named_values)
+        if len(set(named_values)) < len(values) or not guards:
+            return None
+        if not all(_is_open(guard, known) for guard in guards):
+            return None
+        return [self._body([*values, _negated(guard)], BEFORE) for guard in guards]
+
+    def _is_value(self, part: syntax.Condition, known: set[str]) -> bool:
+        """Whether a condition only names the value of a total function of what is known."""
+        if not isinstance(part, syntax.Literal) or not part.positive:
+            return False
+        function = self._functions.get(part.atom.name)
+        if function is None or not function.total:
+            return False
+        names = [term.name for term in part.atom.args]
+        value = part.atom.args[function.place]
+        return (
+            value.is_variable
+            and value.name not in known
+            and known.issuperset(_without(names, function.place))
+        )
+
+    def _value(self, part: syntax.Condition) -> str:
+        assert isinstance(part, syntax.Literal)
+        return part.atom.args[self._functions[part.atom.name].place].name
+
+    def _body(self, body: Iterable[syntax.Condition], step: str) -> list[str]:
+        return [self._condition(part, step) for part in body]
+
+    def _condition(self, part: syntax.Condition, step: str) -> str:
+        if isinstance(part, syntax.Comparison):
+            return f"{part.left.name} {'=' if part.equal else '!='} {part.right.name}"
+        text = term_text(part.atom)
+        if self._kind(part) != "static":
+            text = f"holds({text},{step})"
+        return text if part.positive else f"not {text}"
+
+    def _kind(self, literal: syntax.Literal) -> str:
+        name = literal.atom.name
+        return "static" if name in self._signature.sorts else self._signature.symbols[name].kind
+
+    def _rule(self, part: str, law: syntax.Statement, head: str, body: Iterable[str]) -> Rule:
+        """The rule, with the sorts of the law's variables."""
+        sorts = dict.fromkeys(
+            f"{sort}({term.name})"
+            for use in roles.uses(law)
+            if use.atom.name not in self._signature.sorts
+            for term, sort in zip(
+                use.atom.args,
+                (s.name for s in self._signature.symbols[use.atom.name].sorts),
+                strict=True,
+            )
+            if term.is_variable
+        )
+        return Rule(part, rule(head, [*body, *sorts]), frozenset(named(law)))
+
+
+def _is_open(guard: syntax.Condition, known: set[str]) -> bool:
+    """Whether a condition is negative, so that few instances make it false, and all is known."""
+    if isinstance(guard, syntax.Comparison):
+        terms: tuple[syntax.Term, ...] = (guard.left, guard.right)
+        return not guard.equal and all(t.name in known or not t.is_variable for t in terms)
+    return not guard.positive and all(
+        term.name in known or not term.is_variable for term in guard.atom.args
+    )
+
+
+def _negated(guard: syntax.Condition) -> syntax.Condition:
+    if isinstance(guard, syntax.Comparison):
+        return syntax.Comparison(guard.left, guard.right, not guard.equal, guard.place)
+    return syntax.Literal(guard.atom, not guard.positive)
+
+
+def _all_different(atom: syntax.Atom) -> bool:
+    names = [term.name for term in atom.args]
+    return all(term.is_variable for term in atom.args) and len(set(names)) == len(names)
+
+
+def _sorts(symbol: syntax.Declaration, given: Sequence[str]) -> list[str]:
+    return [f"{sort.name}({name})" for sort, name in zip(symbol.sorts, given, strict=True)]
+
+
+def _term(name: str, arguments: Sequence[str]) -> str:
+    return f"{name}({','.join(arguments)})" if arguments else name
+
+
+def _without(items: Sequence[str], place: int) -> list[str]:
+    return [item for number, item in enumerate(items) if number != place]

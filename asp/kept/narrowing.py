@@ -1,0 +1,112 @@
+"""Descriptions narrowed to some constants, named by position: what differs in names is equal."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+from asp import syntax
+from asp.kept.compact import BASE, STATE, STEP, compact
+from asp.literals import arguments, ground, is_positive, name
+from asp.signature import Signature
+
+
+@dataclass(frozen=True)
+class Narrow:
+    """A narrowed description in canonical names.
+
+    `sorts` are the members of each sort and `facts` the true statics that are stated; two
+    descriptions with equal ones have the same transitions. `names` leads from the old names to
+    the canonical ones.
+    """
+
+    sorts: tuple[tuple[str, tuple[str, ...]], ...]
+    facts: frozenset[str]
+    names: Mapping[str, str]
+
+    @property
+    def key(self) -> object:
+        return self.sorts, self.facts
+
+    @cached_property
+    def _back(self) -> Mapping[str, str]:
+        return {new: old for old, new in self.names.items()}
+
+    def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
+        """Those of the literals that name nothing else, in canonical names."""
+        return tuple(
+            _renamed(literal, self.names)
+            for literal in literals
+            if all(constant in self.names for constant in arguments(literal))
+        )
+
+    def back(self, actions: Iterable[str]) -> tuple[str, ...]:
+        """Actions in the names of the description."""
+        return tuple(_renamed(action, self._back) for action in actions)
+
+
+class Narrower:
+    """Narrows one description; its laws are translated once. Raises NotCompactError."""
+
+    def __init__(self, source: syntax.Source, signature: Signature) -> None:
+        self._signature = signature
+        self.rules = compact(source, signature)
+        self._constants = tuple(dict.fromkeys(m for ms in signature.sorts.values() for m in ms))
+        # What laws name keeps its name.
+        self._fixed = frozenset(c for rule in self.rules for c in rule.constants)
+        self._facts: dict[str, list[tuple[str, tuple[str, ...]]]] = defaultdict(list)
+        for fact in source.each(syntax.Fact):
+            arguments_ = tuple(term.name for term in fact.literal.atom.args)
+            self._facts[arguments_[0] if arguments_ else ""].append(
+                (fact.literal.atom.name, arguments_)
+            )
+
+    def narrow(self, constants: frozenset[str]) -> Narrow:
+        """The description with these constants only."""
+        kept = [c for c in self._constants if c in constants]
+        names = {c: c if c in self._fixed else f"x{number}" for number, c in enumerate(kept)}
+        sorts = tuple(
+            (sort, tuple(names[m] for m in members if m in names))
+            for sort, members in self._signature.sorts.items()
+        )
+        facts = frozenset(
+            ground(static, (names[a] for a in args))
+            for first in (*kept, "")
+            for static, args in self._facts.get(first, ())
+            if all(a in names for a in args)
+        )
+        return Narrow(sorts, facts, names)
+
+    def program(self, narrow: Narrow) -> str:
+        """The compact program of the narrowed description."""
+        known = narrow.names.keys()
+        parts = {BASE: [], STATE: [], STEP: []}  # type: dict[str, list[str]]
+        for rule in self.rules:
+            if rule.constants <= known:
+                parts[rule.part].append(rule.text)
+        for sort, members in narrow.sorts:
+            parts[BASE].append(f"#defined {sort}/1.")
+            parts[BASE] += (f"{sort}({member})." for member in members)
+        for symbol in self._signature.symbols.values():
+            if symbol.kind == "static":
+                parts[BASE].append(f"#defined {symbol.name}/{len(symbol.sorts)}.")
+        parts[BASE] += (f"{fact}." for fact in sorted(narrow.facts))
+        return "\n".join(f"#program {part}.\n" + "\n".join(lines) for part, lines in parts.items())
+
+    def actions(self, narrow: Narrow) -> list[str]:
+        """The agent actions in the order of declaration, in canonical names."""
+        members = dict(narrow.sorts)
+        return [
+            ground(symbol.name, chosen)
+            for symbol in self._signature.symbols.values()
+            if symbol.kind == "agent"
+            for chosen in product(*(members[sort.name] for sort in symbol.sorts))
+        ]
+
+
+def _renamed(literal: str, names: Mapping[str, str]) -> str:
+    sign = "" if is_positive(literal) else "-"
+    return sign + ground(name(literal), (names[constant] for constant in arguments(literal)))
