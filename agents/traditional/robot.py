@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Protocol
 
 from agents.shared.diagnosis import Explained
@@ -50,6 +51,7 @@ class TraditionalRobot:
         self._decision_s = task.decision_s
         self._plan: Plan | None = None
         self._plans = 0
+        self._told = self._diagnosis
 
     def act(self, percept: Percept) -> Decision:
         """The next action of the plan; where the time for a decision runs out, it waits a step.
@@ -57,74 +59,99 @@ class TraditionalRobot:
         Raises InconsistentHistoryError.
         """
         self._observe(percept)
-        began = reasoning_clock()
+        thought = _Thought(began=reasoning_clock())
         try:
             with time_limit(self._decision_s):
-                return self._decide(percept)
+                self._think(thought)
         except TimeLimitError:
-            trace = Trace(
-                reason=OUT_OF_TIME,
-                plans=self._plans,
-                planning_time_s=reasoning_clock() - began,
-            )
-            return Decision(
-                trial=percept.trial,
-                step=percept.step,
-                action="wait",
-                believes_goal=False,
-                trace=trace,
-            )
-
-    def _decide(self, percept: Percept) -> Decision:
-        began = reasoning_clock()
-        explained = self._reasoner.diagnose(self._history, self._diagnosis)
-        diagnosed = reasoning_clock()
-        failed = percept.happened is False
-        self._diagnosis = explained.diagnosis
-        planned = self._plan is None or failed or not explained.kept
-        plan = None if planned else self._plan
-        if plan is None:
-            self._plan = None  # a plan is still to be made if the time runs out in between
-            plan = self._reasoner.plan(self._history, explained.diagnosis)
-        self._plans += planned and bool(plan.actions)
-        ended = reasoning_clock()
-        action = plan.actions[0] if plan.actions else "finish"
-        if plan.actions:
-            self._history.attempt(action, percept.step)
-        self._plan = Plan(plan.actions[1:], plan.believed, plan.reachable)
-        trace = Trace(
-            intention=action,
-            plan=list(plan.actions),
-            belief=list(plan.believed) if planned else [],
-            explanation=None if explained.kept else self._explanation(percept.step),
-            plans=self._plans,
-            planning_time_s=ended - diagnosed,
-            diagnosis_time_s=diagnosed - began,
-        )
-        believes_goal = not plan.actions and plan.reachable
+            thought.ended = reasoning_clock()
+        plan = thought.plan
+        trace = self._trace(thought, percept.step)
+        if plan is not None:
+            self._attempt(plan)
         return Decision(
             trial=percept.trial,
             step=percept.step,
-            action=action,
-            believes_goal=believes_goal,
+            action="wait" if plan is None else _next(plan),
+            believes_goal=plan is not None and not plan.actions and plan.reachable,
             trace=trace,
         )
+
+    def _think(self, thought: _Thought) -> None:
+        """Diagnosis, and a plan if there is none. What was found remains if the time runs out."""
+        explained = self._reasoner.diagnose(self._history, self._diagnosis)
+        thought.diagnosed = reasoning_clock()
+        self._diagnosis = explained.diagnosis
+        if not explained.kept:
+            self._plan = None
+        thought.made = self._plan is None
+        plan = self._plan or self._reasoner.plan(self._history, self._diagnosis)
+        thought.ended, thought.plan = reasoning_clock(), plan
+
+    def _attempt(self, plan: Plan) -> None:
+        """Step by step through the plan: what is attempted is recorded, the rest remains."""
+        if plan.actions:
+            self._history.attempt(plan.actions[0], self._history.step)
+        self._plan = Plan(plan.actions[1:], plan.believed, plan.reachable)
 
     def _observe(self, percept: Percept) -> None:
         history = self._history
         if percept.attempted is not None:
             history.happened(percept.attempted, percept.happened is not False, history.step)
+        if percept.happened is False:
+            self._plan = None  # whenever there will be time for another one
         for event in percept.events:
             history.happened(event.action, True, event.step)
         history.step = percept.step
         outcome = outcome_literals(self._description, percept.attempted, percept.visible)
         history.observe(outcome, percept.step)
 
-    def _explanation(self, step: int) -> Explanation:
-        exceptions = self._domain.against(self._diagnosis.exceptions)
+    def _trace(self, thought: _Thought, step: int) -> Trace:
+        """The mind behind the decision, before anything of it is recorded."""
+        plan = thought.plan
+        self._plans += thought.made and plan is not None and bool(plan.actions)
+        return Trace(
+            intention="" if plan is None else _next(plan),
+            plan=[] if plan is None else list(plan.actions),
+            belief=list(plan.believed) if plan is not None and thought.made else [],
+            explanation=self._newly_adopted(step),
+            reason=OUT_OF_TIME if plan is None else "",
+            plans=self._plans,
+            planning_time_s=thought.planning_s,
+            diagnosis_time_s=thought.diagnosis_s,
+        )
+
+    def _newly_adopted(self, step: int) -> Explanation | None:
+        """The explanation, if it has not been told yet."""
+        if self._diagnosis == self._told:
+            return None
+        self._told = diagnosis = self._diagnosis
         return Explanation(
             step=step,
-            unobserved=list(self._diagnosis.unobserved),
-            exceptions=exceptions,
-            distrusted=list(self._diagnosis.distrusted),
+            unobserved=list(diagnosis.unobserved),
+            exceptions=self._domain.against(diagnosis.exceptions),
+            distrusted=list(diagnosis.distrusted),
         )
+
+
+@dataclass
+class _Thought:
+    """What is found in one decision, as far as it comes, and when by the clock."""
+
+    began: float
+    diagnosed: float | None = None
+    ended: float = 0.0
+    plan: Plan | None = None
+    made: bool = False
+
+    @property
+    def diagnosis_s(self) -> float:
+        return (self.ended if self.diagnosed is None else self.diagnosed) - self.began
+
+    @property
+    def planning_s(self) -> float:
+        return 0.0 if self.diagnosed is None else self.ended - self.diagnosed
+
+
+def _next(plan: Plan) -> str:
+    return plan.actions[0] if plan.actions else "finish"
