@@ -5,7 +5,8 @@
 
 Of a configuration the environment uses domain, goal, initial, observability, goal_feedback,
 exogenous_while_thinking and limits.steps; scenarios and scripts are an adversary's business, and
-the adversary is an agent here. Any key can be overridden: `env(goal_feedback=False)`.
+the adversary is an agent here. Any key can be overridden: `env(goal_feedback=False)`. With
+`level="L3"`, or a configuration with a refinement, the robot acts at the fine resolution.
 """
 
 from __future__ import annotations
@@ -17,67 +18,105 @@ from typing import TypeAlias
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from asp import load_description
-from testbed.config import ExperimentConfig, load_config
+from testbed.config import ConfigError, ExperimentConfig, load_config
+from testbed.config.grounds import grounds
 from testbed.environment.aec import AECView
 from testbed.environment.core import Core
+from testbed.environment.fine import fine_core, fine_world
+from testbed.environment.goals import RandomGoal
 from testbed.environment.observation import Observation
 from testbed.environment.parallel import ParallelView
 from testbed.environment.rules import Rules
 from testbed.environment.world import World
 
 Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
-"""A file, the bare name of a packaged configuration, one already read, or None: `office`."""
+"""A file, the bare name of a packaged configuration, one already read, or None: `office`, with a
+level `levels`."""
 
 
 def env(
     config: Config = None,
     render_mode: str | None = None,
     max_cycles: int | None = None,
+    level: str | None = None,
     **overrides: object,
 ) -> OrderEnforcingWrapper[str, Observation, int | None]:
     """The AEC environment, wrapped: what is called out of order raises, too.
 
-    `max_cycles` is the number of the last step, instead of limits.steps. Raises ConfigError for a
-    bad configuration and ValueError for an unknown render mode.
+    `max_cycles` is the number of the last step, instead of limits.steps; `level` one of those of
+    the configuration, by default of the packaged `levels`. Raises ConfigError for a bad
+    configuration and ValueError for an unknown render mode.
     """
-    return OrderEnforcingWrapper(raw_env(config, render_mode, max_cycles, **overrides))
+    return OrderEnforcingWrapper(raw_env(config, render_mode, max_cycles, level, **overrides))
 
 
 def raw_env(
     config: Config = None,
     render_mode: str | None = None,
     max_cycles: int | None = None,
+    level: str | None = None,
     **overrides: object,
 ) -> AECView:
     """The AEC environment, unwrapped. Parameters and errors as for `env`."""
-    return AECView(make_core(config, max_cycles, **overrides), render_mode)
+    return AECView(make_core(config, max_cycles, level, **overrides), render_mode)
 
 
 def parallel_env(
     config: Config = None,
     render_mode: str | None = None,
     max_cycles: int | None = None,
+    level: str | None = None,
     **overrides: object,
 ) -> ParallelView:
     """The parallel environment. Parameters and errors as for `env`."""
-    return ParallelView(make_core(config, max_cycles, **overrides), render_mode)
+    return ParallelView(make_core(config, max_cycles, level, **overrides), render_mode)
 
 
-def make_core(config: Config = None, max_cycles: int | None = None, **overrides: object) -> Core:
+def make_core(
+    config: Config = None,
+    max_cycles: int | None = None,
+    level: str | None = None,
+    **overrides: object,
+) -> Core:
     """The game that a configuration describes. Raises ConfigError."""
-    read = _read(config, overrides)
-    world = World(load_description(read.domain))
-    states = world.initial_states() if read.initial is None else (world.state(read.initial),)
-    return Core(world, _rules(read, max_cycles), states)
+    read = _read(config, level, overrides)
+    return _fine(read, max_cycles) if read.is_fine else _coarse(read, max_cycles)
 
 
-def _read(config: Config, overrides: dict[str, object]) -> ExperimentConfig:
+def _coarse(config: ExperimentConfig, max_cycles: int | None) -> Core:
+    world = World(load_description(config.domain))
+    given = config.initial
+    states = world.initial_states() if given is None else (world.state(given),)
+    return Core(world, _rules(config, max_cycles), states)
+
+
+def _fine(config: ExperimentConfig, max_cycles: int | None) -> Core:
+    if len(config.levels) > 1:
+        example = f"level='{config.levels[0]}'"
+        raise ConfigError([f"{config.name}: there are several levels; give one, as in {example}"])
+    ((_, ground),) = grounds(config)
+    refinement = ground.refinement
+    world, sorts = fine_world(refinement), refinement.description.sorts
+    return fine_core(
+        refinement,
+        _rules(config, max_cycles),
+        config.statistics,
+        config.adversary.pace,
+        None if config.initial is None else (world.state(config.initial),),
+        None if config.goal else RandomGoal(world, config.draw.goal, sorts),
+        config.draw.holding,
+    )
+
+
+def _read(config: Config, level: str | None, overrides: dict[str, object]) -> ExperimentConfig:
     if isinstance(config, ExperimentConfig):
-        if overrides:
+        if overrides or level:
             raise ValueError("overrides go with the name of a configuration, not with a read one")
         return config
-    changes = [f"{key}={json.dumps(value)}" for key, value in overrides.items()]
-    source = "office" if config is None else str(config)
+    chosen = overrides if level is None else {**overrides, "levels": [level]}
+    changes = [f"{key}={json.dumps(value)}" for key, value in chosen.items()]
+    packaged = "office" if level is None else "levels"
+    source = packaged if config is None else str(config)
     return load_config(source, changes, given_in="keyword argument")
 
 

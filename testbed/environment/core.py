@@ -26,12 +26,15 @@ WAIT, FINISH, NONE = "wait", "finish", "none"
 
 Draw: TypeAlias = Callable[[np.random.Generator], int]
 """Draws the state in which a game begins."""
+DrawGoal: TypeAlias = Callable[[int, np.random.Generator], tuple[str, ...]]
+"""Draws the goal of a game that begins in a state."""
 
 
 class Core:
     """A game in a world under rules; `initial` are the states that it may begin in, or a draw.
 
     `execution` says how the robot's attempts come out; by default what is possible takes effect.
+    A game has the goal of the rules unless `draw_goal` draws one for it.
     Raises UnknownFluentError if the goal is not of the domain.
     """
 
@@ -43,17 +46,20 @@ class Core:
         rules: Rules,
         initial: Sequence[int] | Draw,
         execution: Execution | None = None,
+        draw_goal: DrawGoal | None = None,
     ) -> None:
         world.satisfies(0, rules.goal)
         self.world = world
         self.rules = rules
         self.initial = initial
+        self.draw_goal = draw_goal
         self.execution = execution or Exact(world, world.description.robots[0])
         self.robot = self.execution.robot
         self._news_desk = News(world, self.execution)
         self.robot_actions = (WAIT, FINISH, *self.execution.actions)
         self.adversary_actions = (NONE, *world.exogenous_actions)
         self._random: np.random.Generator | None = None
+        self._listed: tuple[tuple[Situation, str | None], tuple[str, ...]] | None = None
 
     def reset(
         self, seed: int | None = None, initial: Sequence[str] | None = None, trial: str = ""
@@ -65,7 +71,8 @@ class Core:
         if seed is not None or self._random is None:
             self._random, _ = seeding.np_random(seed)
         state = self._begin() if initial is None else self.world.state(initial)
-        self.situation = Situation(trial=trial, step=1, state=state)
+        goal = self.draw_goal(state, self._random) if self.draw_goal else self.rules.goal
+        self.situation = Situation(trial=trial, step=1, state=state, goal=goal)
 
     def snapshot(self) -> Snapshot:
         """What `restore` needs to play on from here, as often as wanted, in the same way."""
@@ -81,7 +88,7 @@ class Core:
     @property
     def achieved(self) -> bool:
         """Whether the goal holds, as opposed to what the robot believes."""
-        return self.world.satisfies(self.situation.state, self.rules.goal)
+        return self.world.satisfies(self.situation.state, self.situation.goal)
 
     @property
     def visible(self) -> tuple[str, ...]:
@@ -108,10 +115,10 @@ class Core:
 
         Not knowing it (None), the adversary may try all that is possible by itself.
         """
-        if robot_action is not None and self._closed(robot_action):
-            return (NONE,)
-        events = self.world.exogenous_actions
-        return (NONE, *(event for event in events if self.legal(robot_action, event)))
+        asked = (self.situation, robot_action)
+        if self._listed is None or self._listed[0] != asked:
+            self._listed = (asked, tuple(self.legal_events(robot_action)))
+        return self._listed[1]
 
     def legal_events(self, robot_action: str | None) -> LegalEvents:
         """The same, each asked for only when it is looked at; another step makes it stale."""
@@ -151,6 +158,7 @@ class Core:
             trial=self.situation.trial,
             step=step,
             state=state,
+            goal=self.situation.goal,
             answer=robot_action,
             happened=None if robot_action in (WAIT, FINISH) else happened,
             event=event,

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 
 from asp.refinement import Refinement
-from testbed.environment.core import Core
+from testbed.environment.core import Core, DrawGoal
 from testbed.environment.rules import Rules
 from testbed.environment.sparse import SparseWorld
 from testbed.environment.sparse.sensing import Sensing
@@ -31,19 +31,22 @@ def fine_core(
     statistics: Mapping[str, float] = STATISTICS,
     pace: Pace = "concrete",
     initial: Sequence[int] | None = None,
+    draw_goal: DrawGoal | None = None,
+    holding: float = 0.2,
 ) -> Core:
     """A game whose robot acts and tests at the fine resolution.
 
     The goal may have literals of both resolutions. Without `initial` a game begins in a random
-    state (`RandomStart`). Raises UnknownFluentError for the goal, ValueError for the statistics.
+    state (`RandomStart`, with its probability of `holding`), and with `draw_goal` it has a goal of
+    its own. Raises UnknownFluentError for the goal, ValueError for the statistics.
     """
     world = fine_world(refinement)
     robot = refinement.description.robots[0]
     sensing = _sensing(refinement)
     coarse = refinement.coarse_signature.symbols.keys()
     execution = Tested(world, sensing, robot, statistics, coarse, pace)
-    starts = RandomStart(world, robot) if initial is None else initial
-    return Core(world, rules, starts, execution)
+    starts = RandomStart(world, robot, holding) if initial is None else initial
+    return Core(world, rules, starts, execution, draw_goal)
 
 
 @cache

@@ -56,13 +56,14 @@ def state_vector(core: Core) -> Vector:
 def infos(core: Core, robot_action: str | None) -> dict[str, dict[str, Any]]:
     """What each agent sees, as ASP text: the robot's percept, the adversary's full view.
 
-    `outcome` is None until the game is over.
+    Both know the goal; `outcome` is None until the game is over.
     """
-    percept, outcome = core.percept, core.situation.ending
+    percept = core.percept
+    both = {"goal": list(core.situation.goal), "outcome": core.situation.ending}
     everything = list(core.world.literals(core.situation.state))
     return {
-        ROBOT: {"literals": percept.visible, "percept": percept, "outcome": outcome},
-        ADVERSARY: {"literals": everything, "robot_action": robot_action, "outcome": outcome},
+        ROBOT: {"literals": percept.visible, "percept": percept, **both},
+        ADVERSARY: {"literals": everything, "robot_action": robot_action, **both},
     }
 
 

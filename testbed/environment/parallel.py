@@ -41,7 +41,7 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
             raise IllegalActionError("the game is over: reset the environment")
         robot_action = name_of(ROBOT, actions.get(ROBOT), self.core.robot_actions)
         event = name_of(ADVERSARY, actions.get(ADVERSARY), self.core.adversary_actions)
-        dropped = None if event in self.core.events(robot_action) else event
+        dropped = None if self.core.legal(robot_action, event) else event
         self.core.advance(robot_action, NONE if dropped else event)
         return self._transition(dropped)
 

@@ -35,6 +35,7 @@ class Situation:
     trial: str
     step: int
     state: int
+    goal: tuple[str, ...]
     answer: str | None = None
     happened: bool | None = None
     event: str | None = None
