@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 from clingo import Symbol
 
-from asp.solving import core, ground, theory
+from asp.literals import atom, is_positive
+from asp.solving import core, fact, ground, theory
 
 
 def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...] | None:
@@ -23,6 +24,24 @@ def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...
     in_order = sorted(statements, key=lambda literal: _place(statements[literal]))
     found = core(control, [], in_order)
     return None if found is None else tuple(_text(statements[literal]) for literal in found)
+
+
+def never_together(program: str, literals: Iterable[str]) -> tuple[str, ...] | None:
+    """A smallest part of some literals that no state has; None: there is a state that has them all.
+
+    `program` is a domain's translation. None of the literals named can be left out. Raises
+    TimeLimitError.
+    """
+    wanted = {
+        fact("obs", atom(literal), "true" if is_positive(literal) else "false", 0): literal
+        for literal in literals
+    }
+    facts = [*wanted, fact("current_step", 0)]
+    control = ground([program, theory("conflict")], {"n": 0}, facts)
+    stated = {control.symbolic_atoms[fact("stated", obs)]: obs for obs in wanted}
+    numbers = {found.literal: wanted[obs] for found, obs in stated.items() if found is not None}
+    part = core(control, [], list(numbers))
+    return None if part is None else tuple(numbers[number] for number in part)
 
 
 def cannot_hold(observations: tuple[str, ...]) -> str:

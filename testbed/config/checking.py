@@ -7,8 +7,10 @@ from contextlib import contextmanager
 
 import asp
 from asp import Description
+from asp.conflicts import cannot_hold, never_together
 from asp.errors import SourceError
 from asp.literals import atom, complement
+from asp.translation import translate
 from testbed.config.errors import ConfigError, nearest
 from testbed.config.grounds import grounds
 from testbed.config.levels import ground_findings, settings_findings
@@ -152,10 +154,20 @@ def _goal(key: Key, literals: tuple[str, ...], description: Description) -> Iter
     unknown = list(_literals(key, literals, description))
     yield from unknown
     if not unknown:
-        try:
-            World(description).check_together(literals)
-        except StateError as error:
-            yield key, f"no state has all of this: {error}"
+        why = _never_together(literals, description)
+        if why is not None:
+            yield key, f"no state has all of this: {why}"
+
+
+def _never_together(literals: tuple[str, ...], description: Description) -> str | None:
+    """Which literals no state has together: with the law where they follow, else by the theory."""
+    try:
+        World(description).check_together(literals)
+    except StateError as error:
+        return str(error)
+    program = translate(description.source, f"{description.name}.al")
+    found = never_together(program, literals)
+    return None if found is None else cannot_hold(found)
 
 
 def _initial(

@@ -302,6 +302,27 @@ def test_a_goal_that_no_state_has_is_refused_with_the_law(
     assert line.startswith("command line: scenario_settings.1.goal: no state has")
 
 
+def test_a_goal_that_no_state_has_is_refused_where_no_law_says_so_by_itself(
+    tmp_path: Path,
+) -> None:
+    """That nothing else makes it safe is what `defined` says; and lit or not, the fuse is hot."""
+    lamp = tmp_path / "lamp.al"
+    fluents = "fluents\n  defined safe.\n  inertial hot.\n"
+    laws = "laws\n  safe if -lit.\n  hot if lit.\n  hot if -lit.\n"
+    text = LAMP.replace("fluents\n", fluents).replace("laws\n", laws)
+    lamp.write_text(text, encoding="utf-8")
+    given = [f"domain={lamp}", "scenarios=[1]", "scenario_settings={}", "observability={}"]
+
+    def refusal(goal: str) -> list[str]:
+        return _refusal(tmp_path, VALID, *given, "initial=[lit]", f"goal={goal}")
+
+    prefix = "command line: goal: no state has all of this: "
+    assert refusal("[safe,hot,lit]") == [prefix + "safe and lit cannot both hold"]
+    assert refusal("[-hot]") == [prefix + "-hot cannot hold"]
+    allowed = [*given, "initial=[lit,hot]", "goal=[-safe,lit]"]
+    assert load_config(_file(tmp_path, VALID), allowed).goal == ("-safe", "lit")
+
+
 @pytest.mark.parametrize(
     "text", ["- a\n- b\n", "name: [x\n", "name: x\nname: y\n", "goal: ${nothing}\n"]
 )
