@@ -10,6 +10,7 @@ from pathlib import Path
 from asp.levels import LEVELS, LevelSize, level_text
 from asp.loading import read_domain
 from asp.refinement import Refinement, load
+from asp.refinement.reading import read_refinement
 from testbed.config.models import ExperimentConfig
 
 
@@ -48,7 +49,7 @@ def of_size(size: LevelSize) -> Ground:
 
 
 def of_files(domain: str, refinement: str) -> Ground:
-    """A domain, by name or path, with its refinement. Raises SourceError and OSError."""
+    """A domain and its refinement, by names or paths. Raises SourceError and OSError."""
     file, text = read_domain(domain)
-    fine = Path(refinement).read_text(encoding="utf-8")
-    return Ground(load(text, file, fine, refinement), fine)
+    fine_file, fine = read_refinement(refinement)
+    return Ground(load(text, file, fine, fine_file), fine)

@@ -19,13 +19,14 @@ from testbed.environment.sparse import SparseWorld
 from testbed.environment.world import World
 
 FLUENTS = ("inertial", "defined")
-_EXCLUDED = ("scenarios", "scenario_settings")
+SCENARIO_KEYS = ("scenarios", "scenario_settings")
+"""What goes with no levels."""
 
 
 def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:
     """What can be said without the levels' descriptions: keys that do not go together, names."""
     given = config.model_fields_set
-    for key in _EXCLUDED:
+    for key in SCENARIO_KEYS:
         if key in given and getattr(config, key):
             yield (key,), f"goes with no levels; give {key} or levels, not both"
     if config.limit is None:

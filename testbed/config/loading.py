@@ -169,8 +169,9 @@ def _located(config: ExperimentConfig, path: Path) -> ExperimentConfig:
 
 
 def _beside(path: Path, file: str) -> str:
-    beside = path.parent / file
-    return str((beside if beside.is_file() else Path(file)).resolve())
+    """The file beside the configuration or here; a packaged one keeps its bare name."""
+    found = (candidate for candidate in (path.parent / file, Path(file)) if candidate.is_file())
+    return str(next((candidate.resolve() for candidate in found), file))
 
 
 def _yaml_line(path: Path, error: yaml.YAMLError) -> str:

@@ -17,6 +17,8 @@ LinkKind = Literal["zenoh", "inprocess"]
 KnowledgeKind = Literal["complete", "seen"]
 Strategy = Literal["triggers", "random"]
 Pace = Literal["concrete", "abstract"]
+FINE_STEPS = 5000
+"""Environment steps of a trial at the fine resolution, unless given."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
 """How a goal is written."""
 
@@ -179,10 +181,14 @@ class ExperimentConfig(Section):
 
     @model_validator(mode="before")
     @classmethod
-    def _goal_may_be_drawn(cls, given: object) -> object:
-        if not isinstance(given, Mapping) or given.get("goal") is not None:
+    def _with_fine_defaults(cls, given: object) -> object:
+        """At the fine resolution a goal may be drawn, and a trial has many more steps."""
+        if not isinstance(given, Mapping) or not (given.get("levels") or given.get("refinement")):
             return given
-        return {**given, "goal": ()} if given.get("levels") or given.get("refinement") else given
+        limits, goal = given.get("limits") or {}, given.get("goal")
+        if isinstance(limits, Mapping):
+            limits = {"steps": FINE_STEPS, **limits}
+        return {**given, "goal": () if goal is None else goal, "limits": limits}
 
     @property
     def is_fine(self) -> bool:

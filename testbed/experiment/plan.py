@@ -95,8 +95,9 @@ def _at_levels(config: ExperimentConfig) -> Iterator[TrialSpec]:
         drawing = Drawing(config, ground.refinement)
         texts = [ground.refinement.coarse.text, ground.text] if config.refinement else []
         for number in range(1, (config.limit or 0) + 1):
-            path = [level, *texts, number]
-            initial, goal = drawing.trial(generator_of(config.seed, path))
+            place = [level, *texts, number]
+            initial, goal = drawing.trial(generator_of(config.seed, place))
+            path = [*place, list(initial), sorted(goal)]
             setting = _fine_setting(config, level, goal)
             yield from _specs(config, PROTOCOL, level, path, initial, setting, domain)
 

@@ -15,6 +15,8 @@ from typing import Any
 
 import asp
 import testbed
+from asp.refinement.reading import read_refinement
+from testbed.config import ExperimentConfig
 from testbed.experiment.store import PROVENANCE, replace_text
 
 DISTRIBUTION = "intention-testbed"
@@ -26,7 +28,7 @@ ROOT = Path(testbed.__file__).resolve().parent.parent
 class Provenance:
     """The provenance of one session of a run; those of earlier sessions are kept under `before`."""
 
-    def __init__(self, folder: Path, domain: str, arguments: Sequence[str]) -> None:
+    def __init__(self, folder: Path, config: ExperimentConfig, arguments: Sequence[str]) -> None:
         self._folder = folder
         self._entry: dict[str, Any] = {
             "command": ["testbed", *arguments],
@@ -36,7 +38,8 @@ class Provenance:
             "versions": versions(),
             "platform": {"system": platform.platform(), "machine": platform.machine()},
             "revision": revision(folder),
-            "domain": _domain(domain),
+            "domain": _domain(config.domain),
+            "refinement": _refinement(config.refinement),
             "before": _sessions(folder / PROVENANCE),
         }
         self._write()
@@ -82,6 +85,13 @@ def _domain(domain: str) -> dict[str, str]:
     description = asp.load_description(domain)
     digest = hashlib.sha256(description.source.encode()).hexdigest()
     return {"name": description.name, "sha256": digest}
+
+
+def _refinement(file: str | None) -> dict[str, str] | None:
+    if file is None:
+        return None
+    digest = hashlib.sha256(read_refinement(file)[1].encode()).hexdigest()
+    return {"name": Path(file).stem, "sha256": digest}
 
 
 def _sessions(path: Path) -> list[dict[str, Any]]:

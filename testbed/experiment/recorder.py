@@ -114,9 +114,11 @@ class Recorder:
             return "achieved"
         return "false_finish" if self._believes_goal else "gave_up"
 
+    def _undisturbed(self) -> bool:
+        return not self.record.exogenous
+
     def _minimal_if_undisturbed(self) -> bool:
-        undisturbed = not self.record.exogenous
-        return not undisturbed or self.record.action_count == self.record.minimal_actions
+        return not self._undisturbed() or self.record.action_count == self.record.minimal_actions
 
     def unreached(self, steps: Sequence[int]) -> None:
         """Steps of the script at which the game was over already."""
@@ -150,9 +152,11 @@ class FineRecorder(Recorder):
     what the robot inferred of it. One that the trial ends in the middle of did not happen.
     """
 
-    def __init__(self, record: TrialRecord, counts: FineCounts) -> None:
+    def __init__(self, record: TrialRecord, counts: FineCounts, certain: bool) -> None:
+        """`certain`: whether every action and every test comes out as it should."""
         super().__init__(record)
         self._counts = counts
+        self._certain = certain
 
     def _acted(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
         del happened  # of a concrete action, which is told from what came of the abstract one
@@ -165,14 +169,12 @@ class FineRecorder(Recorder):
             self._attempt(fine.begun, fine.abstract, False, costs)
         self._count(fine)
 
+    def _undisturbed(self) -> bool:
+        return self._certain and super()._undisturbed()
+
     def _count(self, fine: FineTrace) -> None:
         counts = self._counts
         counts.plans, counts.actions, counts.tests = fine.plans, fine.actions, fine.tests
         counts.planning_time_s += fine.planning_time_s
         counts.infer_time_s += fine.infer_time_s
         self.record.reasoning_time_s += counts.planning_time_s + counts.infer_time_s
-
-
-def recorder_of(record: TrialRecord) -> Recorder:
-    """What fills a record: one with counts of the fine resolution is filled from there."""
-    return Recorder(record) if record.fine is None else FineRecorder(record, record.fine)

@@ -60,7 +60,7 @@ def run_session(
     config = load(source, overrides)
     folder = choose_folder(out, config.name, resume)
     _prepare(folder, config)
-    provenance = Provenance(folder, config.domain, session_arguments())
+    provenance = Provenance(folder, config, session_arguments())
     with _progress(quiet) as notify:
         tally = run_trials(config, folder, workers, notify)
     code = _exit_code(tally)

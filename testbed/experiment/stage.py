@@ -13,7 +13,7 @@ from testbed.environment.world import World
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.conditions import known, rules_of
 from testbed.experiment.domains import load_world
-from testbed.experiment.fine_stage import FineStage
+from testbed.experiment.fine_stage import FineStage, fine_part
 from testbed.experiment.oracle import minimal_actions
 from testbed.experiment.plan import Setting, TrialSpec
 from testbed.link.messages import Task
@@ -75,12 +75,17 @@ class CoarseStage:
 
 def load_stage(setting: Setting) -> Stage:
     """The stage of a setting; its world is loaded once. Raises what `asp.load_description` does."""
-    fine = setting.fine
-    if fine is None:
+    if setting.fine is None:
         return CoarseStage(load_world(setting.domain))
+    return _fine_stage(load_ground(setting))
+
+
+def load_ground(setting: Setting) -> Ground:
+    """The descriptions of a setting of the fine resolution. Raises SourceError and OSError."""
+    fine = fine_part(setting)
     if fine.size is not None:
-        return _fine_stage(of_size(fine.size))
-    return _fine_stage(of_files(setting.domain, fine.refinement or ""))
+        return of_size(fine.size)
+    return of_files(setting.domain, fine.refinement or "")
 
 
 @lru_cache(maxsize=16)

@@ -14,6 +14,7 @@ import msgspec
 import yaml
 
 from testbed.config import ConfigError, ExperimentConfig, load_config
+from testbed.config.levels import SCENARIO_KEYS
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import FAILURES, TrialRecord, decode, encode
 
@@ -57,21 +58,37 @@ def read_config(folder: Path) -> ExperimentConfig:
 
 
 def write_config(folder: Path, config: ExperimentConfig) -> None:
-    """Write the resolved configuration, and beside it a domain that is not a packaged one."""
+    """Write the resolved configuration, and beside it a domain or map that is not packaged."""
     folder.mkdir(parents=True, exist_ok=True)
-    if config.domain.endswith(".al"):
-        source = Path(config.domain)
+    files = _own_files(config)
+    for source in files.values():
         if source.parent != folder.resolve():
             shutil.copyfile(source, folder / source.name)
-        config = config.model_copy(update={"domain": source.name})
+    config = config.model_copy(update={key: source.name for key, source in files.items()})
     replace_text(folder / CONFIG, config_text(config))
 
 
+def _own_files(config: ExperimentConfig) -> dict[str, Path]:
+    """The files that a configuration leads to, by its key."""
+    files = {"domain": Path(config.domain)} if config.domain.endswith(".al") else {}
+    refinement = Path(config.refinement or "")
+    return files | {"refinement": refinement} if refinement.is_absolute() else files
+
+
 def config_text(config: ExperimentConfig) -> str:
-    """The configuration as YAML: every key with its value or default, of scenarios what is set."""
-    keys = config.model_dump(mode="json")
+    """The configuration as YAML: every key with its value or default, of scenarios what is set.
+
+    Keys of scenarios are left out where there are levels.
+    """
+    keys = config.model_dump(mode="json", exclude=set(SCENARIO_KEYS) if config.is_fine else None)
+    if config.is_fine:
+        return _yaml(keys)
     own = config.model_dump(mode="json", include={"scenario_settings"}, exclude_none=True)
-    return str(yaml.safe_dump(keys | own, sort_keys=False, width=100, allow_unicode=True))
+    return _yaml(keys | own)
+
+
+def _yaml(keys: dict[str, object]) -> str:
+    return str(yaml.safe_dump(keys, sort_keys=False, width=100, allow_unicode=True))
 
 
 def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
@@ -102,9 +119,9 @@ def _flat(config: ExperimentConfig) -> dict[str, object]:
             flat[prefix.removesuffix(".")] = value
 
     walk("", config.model_dump(mode="json", exclude_none=True))
-    if config.domain.endswith(".al"):
-        flat["domain"] = Path(config.domain).name
-        flat["domain text"] = Path(config.domain).read_text(encoding="utf-8")
+    for key, file in _own_files(config).items():
+        flat[key] = file.name
+        flat[f"{key} text"] = file.read_text(encoding="utf-8")
     return flat
 
 

@@ -15,7 +15,7 @@ from testbed.environment.errors import IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
 from testbed.experiment.plan import TrialSpec
 from testbed.experiment.record import FineCounts, TrialRecord
-from testbed.experiment.recorder import Recorder, recorder_of
+from testbed.experiment.recorder import FineRecorder, Recorder
 from testbed.experiment.stage import load_stage
 from testbed.link.errors import RobotLost, RobotStopped
 from testbed.link.exchange import in_one_line
@@ -51,7 +51,7 @@ Watch = Callable[[Moment], None]
 
 def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None) -> Result:
     """The result of a trial. A lost robot and any error end in the record, never in a raise."""
-    recorder = recorder_of(blank_record(spec))
+    recorder = _recorder(spec)
     started = time.perf_counter()
     details: str | None = None
     try:
@@ -72,9 +72,17 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
 
 def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
     """The result of a trial whose worker process ended in the middle of it."""
-    recorder = recorder_of(blank_record(spec))
+    recorder = _recorder(spec)
     recorder.fail("error", f"worker process ended with exit code {exit_code}")
     return Result(recorder.record)
+
+
+def _recorder(spec: TrialSpec) -> Recorder:
+    record, fine = blank_record(spec), spec.setting.fine
+    if fine is None or record.fine is None:
+        return Recorder(record)
+    certain = all(probability == 1.0 for probability in fine.statistics.values())
+    return FineRecorder(record, record.fine, certain)
 
 
 def blank_record(spec: TrialSpec) -> TrialRecord:

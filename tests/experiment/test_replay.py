@@ -9,8 +9,9 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.registry import make_robot
-from testbed.experiment.replay import Teller, list_trials, replay
+from testbed.experiment.replay import list_trials, replay
 from testbed.experiment.store import TrialWriter, write_config
+from testbed.experiment.telling import Teller
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link.inprocess import InProcessRobot
 from testbed.link.messages import Decision, Percept, Trace
