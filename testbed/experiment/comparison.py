@@ -40,8 +40,9 @@ def comparisons(summary: Mapping[str, Any]) -> list[Comparison]:
 
 
 def _cells(group: Mapping[str, Any]) -> Iterator[Cell]:
-    chances = group["p_values"] if group["pairs"] > 1 else {}
-    yield Cell("pairs", str(group["pairs"]))
+    chances = group["p_values"] if group["pairs"] - group["failed_pairs"] > 1 else {}
+    failed = group["failed_pairs"]
+    yield Cell("pairs", f"{group['pairs']}, {failed} failed" if failed else str(group["pairs"]))
     for robot in ROBOTS:
         share = group["accuracy"].get(robot)
         chance = _chance(chances.get("accuracy")) if robot == INTENTIONAL else ""

@@ -11,7 +11,7 @@ from statistics import fmean
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
 from testbed.experiment.levels import FineOutline, fine_outline, summarise_level
-from testbed.experiment.record import TrialRecord
+from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.store import SUMMARY, read_records, replace_text
 
 BASELINE, INTENTIONAL = "traditional", "intentional"
@@ -20,9 +20,10 @@ BASELINE, INTENTIONAL = "traditional", "intentional"
 class Outline:
     """The numbers of a record: what is held in memory of each trial of a large run."""
 
-    __slots__ = ("action_count", "correct", "execution_units", "planning_time_s", "plans")
+    __slots__ = ("action_count", "correct", "ended", "execution_units", "planning_time_s", "plans")
 
     def __init__(self, record: TrialRecord) -> None:
+        self.ended = record.outcome not in FAILURES
         self.correct = record.correct
         self.plans = record.plans
         self.action_count = record.action_count
@@ -51,8 +52,9 @@ def summarise(records: Iterable[TrialRecord]) -> dict[str, object]:
     """Counts, accuracy, ratios (traditional / intentional) and p-values by scenario and by level.
 
     At a level of the fine resolution come its columns of Tables 2 and 3 (`summarise_level`).
-    A ratio is left out of the mean where the intentional robot's measure is 0; a measure without
-    any ratio, and a test without any difference, is null.
+    Measures are compared in pairs of which both trials ended by themselves; a pair with an error or
+    a lost robot is counted in `failed_pairs`. A ratio is left out of the mean where the intentional
+    robot's measure is 0; a measure without any ratio, and a test without any difference, is null.
     """
     scenarios: dict[str, Pairs] = defaultdict(lambda: defaultdict(dict))
     levels: dict[str, Pairs] = defaultdict(lambda: defaultdict(dict))
@@ -81,11 +83,13 @@ def _group(pairs: Pairs) -> dict[str, object]:
         for pair in pairs.values()
         if BASELINE in pair and INTENTIONAL in pair
     ]
-    p_values = {name: _wilcoxon(complete, measure) for name, measure in MEASURES.items()}
+    ended = [(base, mind) for base, mind in complete if base.ended and mind.ended]
+    p_values = {name: _wilcoxon(ended, measure) for name, measure in MEASURES.items()}
     return {
         "pairs": len(pairs),
+        "failed_pairs": len(complete) - len(ended),
         "accuracy": _accuracy(pairs),
-        "ratios": {name: _ratio(complete, measure) for name, measure in MEASURES.items()},
+        "ratios": {name: _ratio(ended, measure) for name, measure in MEASURES.items()},
         "p_values": p_values | {"accuracy": _mcnemar(complete)},
     }
 

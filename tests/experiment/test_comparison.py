@@ -1,7 +1,11 @@
 """The comparison of the robots: numbers of one precision, rows of scenarios and of all."""
 
+from typing import Any
+
+import pytest
+
 from testbed.experiment.comparison import Cell, comparisons
-from testbed.experiment.record import TrialRecord
+from testbed.experiment.record import Outcome, TrialRecord
 from testbed.experiment.summary import summarise
 from tests.experiment.samples import a_record
 
@@ -35,6 +39,40 @@ def test_shares_ratios_and_chances_have_one_precision() -> None:
 def test_a_single_pair_has_no_chance() -> None:
     (row,) = comparisons(summarise(_pairs("2", 1, 5)))
     assert {cell.label: cell for cell in row.cells}["actions"] == Cell("actions", "2.00")
+
+
+@pytest.mark.parametrize("outcome", ["robot_lost", "error"])
+@pytest.mark.parametrize("robot", ["intentional", "traditional"])
+def test_a_pair_with_a_failure_counts_apart(robot: str, outcome: Outcome) -> None:
+    """What a trial had done until its robot was lost says nothing of what it would have needed."""
+    ended = _pairs("2", 3, 5)
+    failed = [
+        a_record(
+            f"{kind} failed",
+            pair="2 failed",
+            scenario="2",
+            robot=kind,
+            action_count=1000,
+            correct=kind != robot,
+            outcome=outcome if kind == robot else "achieved",
+        )
+        for kind in ("intentional", "traditional")
+    ]
+    summary: Any = summarise([*ended, *failed])
+    without: Any = summarise(ended)
+    group, same = summary["scenarios"]["2"], without["scenarios"]["2"]
+    assert (group["pairs"], group["failed_pairs"]) == (4, 1)
+    assert (same["pairs"], same["failed_pairs"]) == (3, 0)
+    assert group["ratios"] == same["ratios"]
+    assert {k: p for k, p in group["p_values"].items() if k != "accuracy"} == {
+        k: p for k, p in same["p_values"].items() if k != "accuracy"
+    }
+    assert group["accuracy"] == {
+        "intentional": 0.75 if robot == "intentional" else 1.0,
+        "traditional": 0.0 if robot == "traditional" else 0.25,
+    }
+    (row,) = comparisons(summary)
+    assert row.cells[0] == Cell("pairs", "4, 1 failed")
 
 
 def test_a_last_row_is_about_all_scenarios() -> None:
