@@ -106,10 +106,17 @@ costs
   put_down(R, O) costs 5.
   unlock(R, L)   costs 5.
 
-% One event at most: a book is brought from one room to another, or the library is locked.
+% What others do while the robot is at work, one event at most.
 scenarios
-  1:        nothing.
+  % 1: nothing exogenous happens.
+  1: nothing.
+
+  % borrowed: somebody takes a book out of its room, but not to the library.
   borrowed: exo_move(B, L) upon any drawing B if L != library probability 0.2.
+
+  % returned: somebody brings a book to the library.
   returned: exo_move(B, library) upon any drawing B probability 0.2.
-  random:   exo_lock(L)    upon any drawing L probability 0.92.
-  random:   exo_move(B, L) upon any drawing B probability 0.92.
+
+  % random: the library is locked or a book is brought elsewhere, at any time.
+  random: exo_lock(L)    upon any drawing L probability 0.92.
+  random: exo_move(B, L) upon any drawing B probability 0.92.

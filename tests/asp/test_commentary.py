@@ -1,7 +1,9 @@
 """What a description's comments say of its scenarios."""
 
+import pytest
+
 from asp.commentary import scenario_notes
-from asp.loading import read_domain
+from asp.loading import load_description, read_domain
 
 TEXT = """\
 scenarios
@@ -28,6 +30,7 @@ def test_the_comment_above_the_first_statement_tells_of_a_scenario() -> None:
     }
 
 
-def test_the_office_tells_of_all_its_scenarios() -> None:
-    file, text = read_domain("office")
-    assert list(scenario_notes(text, file)) == ["1", "2", "3", "4", "5", "6", "random"]
+@pytest.mark.parametrize("name", ["office", "library"])
+def test_a_packaged_domain_tells_of_all_its_scenarios(name: str) -> None:
+    file, text = read_domain(name)
+    assert tuple(scenario_notes(text, file)) == load_description(name).scenarios
