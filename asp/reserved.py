@@ -12,6 +12,8 @@ from asp.syntax import SymbolKind
 
 _CONSTANTS = frozenset({"n", "not"})
 _ENVIRONMENT = frozenset({"wait", "none"})
+_REFINED = frozenset({"component", "fine", "coarse", "outcome"})
+"""Names that refined descriptions declare, so that theories of them may speak of them."""
 
 
 def is_reserved_constant(name: str) -> bool:
@@ -28,7 +30,7 @@ def is_reserved_symbol(name: str, kind: SymbolKind) -> bool:
 
 def is_reserved_sort(name: str) -> bool:
     """Whether a sort cannot have this name."""
-    return name in _CONSTANTS or name in _words().predicates
+    return name in _CONSTANTS or name in _words().predicates - _REFINED
 
 
 class _Words(ast.Transformer):
