@@ -15,6 +15,7 @@ from testbed.experiment.record import FineCounts, TrialRecord, logical
 from testbed.experiment.stage import load_ground, load_stage
 from testbed.experiment.summary import summarise
 from testbed.experiment.tables import headings, rows_of
+from testbed.experiment.telling import teller_of
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 from testbed.link.messages import Decision, FineTrace, Percept, Task, Trace
@@ -100,12 +101,16 @@ def test_goals_and_places_are_drawn_from_all() -> None:
 
 
 START = ("fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "fine_loc(object2_1,room2_1)")
-CARRIED = (
-    ("move", "fine_move(rob1,room1_2)"),
-    ("pickup", "fine_pickup(rob1,object1_1)"),
-    ("move", "fine_move(rob1,room2_1)"),
+FIXED = (
+    SMALL,
+    "levels=[small]",
+    "limit=1",
+    f"initial=[{','.join(START)}]",
+    "goal=[loc(object1,room2)]",
+    "statistics={}",
+    "adversary.rate=0.0",
+    "robots=[intentional]",
 )
-ABSTRACT = {"pickup": "pickup(rob1,object1)", "move": "move(rob1,room2)"}
 
 
 class Reciter:
@@ -151,10 +156,7 @@ CARRYING = (
 def _play(
     steps: Sequence[tuple[str, FineTrace | None]], *overrides: str
 ) -> tuple[TrialRecord, Reciter]:
-    initial = f"initial=[{','.join(START)}]"
-    fixed = [SMALL, "levels=[small]", "limit=1", initial, "goal=[loc(object1,room2)]"]
-    still = ["statistics={}", "adversary.rate=0.0", "robots=[intentional]"]
-    (spec,) = _specs(*fixed, *still, *overrides)
+    (spec,) = _specs(*FIXED, *overrides)
     robot = Reciter(steps)
     return play_trial(spec, InProcessRobot(lambda _: robot)).record, robot
 
@@ -222,6 +224,76 @@ def test_a_script_is_of_the_fine_resolution() -> None:
     assert [(e.step, e.action) for e in record.exogenous] == [
         (3, "fine_exo_move(object2_1,room1_1)")
     ]
+
+
+def _told(steps: Sequence[tuple[str, FineTrace | None]], *overrides: str) -> list[str]:
+    """What a replay tells of the trial."""
+    (spec,) = _specs(*FIXED, *overrides)
+    said: list[str] = []
+    robot = InProcessRobot(lambda _: Reciter(steps))
+    play_trial(spec, robot, teller_of(spec.setting, said.append).tell)
+    return said
+
+
+def _step(said: Sequence[str], number: int) -> list[str]:
+    """The lines of a step, each without its indentation and with one blank between words."""
+    start = said.index(f"step {number}") + 1
+    rest = [" ".join(line.split()) for line in said[start:]]
+    return rest[: rest.index("")] if "" in rest else rest
+
+
+def test_a_replay_tells_the_abstract_action_its_refined_plan_and_what_came_of_it() -> None:
+    plan = [action for action, _ in CARRYING[1:4] if "test" not in action]
+    begun = _fine(2, "pickup(rob1,object1)", zoomed=["object1", "room1"], plan=plan)
+    failing = _fine(2, "pickup(rob1,object1)", failed="fine_move(rob1,room1_2) failed")
+    over = _fine(
+        5,
+        "move(rob1,room2)",
+        ended="pickup(rob1,object1)",
+        happened=True,
+        inferred=["in_hand(rob1,object1)"],
+        committed=["fine_in_hand(rob1,object1_1)"],
+    )
+    steps = [*CARRYING]
+    steps[1], steps[3], steps[4] = (
+        (CARRYING[1][0], begun),
+        (CARRYING[3][0], failing),
+        (CARRYING[4][0], over),
+    )
+    said = _told(steps)
+    assert _step(said, 1)[0] == (
+        "world fine_loc(object1_1,room1_2) fine_loc(object1_2,room1_2) fine_loc(object2_1,room2_1) "
+        "fine_loc(object2_2,room2_1) fine_loc(rob1,room1_1)"
+    )
+    assert _step(said, 2)[-4:] == [
+        "abstract pickup(rob1,object1)",
+        "relevant object1 room1",
+        "refined to fine_move(rob1,room1_2) fine_pickup(rob1,object1_1)",
+        "action fine_move(rob1,room1_2)",
+    ]
+    assert _step(said, 3)[0] == "world now fine_loc(rob1,room1_2) -fine_loc(rob1,room1_1)"
+    assert "failed fine_move(rob1,room1_2) failed" in _step(said, 4)
+    after = _step(said, 5)
+    assert "certain now fine_in_hand(rob1,object1_1)" in after
+    assert "over pickup(rob1,object1): happened" in after
+    assert "inferred in_hand(rob1,object1)" in after
+    assert after.index("inferred in_hand(rob1,object1)") < after.index("abstract move(rob1,room2)")
+
+
+def test_a_replay_says_which_observation_is_wrong() -> None:
+    test = ("test_fine_loc(rob1,object1_1,room1_2)", _fine(2, "pickup(rob1,object1)"))
+    said = _told([*CARRYING[:2], test, *CARRYING[3:]], "statistics={test_fine_loc: 0.0}")
+    assert "observed -fine_loc(object1_1,room1_2), which is wrong" in _step(said, 4)
+    said = _told([*CARRYING[:2], test, *CARRYING[3:]])
+    assert "observed fine_loc(object1_1,room1_2)" in _step(said, 4)
+
+
+def test_a_replay_says_which_action_took_no_effect_and_what_others_did() -> None:
+    script = "script=[{step: 3, action: 'fine_exo_move(object2_1,room1_1)'}]"
+    said = _told(CARRYING, "statistics={fine_move: 0.0}", script)
+    assert _step(said, 2)[-1] == "action fine_move(rob1,room1_2): did not happen"
+    assert _step(said, 3)[-1] == "others fine_exo_move(object2_1,room1_1)"
+    assert _step(said, 4)[0].startswith("world now fine_loc(object2_1,room1_1)")
 
 
 def test_out_of_reach_is_counted_apart() -> None:
