@@ -2,11 +2,16 @@
 
 import itertools
 
+import numpy as np
 import pytest
 
+from asp.grounding import ground_description
+from asp.levels import level_text
+from asp.loading import analyse
+from testbed.environment.goals import RandomGoal
 from testbed.environment.world import World
 from testbed.experiment.domains import load_world
-from testbed.experiment.oracle import minimal_actions, shortest_plan
+from testbed.experiment.oracle import Oracle, minimal_actions, shortest_plan
 
 DELIVERED = (
     "loc(book1,library)",
@@ -78,3 +83,30 @@ def test_no_shorter_sequence_of_actions_does_it(office: World) -> None:
         for action in shorter:
             states = {after for s in states for after in office.successors(s, (action,))}
         assert not any(office.satisfies(state, DELIVERED) for state in states)
+
+
+@pytest.mark.parametrize(
+    "patterns", [["loc(object,room)"], ["loc(object,room)", "loc(robot,room)"]]
+)
+def test_the_oracle_of_many_constants_finds_what_the_plain_one_finds(patterns: list[str]) -> None:
+    source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
+    description = ground_description(source, signature, "level")
+    world, oracle = World(description), Oracle(description, source, signature)
+    draw = RandomGoal(world, patterns, description.sorts)
+    random = np.random.default_rng(1)
+    states = world.initial_states()
+    for number in random.permutation(len(states))[:60]:
+        state = states[number]
+        goal = draw(state, random)
+        found = oracle.minimal_actions(world.true_atoms(state), goal)
+        assert found == minimal_actions(world, state, goal)
+
+
+def test_the_oracle_of_many_constants_says_what_is_out_of_reach() -> None:
+    source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
+    description = ground_description(source, signature, "level")
+    oracle = Oracle(description, source, signature)
+    start = [f"loc({thing},room1)" for thing in ("rob1", "object1", "object2", "object3")]
+    impossible = ["in_hand(rob1,object1)", "loc(rob1,room1)", "loc(object1,room2)"]
+    assert oracle.minimal_actions(start, impossible) is None
+    assert oracle.minimal_actions(start, start) == 0

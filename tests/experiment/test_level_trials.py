@@ -1,103 +1,26 @@
-"""Trials at the fine resolution: what is drawn, what is recorded, what the levels' table says."""
+"""Trials at the fine resolution with a robot that recites: what is recorded, told and replayed."""
 
-from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
 import pytest
 
-from testbed.config import ExperimentConfig, load_config
+from testbed.config import load_config
 from testbed.environment.fine import fine_world
-from testbed.experiment.level_table import LEVEL_COLUMNS, level_rows
 from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
 from testbed.experiment.record import FineCounts, TrialRecord, logical
 from testbed.experiment.stage import load_ground, load_stage
-from testbed.experiment.summary import summarise
-from testbed.experiment.tables import headings, rows_of
 from testbed.experiment.telling import teller_of
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 from testbed.link.messages import Decision, FineTrace, Percept, Task, Trace
-from tests.experiment.samples import a_record
 
 SMALL = "level_sizes={small: {rooms: 2, rows: 1, columns: 2, objects: [[2, 2]]}}"
 
 
-def _config(*overrides: str) -> ExperimentConfig:
-    return load_config("levels", ["robots=[intentional,traditional]", "limit=3", *overrides])
-
-
 def _specs(*overrides: str) -> list[TrialSpec]:
-    return plan_trials(_config(*overrides))
-
-
-def test_a_pair_is_the_same_trial_for_each_robot() -> None:
-    specs = _specs("levels=[L1,L2]")
-    assert len(specs) == 2 * 3 * 2
-    assert len({spec.trial for spec in specs}) == len(specs)
-    for one, other in zip(specs[::2], specs[1::2], strict=True):
-        assert (one.robot, other.robot) == ("intentional", "traditional")
-        shared = [(s.pair, s.level, s.seed, s.initial, s.setting) for s in (one, other)]
-        assert shared[0] == shared[1]
-    assert len({spec.pair for spec in specs}) == 6
-
-
-def _ids(*overrides: str) -> set[str]:
-    return {spec.trial for spec in _specs("levels=[L1]", *overrides)}
-
-
-@pytest.mark.parametrize(
-    "override",
-    [
-        "seed=2",
-        "statistics.fine_move=0.8",
-        "adversary.rate=0.2",
-        "adversary.pace=abstract",
-        'draw.goal=["loc(object,room)", "-in_hand(robot,object)"]',
-        "script=[]",
-        "limits.steps=9",
-        "observability.fine_exo_move.mode=always",
-    ],
-)
-def test_what_a_result_may_depend_on_changes_every_id(override: str) -> None:
-    assert not _ids() & _ids(override)
-
-
-@pytest.mark.parametrize("override", ["draw.holding=1.0", "goal=[loc(object1,room2)]"])
-def test_a_trial_that_comes_out_as_another_one_is_another_trial(override: str) -> None:
-    assert _ids("limit=9") != _ids("limit=9", override)
-
-
-def test_a_level_of_the_same_name_and_another_size_has_other_ids() -> None:
-    def of_size(rooms: int) -> set[str]:
-        size = f"{{rooms: {rooms}, rows: 1, columns: 2, objects: [[1, 1]]}}"
-        return {s.trial for s in _specs("levels=[own]", f"level_sizes={{own: {size}}}")}
-
-    assert not of_size(2) & of_size(3)
-
-
-def test_neither_the_link_nor_a_larger_limit_nor_other_levels_change_an_id() -> None:
-    assert _ids() == _ids("link=zenoh") < _ids("limit=5")
-    assert _ids() < {spec.trial for spec in _specs("levels=[L2,L1]")}
-
-
-def test_a_drawn_goal_is_a_room_in_which_the_object_is_not() -> None:
-    for spec in _specs("levels=[L3]", "limit=20"):
-        state = fine_world(load_ground(spec.setting).refinement).state(spec.initial)
-        (goal,) = spec.setting.goal
-        assert goal.startswith("loc(object")
-        assert not fine_world(load_ground(spec.setting).refinement).satisfies(state, (goal,))
-
-
-def test_goals_and_places_are_drawn_from_all() -> None:
-    specs = _specs("levels=[L1]", "limit=200", "robots=[intentional]")
-    drawn = Counter(spec.setting.goal for spec in specs)
-    assert set(drawn) == {("loc(object1,room1)",), ("loc(object1,room2)",)}
-    places = {atom for spec in specs for atom in spec.initial if "rob1,room" in atom}
-    assert len(places) == 4
-    held = sum(any("in_hand" in atom for atom in spec.initial) for spec in specs)
-    assert 20 <= held <= 60  # of 200 at 0.2: a mean of 40 with a deviation of 5.7
+    given = ["robots=[intentional,traditional]", "limit=3", *overrides]
+    return plan_trials(load_config("levels", given))
 
 
 START = ("fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "fine_loc(object2_1,room2_1)")
@@ -296,104 +219,10 @@ def test_a_replay_says_which_action_took_no_effect_and_what_others_did() -> None
     assert _step(said, 4)[0].startswith("world now fine_loc(object2_1,room1_1)")
 
 
-def test_out_of_reach_is_counted_apart() -> None:
+def test_the_oracle_counts_abstract_actions() -> None:
     stage = load_stage(_specs("levels=[L1]")[0].setting)
     state = fine_world(load_ground(_specs("levels=[L1]")[0].setting).refinement).state(
         ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room2_2)"]
     )
     assert stage.minimal_actions(state, ["loc(object1,room1)"]) == 3
     assert stage.minimal_actions(state, ["loc(object1,room1)", "loc(rob1,room2)"]) == 5
-
-
-def _level(
-    trial: str, robot: str, achieved: bool = True, in_reach: bool | None = None, **times: float
-) -> TrialRecord:
-    counts = FineCounts(
-        plans=2, planning_time_s=times.get("fine", 0.2), infer_time_s=times.get("infer", 0.1)
-    )
-    return a_record(
-        f"{trial} {robot}",
-        pair=trial,
-        robot=robot,
-        scenario="levels",
-        level="L3",
-        fine=counts,
-        achieved=achieved,
-        outcome="achieved" if achieved else "gave_up",
-        in_reach=in_reach,
-        planning_time_s=times.get("planning", 0.3),
-        diagnosis_time_s=times.get("diagnosis", 0.4),
-    )
-
-
-def _columns(*records: TrialRecord) -> Any:
-    summary: Any = summarise(records)
-    return summary["levels"]["L3"]
-
-
-def test_the_columns_are_means_and_deviations_of_a_trials_reasoning() -> None:
-    columns = _columns(_level("a", ZOOM), _level("b", ZOOM, fine=0.4, planning=0.5))
-    zoom = columns["reasoning"][ZOOM]
-    assert zoom["fine"] == {"mean": pytest.approx(0.4), "sd": pytest.approx(0.02**0.5)}
-    assert zoom["coarse"]["mean"] == pytest.approx(0.8)
-    assert zoom["total"]["mean"] == pytest.approx(1.2)
-    assert zoom["refined_plan"]["mean"] == pytest.approx(0.15)
-    assert (zoom["trials"], zoom["achieved"], zoom["completed"]) == (2, 2, 1.0)
-    assert columns["zoom_ratios"] == dict.fromkeys(PARTS)
-
-
-def test_ratios_are_of_pairs_in_which_both_robots_achieved_the_goal() -> None:
-    columns = _columns(
-        _level("a", ZOOM, fine=0.2),
-        _level("a", NO_ZOOM, fine=0.6),
-        _level("b", ZOOM, fine=0.1),
-        _level("b", NO_ZOOM, fine=0.9, achieved=False),
-        _level("c", NO_ZOOM, fine=5.0),
-    )
-    assert columns["zoom_ratios"]["refined_plan"] == pytest.approx(3.0)
-    assert columns["zoom_ratios"]["fine"] == pytest.approx(0.7 / 0.3)
-    assert columns["zoom_ratios"]["coarse"] == pytest.approx(1.0)
-    assert columns["reasoning"][NO_ZOOM]["completed"] == pytest.approx(2 / 3)
-
-
-def test_a_goal_out_of_reach_is_counted_beside_what_was_achieved() -> None:
-    records = [_level("a", ZOOM), _level("b", ZOOM, achieved=False, in_reach=False)]
-    records.append(_level("c", ZOOM, achieved=False, in_reach=True))
-    assert _columns(*records)["reasoning"][ZOOM]["out_of_reach"] == 1
-    assert level_rows(summarise(records))[0][2] == "1/3, 1 out of reach"
-
-
-def test_the_table_has_the_published_figures_beside_ours() -> None:
-    rows = level_rows(summarise([_level("a", ZOOM), _level("a", NO_ZOOM)]))
-    assert [row[:3] for row in rows] == [
-        ("L3", "zoom", "1/1"),
-        ("L3", "  published", "100 %"),
-        ("L3", "no zoom", "1/1"),
-        ("L3", "  published", "65 %"),
-        ("L3", "no zoom / zoom", ""),
-        ("L3", "  published", ""),
-    ]
-    assert all(len(row) == len(LEVEL_COLUMNS) for row in rows)
-    assert rows[1][3:] == ("11.59 ± 3.88 s", "4.19 ± 1.48 s", "7.40 ± 2.57 s", "560.0 ± 50.0 ms")
-    assert rows[0][3] == "1.00 ± 0.00 s"
-    assert rows[5][3:] == ("20.07", "55.23", "1.00", "83.49")
-
-
-def test_totals_of_the_published_figures_are_the_sums_of_their_parts() -> None:
-    for (level, condition), figures in PUBLISHED.items():
-        if figures.seconds:
-            mean = {part: figures.seconds[part][0] for part in PARTS}
-            # The published values are rounded to a hundredth each.
-            assert mean["fine"] + mean["coarse"] == pytest.approx(mean["total"], abs=0.011), level
-        else:
-            assert (condition, figures.completed) == (NO_ZOOM, 0.0)
-    assert set(RATIOS) == {"L1", "L2", "L3"}
-
-
-def test_rows_are_by_level_and_a_run_without_levels_has_no_such_table() -> None:
-    rows = rows_of([_level("a", ZOOM)])
-    assert headings(rows)[0] == "level"
-    assert rows[0].cells()[:2] == ("L3", ZOOM)
-    coarse = [a_record("a")]
-    assert headings(rows_of(coarse))[0] == "scenario"
-    assert level_rows(summarise(coarse)) == []
