@@ -1,0 +1,294 @@
+"""Zooming finds what a transition and a goal are about, and nothing else (Definitions 1 and 2)."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from asp import syntax
+from asp.grounding import ground_description
+from asp.instances import Instances
+from asp.literals import arguments, atom, complement, ground, is_positive
+from asp.refinement import Refinement, load_refinement
+from asp.refinement.zooming import (
+    Transition,
+    fine_constants,
+    fine_goal,
+    relevant,
+    zoom_coarse,
+    zoom_strong,
+    zoom_weak,
+)
+from asp.signature import Problems, Signature, signature_of
+from asp.translation import translate_source
+from testbed.environment.world import World
+from tests.asp.diagrams import warnings_of
+from tests.asp.refinement.levels import level, transitions
+
+HERE = Path(__file__).parent
+
+
+@cache
+def of(domain: str) -> Refinement:
+    if domain.startswith("L"):
+        return level(domain)
+    return load_refinement("office.fine" if domain == "office" else str(HERE / f"{domain}.fine"))
+
+
+@cache
+def acts(domain: str) -> list[Transition]:
+    agent = of(domain).description.agent_actions
+    return [t for t in transitions(of(domain)) if t.action in agent]
+
+
+def signature(source: syntax.Source) -> Signature:
+    return signature_of(source, Problems(source.file))
+
+
+class TestThePaperSExample:
+    """The goal is to take tb1 from office1 to the library; the robot, in the kitchen, sets out."""
+
+    BEFORE = frozenset(
+        {
+            *("loc(rob1,kitchen)", "loc(tb1,office1)", "loc(tb2,office2)", "loc(cup1,office2)"),
+        }
+    )
+    MOVE = Transition(
+        BEFORE,
+        "move(rob1,office1)",
+        BEFORE - {"loc(rob1,kitchen)"} | {"loc(rob1,office1)"},
+    )
+
+    @property
+    def constants(self) -> frozenset[str]:
+        return relevant(of("assistant").coarse, self.MOVE, ["loc(tb1,library)"])
+
+    def test_it_is_a_transition_of_the_domain(self) -> None:
+        assert self.MOVE in acts("assistant")
+
+    def test_robot_book_and_the_two_rooms_are_relevant_and_what_the_goal_names(self) -> None:
+        assert self.constants == {"rob1", "tb1", "kitchen", "office1", "library"}
+
+    def test_without_the_goal_the_book_would_not_be(self) -> None:
+        found = relevant(of("assistant").coarse, self.MOVE, [])
+        assert found == {"rob1", "kitchen", "office1"}
+
+    def test_there_is_no_cup_and_nothing_to_do_with_one(self) -> None:
+        coarse = signature(zoom_coarse(of("assistant").coarse, self.constants))
+        assert "cup" not in coarse.sorts
+        assert "wash" not in coarse.symbols
+        assert coarse.sorts["object"] == ("tb1",)
+        assert coarse.sorts["place"] == ("office1", "kitchen", "library")
+
+    def test_the_fine_constants_are_the_cells_of_the_rooms_the_robot_and_the_book(self) -> None:
+        refinement = of("assistant")
+        assert fine_constants(refinement, self.constants) == {
+            *("c1", "c2", "c5", "c6", "c7", "c8", "rob1", "tb1"),
+        }
+        for source in (
+            zoom_weak(refinement, self.constants),
+            zoom_strong(refinement, self.constants),
+        ):
+            fine = signature(source)
+            assert "part" not in fine.sorts
+            assert "fine_wash" not in fine.symbols
+            assert fine.sorts["fine_thing"] == ("tb1", "rob1")
+            assert fine.sorts["cell"] == ("c1", "c2", "c5", "c6", "c7", "c8")
+
+    def test_without_an_object_there_is_no_pickup(self) -> None:
+        """The move for a goal that is about the robot: D_f(T,G) has no action on objects."""
+        refinement = of("assistant")
+        constants = relevant(refinement.coarse, self.MOVE, ["loc(rob1,office1)"])
+        fine = signature(zoom_strong(refinement, constants))
+        assert {s for s, d in fine.symbols.items() if d.kind in ("agent", "exogenous")} == {
+            *("fine_move", "test_fine_loc"),
+        }
+        assert "in_hand" not in fine.symbols
+
+    def test_the_fine_goal_is_the_next_state_as_far_as_it_is_relevant(self) -> None:
+        goal = fine_goal(of("assistant"), self.MOVE, self.constants)
+        assert set(goal.effects) == {"loc(rob1,office1)", "-loc(rob1,kitchen)"}
+        assert set(goal.literals) == {
+            *("loc(rob1,office1)", "-loc(rob1,kitchen)", "-loc(rob1,library)"),
+            *("loc(tb1,office1)", "-loc(tb1,kitchen)", "-loc(tb1,library)", "-in_hand(rob1,tb1)"),
+        }
+
+
+def rules(refinement: Refinement, transition: Transition, goal: list[str]) -> dict[int, set[str]]:
+    """What each of the five rules makes relevant, read off the definition instance by instance."""
+    coarse, declared = refinement.coarse, refinement.coarse_signature
+    every = Instances(coarse, declared, frozenset(), frozenset())
+    before = {
+        fluent if fluent in transition.before else complement(fluent)
+        for fluent in refinement.description.fluents
+    }
+    in_bodies = {
+        literal
+        for law in coarse.each(syntax.ExecutabilityCondition)
+        for binding in every.bindings(law)
+        if transition.action in (said(action, binding) for action in law.actions)
+        for part in law.body
+        if isinstance(part, syntax.Literal)
+        for literal in [("" if part.positive else "-") + said(part.atom, binding)]
+    }
+    return {
+        1: set(arguments(transition.action)),
+        2: {constant for literal in goal for constant in arguments(literal)},
+        3: {c for fluent in transition.before ^ transition.after for c in arguments(fluent)},
+        4: {constant for literal in in_bodies & before for constant in arguments(literal)},
+        5: {constant for literal in goal for constant in arguments(literal)},
+    }
+
+
+def said(atom: syntax.Atom, binding: dict[str, str]) -> str:
+    return ground(atom.name, (binding.get(term.name, term.name) for term in atom.args))
+
+
+DOMAINS = ["L1", "L2", "L3", "assistant", "office", "tabletop"]
+
+
+@st.composite
+def questions(draw: st.DrawFn) -> tuple[str, Transition, list[str]]:
+    domain = draw(st.sampled_from(DOMAINS))
+    transition = draw(st.sampled_from(acts(domain)))
+    fluents = of(domain).description.fluents
+    literal = st.sampled_from([*fluents, *map(complement, fluents)])
+    return domain, transition, draw(st.lists(literal, max_size=2))
+
+
+class TestRelevance:
+    @given(questions())
+    @settings(max_examples=200, deadline=None)
+    def test_it_is_the_least_set_closed_under_the_five_rules(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        found = relevant(of(domain).coarse, transition, goal)
+        by_rule = rules(of(domain), transition, goal)
+        for number, constants in by_rule.items():
+            assert constants <= found, f"rule {number}"
+        for constant in found:
+            assert any(constant in constants for constants in by_rule.values())
+
+    def test_the_place_from_which_one_unlocks_is_relevant_by_an_executability_condition(
+        self,
+    ) -> None:
+        before = frozenset(
+            {"loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,office1)", "locked(library)"}
+        )
+        unlock = Transition(before, "unlock(rob1,library)", before - {"locked(library)"})
+        assert relevant(of("office").coarse, unlock, []) == {"rob1", "library", "kitchen"}
+
+    def test_what_is_carried_along_is_relevant_by_its_change(self) -> None:
+        before = frozenset({"loc(rob1,room1)", "loc(object1,room1)", "in_hand(rob1,object1)"})
+        after = frozenset({"loc(rob1,room2)", "loc(object1,room2)", "in_hand(rob1,object1)"})
+        move = Transition(before, "move(rob1,room2)", after)
+        assert relevant(level("L2").coarse, move, []) == {"rob1", "object1", "room1", "room2"}
+
+
+class TestZoomedDescriptions:
+    @given(questions())
+    @settings(max_examples=60, deadline=None)
+    def test_the_restricted_transition_is_one_of_the_zoomed_coarse_description(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        constants = relevant(of(domain).coarse, transition, goal)
+        source = zoom_coarse(of(domain).coarse, constants)
+        world = World(ground_description(source, signature(source), "zoomed"))
+        inertial = frozenset(world.description.inertial)
+        before, after = (inertial & s for s in (transition.before, transition.after))
+        found = {
+            inertial.intersection(world.true_atoms(successor))
+            for state in world.states()
+            if inertial.intersection(world.true_atoms(state)) == before
+            for successor in world.successors(state, [transition.action])
+        }
+        assert found == {after}
+
+    @given(questions())
+    @settings(max_examples=60, deadline=None)
+    def test_the_zoomed_fine_description_is_about_the_components_and_nothing_else(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        refinement = of(domain)
+        constants = relevant(refinement.coarse, transition, goal)
+        kept = constants | fine_constants(refinement, constants)
+        whole = signature(refinement.strong)
+        zoomed = signature(zoom_strong(refinement, constants))
+        for sort, members in whole.sorts.items():
+            left = tuple(m for m in members if m in kept or sort == "outcome")
+            assert zoomed.sorts.get(sort, ()) == left
+        for symbol, declaration in whole.symbols.items():
+            written = all(zoomed.sorts.get(sort.name) for sort in declaration.sorts)
+            assert (symbol in zoomed.symbols) == written
+
+    @given(questions())
+    @settings(max_examples=30, deadline=None)
+    def test_clingo_accepts_the_zoomed_programs_without_a_warning(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        refinement = of(domain)
+        constants = relevant(refinement.coarse, transition, goal)
+        for source in (
+            zoom_coarse(refinement.coarse, constants),
+            zoom_weak(refinement, constants),
+            zoom_strong(refinement, constants),
+        ):
+            assert warnings_of(translate_source(source, signature(source))) == []
+
+    @given(questions())
+    @settings(max_examples=60, deadline=None)
+    def test_a_comment_stays_with_what_it_was_said_of(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        refinement = of(domain)
+        source = zoom_strong(refinement, relevant(refinement.coarse, transition, goal))
+        assert set(pairs(source)) <= set(pairs(refinement.strong))
+
+
+def pairs(source: syntax.Source) -> list[tuple[str, str]]:
+    """The head of each law's rule with the comment behind it."""
+    program = translate_source(source, signature(source))
+    lines = [line.split("  % ") for line in program.split("\n") if ".  % " in line]
+    return [(line[0].partition(" :- ")[0], line[1]) for line in lines]
+
+
+class TestFineGoals:
+    @given(questions())
+    @settings(max_examples=100, deadline=None)
+    def test_it_says_all_that_is_so_afterwards_of_relevant_constants(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        constants = relevant(of(domain).coarse, transition, goal)
+        found = fine_goal(of(domain), transition, constants)
+        for fluent in of(domain).description.inertial:
+            if constants.issuperset(arguments(fluent)):
+                assert (fluent in found.literals) == (fluent in transition.after)
+                assert (complement(fluent) in found.literals) == (fluent not in transition.after)
+            else:
+                assert not {fluent, complement(fluent)}.intersection(found.literals)
+
+    @given(questions())
+    @settings(max_examples=100, deadline=None)
+    def test_every_change_of_an_inertial_fluent_is_an_effect(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        refinement = of(domain)
+        constants = relevant(refinement.coarse, transition, goal)
+        changed = {
+            fluent
+            for fluent in transition.before ^ transition.after
+            if fluent in refinement.description.inertial
+        }
+        effects = fine_goal(refinement, transition, constants).effects
+        assert set(map(atom, effects)) == changed
+        assert all(is_positive(e) == (atom(e) in transition.after) for e in effects)
