@@ -77,6 +77,12 @@ class Quick:
         others = self._refinement.components[self._refinement.wholes[args[place]]]
         return tuple(ground(name(fluent), _with(args, place, other)) for other in others)
 
+    def variable(self, fluent: str) -> tuple[str, ...]:
+        """What the fluent is a value of: itself without the places that have one value at most."""
+        places = self._laws.single.get(name(fluent), ())
+        args = arguments(fluent)
+        return (name(fluent), *(arg for place, arg in enumerate(args) if place not in places))
+
     def _follows(self, known: Known, literal: str) -> bool:
         return any(
             all(

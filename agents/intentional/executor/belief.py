@@ -1,0 +1,102 @@
+"""What the robot takes for certain at the fine resolution: the history H_f and what follows."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from functools import cache
+
+from asp.knowing import Known, Theory
+from asp.literals import arguments, atom, complement
+from asp.quick import Quick
+from asp.refinement import Refinement
+
+
+@cache
+def _quick(refinement: Refinement) -> Quick:
+    return Quick(refinement)
+
+
+@cache
+def _theory(refinement: Refinement) -> Theory:
+    return Theory(refinement)
+
+
+class FineBelief:
+    """What is known of a trial at the fine resolution.
+
+    Inferences are those of `fine_inference.lp`; where the laws are simple, `asp.quick` makes them.
+    """
+
+    def __init__(self, refinement: Refinement, literals: Iterable[str]) -> None:
+        """`literals` are known to begin with."""
+        self._refinement = refinement
+        self._quick = _quick(refinement)
+        self._theory = _theory(refinement)
+        self.known = Known()
+        self.see(literals)
+
+    def see(self, literals: Iterable[str]) -> None:
+        """Takes literals for certain that were observed at one moment.
+
+        What was known gives way to them; where that does not suffice, the least is forgotten.
+        """
+        seen = list(literals)
+        after = self._quick.after(self.known, seen) if self._quick.is_enough else None
+        self.known = after or self._theory.infer(self.known, [seen], ()).known
+
+    def forget(self, literals: Iterable[str]) -> None:
+        """Takes literals no longer for certain."""
+        self.known = self.known.without(literals)
+
+    def is_open(self, fluent: str) -> bool:
+        """Whether it is not known if a fluent holds."""
+        return fluent not in self.known.true and not self.is_false(fluent)
+
+    def is_false(self, fluent: str) -> bool:
+        """Whether a fluent is known not to hold."""
+        if self._quick.is_enough:
+            return self._quick.is_false(self.known, fluent)
+        about = {self._refinement.wholes[part] for part in arguments(fluent)}
+        inferred = self._theory.infer(self.known, [], about)
+        return fluent not in inferred.known.true and fluent not in inferred.possible
+
+    def coarse(self, fluents: Collection[str]) -> frozenset[str]:
+        """The literals that follow of coarse fluents with counterparts (indirect observation)."""
+        if self._quick.is_enough:
+            return self._quick.coarse(self.known, fluents)
+        about = {constant for fluent in fluents for constant in arguments(fluent)}
+        inferred = self._theory.infer(self.known, [], about).coarse
+        return frozenset(literal for literal in inferred if atom(literal) in fluents)
+
+    def candidates(self, literal: str) -> tuple[tuple[str, ...], ...]:
+        """Groups of fluents one of each of which is true, nobody knows which, if the literal is.
+
+        One group for each component that has a fluent of its own; none where one is known.
+        """
+        fluents = [group[0] for group in self._refinement.counterpart(literal) if len(group) == 1]
+        if not self.known.true.isdisjoint(fluents):
+            return ()
+        groups: dict[tuple[str, ...], list[str]] = {}
+        for fluent in fluents:
+            group = groups.setdefault(self._quick.variable(fluent), [])
+            if not self.is_false(fluent):
+                group.append(fluent)
+        return tuple(map(tuple, groups.values()))
+
+    def adapt(self, before: Collection[str], now: Collection[str], fluents: Iterable[str]) -> None:
+        """Forgets what an explanation at the coarse resolution has made doubtful.
+
+        `before` and `now` are the fluents that were expected and that are believed. Of what is now
+        believed and was not expected, and of what is nowhere to be any more though it is believed,
+        observations to the contrary are old.
+        """
+        for fluent in fluents:
+            literal = fluent if fluent in now else complement(fluent)
+            follows = self.coarse([fluent])
+            if complement(literal) in follows or (
+                literal not in follows and (fluent in before) != (fluent in now)
+            ):
+                self.forget(map(complement, self._parts(literal)))
+
+    def _parts(self, literal: str) -> Iterable[str]:
+        return [part for group in self._refinement.counterpart(literal) for part in group]

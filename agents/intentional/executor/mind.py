@@ -1,0 +1,130 @@
+"""What the executor has for a whole trial: both resolutions, what is known, what is counted."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from functools import cache
+
+from agents.intentional.executor.belief import FineBelief
+from agents.intentional.executor.coarse import CoarseDiagram
+from agents.intentional.executor.laws import Effects, Tests
+from agents.intentional.executor.tally import Tally
+from asp.fine_plans import FineStart, NoPlan
+from asp.kept.clock import standing_still
+from asp.kept.refined import FinePlanner
+from asp.literals import arguments, atom, is_positive, name
+from asp.refinement import Refinement
+from asp.refinement.refining import shared_places
+from asp.refinement.zooming import fine_constants
+from testbed.link.messages import Percept
+
+
+class Mind:
+    """The robot's knowledge and means at the fine resolution, for one trial.
+
+    `plain` are the true fluents of those that have no counterpart, as far as they are known.
+    """
+
+    def __init__(
+        self, refinement: Refinement, coarse: CoarseDiagram, goal: tuple[str, ...], zooms: bool
+    ) -> None:
+        """`zooms` if plans are made in the relevant part of the description only."""
+        self.refinement = refinement
+        self.coarse = coarse
+        self.goal = goal
+        self.zooms = zooms
+        self.tally = Tally()
+        self.tests = _tests(refinement, coarse.robot)
+        self.effects = _effects(refinement)
+        self.belief = FineBelief(refinement, ())
+        self.plain: frozenset[str] = frozenset()
+        self.news: list[tuple[int, str]] = []
+
+    def know(self, literals: Iterable[str], coarse: Collection[str]) -> None:
+        """Begins with what is known of both resolutions.
+
+        Of the coarse one it tells what the robot does not have, or where it is not; where things
+        are is another matter: that is looked for.
+        """
+        magnified = frozenset(filter(self.is_magnified, coarse))
+        fine = [
+            part
+            for literal in magnified
+            if not is_positive(literal) and self.coarse.robot in arguments(literal)
+            for parts in self.refinement.counterpart(literal)
+            for part in parts
+        ]
+        self.belief = FineBelief(self.refinement, fine)
+        self.belief.see(literals)
+        self.plain = frozenset(filter(is_positive, coarse)) - magnified
+
+    def is_magnified(self, literal: str) -> bool:
+        """Whether a coarse literal has a counterpart."""
+        return name(literal) in self.refinement.counterparts
+
+    def hear(self, percept: Percept) -> frozenset[str]:
+        """Takes in what is told beside the outcome of a test; the constants it is about.
+
+        These are reports of events, and what is seen of fluents without a counterpart.
+        """
+        touched: set[str] = set()
+        for event in percept.events:
+            self.news.append((event.step, event.action))
+            effects = self.effects.of(event.action, self.belief.known.true)
+            self.belief.see(e for e in effects if self._is_fine(e))
+            touched.update(c for effect in effects for c in arguments(effect))
+        for literal in percept.visible:
+            if self._is_plain(literal) and (atom(literal) in self.plain) != is_positive(literal):
+                change = frozenset([atom(literal)])
+                self.plain = self.plain | change if is_positive(literal) else self.plain - change
+                touched.update(arguments(literal))
+        wholes = self.refinement.wholes
+        return frozenset([*touched, *(wholes.get(constant, constant) for constant in touched)])
+
+    def plan(
+        self, goal: tuple[str, ...], candidates: tuple[tuple[str, ...], ...], zoom: Collection[str]
+    ) -> tuple[str, ...] | None:
+        """A shortest plan of concrete actions; None if there is none. Raises TimeLimitError."""
+        constants = frozenset(zoom) | fine_constants(self.refinement, zoom)
+        start = FineStart(self.belief.known.true | self.plain, candidates)
+        limit = sum(len(self.refinement.components[constant]) for constant in zoom) + 1
+        planner = _planner(self.refinement)
+        try:
+            found = planner.plan(start, goal, limit, constants if self.zooms else None)
+        except ValueError:  # the goal is about something that is elsewhere
+            return None
+        return None if isinstance(found, NoPlan) else found
+
+    def looked_for(self, wholes: Iterable[str]) -> frozenset[str]:
+        """What is tested for of some coarse constants: one component, where they share a place."""
+        components = (self.refinement.components[whole] for whole in wholes)
+        shares = bool(_shared(self.refinement))
+        return frozenset(part for parts in components for part in (parts[:1] if shares else parts))
+
+    def _is_fine(self, literal: str) -> bool:
+        return name(literal) in self.refinement.counterparts.values()
+
+    def _is_plain(self, literal: str) -> bool:
+        symbols = self.refinement.coarse_signature.symbols
+        return name(literal) in symbols and not self.is_magnified(literal)
+
+
+@cache
+def _planner(refinement: Refinement) -> FinePlanner:
+    with standing_still():
+        return FinePlanner(refinement.weak, refinement.weak_signature)
+
+
+@cache
+def _effects(refinement: Refinement) -> Effects:
+    return Effects(refinement)
+
+
+@cache
+def _tests(refinement: Refinement, robot: str) -> Tests:
+    return Tests(refinement, robot)
+
+
+@cache
+def _shared(refinement: Refinement) -> frozenset[tuple[str, int]]:
+    return shared_places(refinement.weak)

@@ -1,0 +1,92 @@
+"""What the coarse robot is told when an abstract action is over: the coarse percept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from agents.intentional.executor.calendar import Calendar
+from agents.intentional.executor.coarse import State
+from agents.intentional.executor.mind import Mind
+from asp.literals import complement, is_positive
+from testbed.link.messages import Event, Percept
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """An abstract action that is over, whether it had its effects, and what these were to be."""
+
+    action: str
+    happened: bool
+    effects: tuple[str, ...]
+
+
+class Reporter:
+    """Lifts what was observed at the fine resolution to the coarse one."""
+
+    def __init__(self, mind: Mind, calendar: Calendar) -> None:
+        self._mind = mind
+        self._calendar = calendar
+
+    def percept(
+        self, percept: Percept, believed: State, outcome: Outcome | None
+    ) -> tuple[Percept, State]:
+        """The percept of the next coarse step, and the state that was to be expected there.
+
+        It has the effects of the action that follow from what is known, and what is contrary to
+        expectation. What is as expected says nothing new; it is not added to the history, because
+        the coarse step may have begun before it was observed, and something happened in between.
+        """
+        action = outcome.action if outcome is not None and outcome.happened else None
+        events = self._events(believed, action, outcome)
+        at_last = [event.action for event in events if event.step >= self._latest(outcome)]
+        expected = self._mind.coarse.after(believed, action, at_last) or believed
+        told = list(self._told(expected, outcome))
+        return Percept(
+            trial=percept.trial,
+            step=self._calendar.step + 1,
+            visible=told,
+            attempted=None if outcome is None else outcome.action,
+            happened=None if outcome is None else outcome.happened,
+            events=events,
+            goal_holds=percept.goal_holds,
+        ), expected
+
+    def _told(self, expected: State, outcome: Outcome | None) -> Iterator[str]:
+        mind = self._mind
+        effects = frozenset(() if outcome is None else outcome.effects)
+        magnified = [fluent for fluent in mind.coarse.fluents if mind.is_magnified(fluent)]
+        with mind.tally.inferring():
+            follows = mind.belief.coarse(magnified)
+        for fluent in mind.coarse.fluents:
+            literals = (
+                follows.intersection((fluent, complement(fluent)))
+                if mind.is_magnified(fluent)
+                else [fluent if fluent in mind.plain else complement(fluent)]
+            )
+            for literal in literals:
+                if literal in effects or (fluent in expected) != is_positive(literal):
+                    yield literal
+
+    def _latest(self, outcome: Outcome | None) -> int:
+        """The coarse step to which news of the present one is put down.
+
+        Where an action failed, what made it impossible happened before it was attempted.
+        """
+        now = self._calendar.step
+        return max(1, now - 1) if outcome is not None and not outcome.happened else now
+
+    def _events(self, believed: State, action: str | None, outcome: Outcome | None) -> list[Event]:
+        """The news as events of coarse steps."""
+        mind, latest = self._mind, self._latest(outcome)
+        heard = [
+            (min(latest, self._calendar.coarse(step)), coarse)
+            for step, event in mind.news
+            for coarse in mind.refinement.coarse_of(event)
+        ]
+        mind.news.clear()
+        now = self._calendar.step
+        recent = [event for step, event in heard if step >= min(latest, now)]
+        possible = mind.coarse.news(believed, action, recent)
+        earlier = [Event(step=step, action=event) for step, event in heard if step < latest]
+        return [*earlier, *(Event(step=latest, action=event) for event in possible)]

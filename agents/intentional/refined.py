@@ -1,0 +1,139 @@
+"""A robot that decides at the coarse resolution and acts at the fine one (P 3.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from msgspec import structs
+
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.executor.calendar import Calendar
+from agents.intentional.executor.coarse import CoarseDiagram, State
+from agents.intentional.executor.execution import Execution, Steps
+from agents.intentional.executor.mind import Mind
+from agents.intentional.executor.report import Outcome, Reporter
+from agents.intentional.lean import LeanRobot
+from asp.kept.clock import standing_still
+from asp.literals import is_positive
+from asp.refinement import load
+from asp.solving import time_limit
+from testbed.link.messages import Decision, Percept, Task, Trace
+from testbed.link.robot import Robot
+
+_WAIT, _FINISH = "wait", "finish"
+
+
+class RefinedRobot:
+    """Carries out the abstract actions of a coarse robot in cells and parts.
+
+    `coarse` makes the robot that decides; with `zooms` concrete plans are made in the part of the
+    refined description that is relevant to the action and the goal, else in all of it.
+    """
+
+    def __init__(self, coarse: Callable[[], Robot] = IntentionalRobot, zooms: bool = True) -> None:
+        self._coarse = LeanRobot(coarse())
+        self._zooms = zooms
+
+    def begin(self, task: Task) -> None:
+        """Takes the task on. Raises SourceError for its texts."""
+        with standing_still():
+            file = f"{task.domain}.al"
+            refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
+        self._task = task
+        self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
+        diagram = CoarseDiagram(self._coarse.leaned)
+        self._mind = Mind(refinement, diagram, tuple(task.goal), self._zooms)
+        known = [literal for literal in task.initial if self._coarse.leaned.is_about(literal)]
+        self._mind.know(task.initial_fine, known)
+        self._calendar = Calendar()
+        self._reporter = Reporter(self._mind, self._calendar)
+        self._believed: State = frozenset(filter(is_positive, known))
+        self._execution: Execution | None = None
+        self._steps: Steps | None = None
+        self._outcome: Outcome | None = None
+
+    def act(self, percept: Percept) -> Decision:
+        """The next concrete action. Raises InconsistentHistoryError."""
+        if self._steps is None:
+            self._mind.hear(percept)
+            return self._decide(percept)
+        with time_limit(self._task.decision_s):
+            action = self._advance(percept)
+        return self._decide(percept) if action is None else self._concrete(percept, action)
+
+    def _advance(self, percept: Percept | None) -> str | None:
+        """The next concrete action of the abstract one; None if it is over."""
+        execution = self._execution
+        assert execution is not None
+        assert self._steps is not None
+        try:
+            return next(self._steps) if percept is None else self._steps.send(percept)
+        except StopIteration as stop:
+            self._outcome = Outcome(execution.action, bool(stop.value), execution.effects)
+            self._steps = None
+            return None
+
+    def _decide(self, percept: Percept) -> Decision:
+        """What the coarse robot decides, with what it is told of the last abstract action."""
+        outcome, self._outcome = self._outcome, None
+        told, expected = self._reporter.percept(percept, self._believed, outcome)
+        if outcome is not None:
+            self._mind.tally.end(outcome.happened, told.visible)
+        self._calendar.begin(percept.step)
+        decision = self._coarse.act(told)
+        self._believe(expected, decision)
+        trace = self._calendar.trace(decision.trace)
+        decision = structs.replace(decision, step=percept.step, trace=trace)
+        if decision.action in (_WAIT, _FINISH):
+            return self._with_trace(decision)
+        return self._begin(percept, decision)
+
+    def _believe(self, expected: State, decision: Decision) -> None:
+        """What is believed now; what was known to the contrary at the fine resolution is old."""
+        belief = decision.trace.belief
+        self._believed = frozenset(belief) if belief else expected
+        fluents = [f for f in self._mind.coarse.fluents if self._mind.is_magnified(f)]
+        with self._mind.tally.inferring():
+            self._mind.belief.adapt(expected, self._believed, fluents)
+
+    def _begin(self, percept: Percept, decision: Decision) -> Decision:
+        """Begins the abstract action that was decided."""
+        after = self._mind.coarse.after(self._believed, decision.action, ())
+        assert after is not None, "a robot attempts what it believes to be possible"
+        execution = Execution(self._mind, decision.action, self._believed, after, percept.step)
+        self._execution, self._steps = execution, execution.run()
+        with time_limit(self._task.decision_s):
+            action = self._advance(None)
+        return self._with_trace(structs.replace(decision, action=action or _WAIT))
+
+    def _concrete(self, percept: Percept, action: str) -> Decision:
+        """A decision in the middle of an abstract action."""
+        decision = Decision(
+            trial=percept.trial,
+            step=percept.step,
+            action=action,
+            believes_goal=False,
+            trace=Trace(),
+        )
+        return self._with_trace(decision)
+
+    def _with_trace(self, decision: Decision) -> Decision:
+        trace = structs.replace(decision.trace, fine=self._mind.tally.take())
+        return structs.replace(decision, trace=trace)
+
+
+class EitherRobot:
+    """Acts at the fine resolution if its task has one, else as the coarse robot does."""
+
+    def __init__(self, coarse: Callable[[], Robot] = IntentionalRobot, zooms: bool = True) -> None:
+        self._make = coarse
+        self._zooms = zooms
+
+    def begin(self, task: Task) -> None:
+        """Takes the task on. Raises SourceError for its texts."""
+        self._robot = RefinedRobot(self._make, self._zooms) if task.refinement else self._make()
+        self._robot.begin(task)
+
+    def act(self, percept: Percept) -> Decision:
+        """The robot's decision. Raises InconsistentHistoryError."""
+        return self._robot.act(percept)
