@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import product
@@ -42,10 +42,9 @@ class FineStart:
 
     def within(self, constants: frozenset[str]) -> FineStart:
         """What it says of these constants only."""
-        groups = (tuple(filter(_about_some(constants), group)) for group in self.candidates)
-        return FineStart(
-            frozenset(filter(_about_some(constants), self.true)), tuple(filter(None, groups))
-        )
+        true = (f for f in self.true if constants.issuperset(literals.arguments(f)))
+        groups = (_within(group, constants) for group in self.candidates)
+        return FineStart(frozenset(true), tuple(group for group in groups if group))
 
     @property
     def possible(self) -> frozenset[str]:
@@ -88,8 +87,12 @@ def plain_plan(
     return NoPlan.BEYOND_LIMIT
 
 
-def _about_some(constants: frozenset[str]) -> Callable[[str], bool]:
-    return lambda fluent: constants.issuperset(literals.arguments(fluent))
+def _within(group: tuple[str, ...], constants: frozenset[str]) -> tuple[str, ...]:
+    first, last = literals.arguments(group[0]), literals.arguments(group[-1])
+    # What two candidates share, all do.
+    if not constants.issuperset(a for a, b in zip(first, last, strict=True) if a == b):
+        return ()
+    return tuple(f for f in group if constants.issuperset(literals.arguments(f)))
 
 
 def physical(plan: Iterable[str]) -> FinePlan:
@@ -157,7 +160,7 @@ def nowhere(
 
     `places` are the `subjects` of the description or of a part of it.
     """
-    given = {subject(fluent, known) for fluent in start.possible}
+    given = {subject(fluent, known) for fluent in (*start.true, *(g[0] for g in start.candidates))}
     return (constants for key, constants in places.items() if key not in given)
 
 

@@ -3,30 +3,44 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Sequence
 from functools import lru_cache
+from itertools import chain
 
 from asp import syntax
 from asp.fine_plans import FinePlan, FineStart, NoPlan, nowhere
 from asp.kept.horizon import Horizon
 from asp.kept.narrowing import Narrow, Narrower
 from asp.kept.patterns import functions, subjects
+from asp.kept.relaxed import Relaxed
+from asp.kept.sparing import Sparing
+from asp.literals import arguments, is_positive
 from asp.signature import Signature
 
 _MOST_NARROWED = 1_000
 
 
 class FinePlanner:
-    """Plans in one refined description, or in parts of it."""
+    """Plans in one refined description, or in parts of it.
+
+    What a plan can do without is left out (`Sparing`), what is left gets names by position
+    (`Narrower`), so that problems that differ in names only share controls; of these there is one
+    for each length, asked from a lower bound on (`Relaxed`).
+    """
 
     def __init__(self, source: syntax.Source, signature: Signature, most: int = 32) -> None:
-        """`source` has the physics only; at most `most` controls are kept."""
+        """`source` has the physics only; the controls of at most `most` parts of it are kept.
+
+        Raises NotCompactError for laws that cannot be put in terms of what is true only.
+        """
         self._constants = signature.constants
         self._functions = functions(source, signature)
         self._places = subjects(self._functions, signature)
+        self._sparing = Sparing(source, signature)
         self._narrower = Narrower(source, signature)
         self._narrow = lru_cache(_MOST_NARROWED)(self._narrower.narrow)
         self._most = most
-        self._kept: OrderedDict[object, Horizon] = OrderedDict()
+        self._kept: OrderedDict[object, _Domain] = OrderedDict()
 
     def plan(
         self,
@@ -38,31 +52,60 @@ class FinePlanner:
         """The first of the shortest plans of at most `limit` actions.
 
         Of candidates those are assumed that make it short. `constants` are those of the part of
-        the description that is planned in (None: the whole). Raises TimeLimitError, ValueError.
+        the description that is planned in (None: the whole); what is nowhere there is left out.
+        Raises TimeLimitError, and ValueError for a goal about other constants.
         """
         if not all(start.candidates):
             return NoPlan.OUT_OF_REACH
         kept = self._constants if constants is None else constants
+        for literal in goal:
+            if not kept.issuperset(arguments(literal)):
+                raise ValueError(f"{literal}: not about what is planned for")
+        kept -= self._sparing.spare(chain(start.true, *start.candidates), goal)
         here = start.within(kept)
-        narrow = self._narrow(kept.difference(*nowhere(here, self._functions, self._places)))
-        horizon = self._horizon(narrow)
-        assumed = horizon.start(
-            frozenset(narrow.seen(here.true)),
-            frozenset(fluent for group in here.candidates for fluent in narrow.seen(group)),
-        )
+        kept = kept.difference(*nowhere(here, self._functions, self._places))
+        if not all(kept.issuperset(arguments(literal)) for literal in filter(is_positive, goal)):
+            return NoPlan.OUT_OF_REACH
+        return self._search(self._narrow(kept), here, goal, limit)
+
+    def _search(
+        self, narrow: Narrow, start: FineStart, goal: tuple[str, ...], limit: int
+    ) -> FinePlan | NoPlan:
+        true = frozenset(narrow.seen(start.true))
+        candidates = frozenset(narrow.seen(chain(*start.candidates)))
         wanted = narrow.seen(goal)
-        for length in range(limit + 1):
-            plan = horizon.plan(assumed, wanted, length)
+        domain = self._domain(narrow)
+        least = domain.relaxed.bound(true | candidates, wanted)
+        if least is None:
+            return NoPlan.OUT_OF_REACH
+        for length in range(least, limit + 1):
+            horizon = domain.horizon(length)
+            plan = horizon.plan(horizon.start(true, candidates), wanted)
             if plan is not None:
                 return narrow.back(plan)
         return NoPlan.BEYOND_LIMIT
 
-    def _horizon(self, narrow: Narrow) -> Horizon:
-        """The control of a narrowed description, used last of all kept ones."""
+    def _domain(self, narrow: Narrow) -> _Domain:
+        """What is kept of a narrowed description, used last of all."""
         if narrow.key not in self._kept:
             program, actions = self._narrower.program(narrow), self._narrower.actions(narrow)
-            self._kept[narrow.key] = Horizon(program, (), actions)
+            self._kept[narrow.key] = _Domain(program, actions)
         self._kept.move_to_end(narrow.key)
         while len(self._kept) > self._most:
             self._kept.popitem(last=False)
         return self._kept[narrow.key]
+
+
+class _Domain:
+    """A narrowed description: its lower bounds, and its controls by length."""
+
+    def __init__(self, program: str, actions: Sequence[str]) -> None:
+        self.relaxed = Relaxed(program)
+        self._program = program
+        self._actions = actions
+        self._horizons: dict[int, Horizon] = {}
+
+    def horizon(self, length: int) -> Horizon:
+        if length not in self._horizons:
+            self._horizons[length] = Horizon(self._program, self._actions, length)
+        return self._horizons[length]
