@@ -13,11 +13,15 @@ from omegaconf.errors import OmegaConfBaseException
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+import asp
 from testbed.config.checking import check
 from testbed.config.errors import ConfigError, nearest
 from testbed.config.models import ExperimentConfig, Section
 from testbed.config.places import Key, Places
 from testbed.resources import find_config
+
+SCRIPT, NONE = "script", "none"
+"""What a run without scenarios is called, in which a script is played, or nothing happens."""
 
 
 def load_config(
@@ -40,7 +44,20 @@ def load_config(
     places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
     config = _located(_validate(composed, places), path)
     check(config, places, robots)
-    return config
+    return config if config.scenarios or config.is_fine else _with_scenarios(config)
+
+
+def _with_scenarios(config: ExperimentConfig) -> ExperimentConfig:
+    """All that there is to play: a script, or else the domain's scenarios.
+
+    Where there is neither, nothing exogenous happens: a script without entries.
+    """
+    if config.script is not None:
+        return config.model_copy(update={"scenarios": (SCRIPT,)})
+    scenarios = asp.load_description(config.domain).scenarios
+    if scenarios:
+        return config.model_copy(update={"scenarios": scenarios})
+    return config.model_copy(update={"scenarios": (NONE,), "script": ()})
 
 
 def _read(source: str | Path) -> tuple[Path, str]:

@@ -144,6 +144,7 @@ class ScenarioSettings(Section):
 class ExperimentConfig(Section):
     """A whole experiment: which trials, in which domain, under which rules.
 
+    `scenarios` absent, which nothing that was loaded has, means those of the domain.
     `initial` absent means every state that the domain's `initially` allows. A `script` replaces
     the scenario's triggers; an empty one means that nothing exogenous happens. `knowledge` is what
     robots know of the initial state: all of it, or only what they see.
@@ -158,7 +159,7 @@ class ExperimentConfig(Section):
     refinement: Name | None = None
     goal: Annotated[Literals, Field(examples=[GOAL])]
     initial: Literals | None = None
-    scenarios: Annotated[tuple[Name, ...], Field(min_length=1)] = ("1",)
+    scenarios: Annotated[tuple[Name, ...], Field(min_length=1)] = ()
     scenario_settings: Annotated[dict[str, ScenarioSettings], BeforeValidator(_named_keys)] = Field(
         default_factory=dict
     )

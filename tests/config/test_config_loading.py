@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 import asp
+from asp.loading import load_description
 from testbed.config import ConfigError, ExperimentConfig, load_config
 
 VALID = """\
@@ -45,6 +46,20 @@ def test_reads_what_the_file_says_and_fills_in_the_rest(tmp_path: Path) -> None:
     assert config.goal_feedback is True
     assert config.exogenous_while_thinking is False
     assert config.limit is None
+
+
+def test_scenarios_are_those_of_the_domain_unless_they_are_named(tmp_path: Path) -> None:
+    start = "name: tiny\ngoal: [loc(book1,library)]\n"
+    everything = load_config(_file(tmp_path, start)).scenarios
+    assert everything == load_description("office").scenarios
+    assert load_config(_file(tmp_path, start), ["script=[]"]).scenarios == ("script",)
+
+
+def test_where_a_domain_has_no_scenarios_nothing_happens(tmp_path: Path) -> None:
+    lamp = tmp_path / "lamp.al"
+    lamp.write_text(LAMP.partition("scenarios")[0], encoding="utf-8")
+    config = load_config(_file(tmp_path, f"name: tiny\ndomain: {lamp}\ngoal: [lit]\n"))
+    assert (config.scenarios, config.script) == (("none",), ())
 
 
 def test_settings_of_a_scenario_are_its_own_where_it_has_them(tmp_path: Path) -> None:

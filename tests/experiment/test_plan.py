@@ -1,9 +1,15 @@
 """The plan of a configuration: which trials, under which ids and seeds."""
 
+from pathlib import Path
+
 import pytest
 
+from asp.loading import read_domain
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
+from testbed.experiment.registry import make_robot
+from testbed.experiment.trial import play_trial
+from testbed.link.inprocess import InProcessRobot
 
 
 def _ids(*overrides: str, name: str = "office") -> list[str]:
@@ -84,3 +90,21 @@ def test_a_scenario_is_planned_with_its_own_settings() -> None:
     assert by_scenario["1"].setting.script is None
     assert "loc(book2,kitchen)" in by_scenario["1"].initial
     assert not by_scenario["1"].setting.exogenous_while_thinking
+
+
+def test_a_domain_without_scenarios_is_played_undisturbed(tmp_path: Path) -> None:
+    text = read_domain("office")[1]
+    (tmp_path / "quiet.al").write_text(text[: text.index("\nscenarios\n")] + "\n", encoding="utf-8")
+    path = tmp_path / "quiet.yaml"
+    start = '["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,kitchen)"]'
+    path.write_text(
+        f"name: quiet\ndomain: quiet.al\ngoal: [loc(rob1,library)]\ninitial: {start}\n",
+        encoding="utf-8",
+    )
+    specs = plan_trials(load_config(path))
+    assert [(spec.scenario, spec.robot) for spec in specs] == [
+        ("none", "intentional"),
+        ("none", "traditional"),
+    ]
+    records = [play_trial(spec, InProcessRobot(make_robot)).record for spec in specs]
+    assert [(record.outcome, record.exogenous) for record in records] == [("achieved", [])] * 2
