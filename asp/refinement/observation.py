@@ -40,21 +40,23 @@ class Tested:
         return tuple(item for place, item in enumerate(items) if place not in self.own)
 
 
-def tested_fluents(
-    fine: syntax.Source, vocabulary: Vocabulary, weak: Signature, problems: Problems
-) -> tuple[Tested, ...]:
+def check_tested(fine: syntax.Source, vocabulary: Vocabulary, problems: Problems) -> None:
+    """Reports tests of coarse fluents, which are observed by way of their components only."""
+    for statement in fine.each(TestsStatement):
+        fluent = statement.fluent
+        if fluent.name in vocabulary.counterparts:
+            counterpart = vocabulary.counterparts[fluent.name]
+            problems.report(
+                fluent.place,
+                f"'{fluent.name}' is observed by way of its components only; test '{counterpart}'",
+            )
+
+
+def tested_fluents(fine: syntax.Source, weak: Signature, problems: Problems) -> tuple[Tested, ...]:
     """What the tests of a refinement's text say, fluent by fluent. Reports what does not fit."""
     groups: dict[str, list[TestsStatement]] = {}
     for statement in fine.each(TestsStatement):
-        if statement.fluent.name in vocabulary.counterparts:
-            counterpart = vocabulary.counterparts[statement.fluent.name]
-            problems.report(
-                statement.fluent.place,
-                f"'{statement.fluent.name}' is observed by way of its components only; "
-                f"test '{counterpart}'",
-            )
-        else:
-            groups.setdefault(statement.fluent.name, []).append(statement)
+        groups.setdefault(statement.fluent.name, []).append(statement)
     return tuple(_tested(name, found, weak, problems) for name, found in groups.items())
 
 

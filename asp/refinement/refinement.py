@@ -17,7 +17,7 @@ from asp.loading import analyse, parse_description
 from asp.parser import parse
 from asp.refinement.language import parse_fine
 from asp.refinement.maps import check_maps
-from asp.refinement.observation import observation_text, tested_fluents
+from asp.refinement.observation import check_tested, observation_text, tested_fluents
 from asp.refinement.refining import weak_text
 from asp.refinement.vocabulary import Vocabulary, vocabulary_of
 from asp.signature import Problems, Signature, signature_of
@@ -103,6 +103,7 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     fine = parse_fine(fine_text, fine_file)
     problems = Problems(fine_file)
     vocabulary = vocabulary_of(fine, signature, problems)
+    check_tested(fine, vocabulary, problems)
     problems.raise_first()
     in_coarse = Problems(coarse_file)
     text = weak_text(coarse, fine, vocabulary, in_coarse)
@@ -112,7 +113,7 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     _check_own(fine, weak_signature)
     _check_cycles(weak, weak_signature, fine)
     check_maps(fine, coarse, vocabulary, true_statics(weak, weak_signature), problems)
-    tested = tested_fluents(fine, vocabulary, weak_signature, problems)
+    tested = tested_fluents(fine, weak_signature, problems)
     problems.raise_first()
     strong = parse(f"{text}\n{observation_text(fine, vocabulary, tested)}", weak.file)
     strong_signature = signature_of(strong, Problems(strong.file))

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from asp import syntax
 from asp.refinement.language import Components, Counterpart, Magnification
-from asp.signature import Problems, Signature, suggestion
+from asp.signature import Problems, Signature
+from asp.spelling import suggestion
 
 PREFIX = "fine_"
 COMPONENT = "component"
@@ -78,7 +79,7 @@ def _magnified(fine: syntax.Source, coarse: Signature, problems: Problems) -> di
         name = statement.sort.name
         if name not in coarse.sorts:
             known = suggestion(name, coarse.sorts)
-            problems.report(statement.sort.place, f"unknown sort '{name}'{known}")
+            problems.report(statement.sort.place, f"unknown sort '{name}'; {known}")
             continue
         twice = next((c for c in coarse.sorts[name] if c in owners), None)
         if twice is not None:
@@ -130,7 +131,7 @@ def _report_whole(
     if whole.name in coarse.constants:
         message = f"'{whole.name}' is of no magnified sort, so that it has no components"
     else:
-        message = f"unknown constant '{whole.name}'{suggestion(whole.name, sorted(magnifiable))}"
+        message = f"unknown constant '{whole.name}'; {suggestion(whole.name, magnifiable)}"
     problems.report(whole.place, message)
 
 
@@ -156,7 +157,7 @@ def _counterparts(fine: syntax.Source, coarse: Signature, problems: Problems) ->
         name = statement.symbol.name
         if name not in coarse.symbols:
             known = suggestion(name, coarse.symbols)
-            problems.report(statement.place, f"unknown static, fluent or action '{name}'{known}")
+            problems.report(statement.place, f"unknown static, fluent or action '{name}'; {known}")
         elif name in found:
             problems.report(statement.place, f"'{name}' is listed twice")
         elif PREFIX + name in coarse.symbols or PREFIX + name in coarse.sorts:

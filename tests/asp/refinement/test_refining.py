@@ -11,12 +11,13 @@ import pytest
 
 from asp import parse_description
 from asp.levels import LevelSize
-from asp.loading import analyse, read_domain
+from asp.loading import analyse
 from asp.refinement import Refinement, load, load_refinement
 from asp.translation import translate_source
 from testbed.environment.world import World
 from tests.asp.diagrams import warnings_of
 from tests.asp.refinement.levels import level, of_size
+from tests.asp.refinement.locked import locked_texts
 
 HERE = Path(__file__).parent
 TWO_ROOMS = LevelSize(2, 1, 2, ((1, 2),))
@@ -120,30 +121,7 @@ def without(text: str, head: str) -> str:
 
 @cache
 def locked_room() -> World:
-    """One room of two cells, and a room of two cells that can be locked."""
-    coarse = re.sub(r"\{kitchen, office1, office2\}", "{kitchen}", read_domain("office")[1])
-    coarse = re.sub(
-        r"\nfacts\n.*?\n\n", "\nfacts\n  next_to(kitchen, library).\n\n", coarse, flags=re.DOTALL
-    )
-    coarse = coarse.replace("{book1, book2}", "{book1}").partition("scenarios\n")[0]
-    fine = """\
-magnify
-  room into cell.
-  book into part.
-components
-  kitchen = {k1, k2}.
-  library = {l1, l2}.
-  book1   = {cover, spine}.
-counterparts
-  next_to. loc. in_hand. move. pickup. put_down. exo_move.
-facts
-  fine_next_to(k1, k2).
-  fine_next_to(k2, l1).
-  fine_next_to(l1, l2).
-laws
-  fine_loc(P1, C) if fine_loc(P2, C), component(P1, O), component(P2, O).
-"""
-    return World(parse_description(load(coarse, "small.al", fine, "small.fine").weak.text))
+    return World(parse_description(load(*locked_texts()).weak.text))
 
 
 def after(*atoms: str, does: str) -> set[str] | None:
