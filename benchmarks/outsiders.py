@@ -14,7 +14,7 @@ from typing import Any
 import clingo
 from clingo import ast
 
-from benchmarks.operators import Encoding
+from asp.kept.operators import Encoding
 from benchmarks.search import Search
 
 Planner = Callable[[Encoding, Sequence[str], Sequence[str]], int | None]
@@ -76,23 +76,23 @@ def _problem(up: Any, encoding: Encoding, true: Sequence[str], goal: Sequence[st
     variable_type, value_type = up.UserType("variable"), up.UserType("value")
     predicate = up.Fluent("is", up.BoolType(), of=variable_type, to=value_type)
     problem.add_fluent(predicate, default_initial_value=False)
-    names = {v: up.Object(f"v{n}", variable_type) for n, v in enumerate(encoding.domain)}
-    texts = dict.fromkeys(value for values in encoding.domain.values() for value in values)
-    values = {text: up.Object(f"x{n}", value_type) for n, text in enumerate(texts)}
-    problem.add_objects([*names.values(), *values.values()])
+    names = [up.Object(f"v{n}", variable_type) for n in range(len(encoding.domains))]
+    values = [up.Object(f"x{n}", value_type) for n in range(max(map(len, encoding.domains)))]
+    problem.add_objects([*names, *values])
 
-    def fact(variable: str, value: str) -> Any:
+    def fact(variable: int, value: int) -> Any:
         return predicate(names[variable], values[value])
 
-    for entry in encoding.values(true).items():
+    for entry in enumerate(_state(encoding, true)):
         problem.set_initial_value(fact(*entry), True)
     for number, operator in enumerate(encoding.operators):
         action = up.InstantaneousAction(f"o{number}")
-        for entry in operator.before.items():
+        before = dict(operator.before)
+        for entry in operator.before:
             action.add_precondition(fact(*entry))
-        for variable, value in operator.after.items():
-            for other in encoding.domain[variable]:
-                if other == value or operator.before.get(variable, other) == other:
+        for variable, value in operator.after:
+            for other in range(len(encoding.domains[variable])):
+                if other == value or before.get(variable, other) == other:
                     action.add_effect(fact(variable, other), other == value)
         problem.add_action(action)
     for literal in goal:
@@ -114,16 +114,22 @@ def telingo(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> int
 
 
 def _facts(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> list[str]:
-    """The problem as ASP facts; a value and its variable are both named by fluents."""
-    lines = [f"initially({v},{x})." for v, x in encoding.values(true).items()]
+    """The problem as ASP facts, variables and values by number."""
+    lines = [f"initially({v},{x})." for v, x in enumerate(_state(encoding, true))]
     for number, operator in enumerate(encoding.operators):
         lines.append(f"operator({number}).")
-        lines += (f"before({number},{v},{x})." for v, x in operator.before.items())
-        lines += (f"after({number},{v},{x})." for v, x in operator.after.items())
+        lines += (f"before({number},{v},{x})." for v, x in operator.before)
+        lines += (f"after({number},{v},{x})." for v, x in operator.after)
     for literal in goal:
         variable, value, truth = encoding.assignment(literal)
         lines.append(f"{'wanted' if truth else 'unwanted'}({variable},{value}).")
     return lines
+
+
+def _state(encoding: Encoding, true: Sequence[str]) -> tuple[int, ...]:
+    state = encoding.values(true)
+    assert state is not None, "problems start in a state"
+    return state
 
 
 def _is_installed(package: str) -> bool:

@@ -1,37 +1,34 @@
-"""Shortest plans by breadth-first search over operators: what planning costs inside one process."""
+"""Shortest plans by breadth-first search, state by state: what planning costs in one process."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
-from benchmarks.operators import Encoding, Operator
+from asp.kept.operators import Encoding, Operator, Values
 
 State = tuple[int, ...]
-Condition = tuple[tuple[int, int], ...]
 
 
 class Search:
-    """An encoding compiled to tuples of small integers."""
+    """An encoding whose operators are found by one value that they ask for."""
 
     def __init__(self, encoding: Encoding) -> None:
         self._encoding = encoding
-        self._number = {name: number for number, name in enumerate(encoding.domain)}
-        self._value = {
-            name: {value: number for number, value in enumerate(values)}
-            for name, values in encoding.domain.items()
-        }
-        self._index: dict[tuple[int, int], list[tuple[str, Condition, Condition]]] = {}
+        self._index: dict[tuple[int, int] | None, list[tuple[str, Values, Values]]] = {}
         for operator in encoding.operators:
-            compiled = (operator.action, self._pairs(operator.before), self._pairs(operator.after))
+            compiled = (operator.action, operator.before, operator.after)
             self._index.setdefault(self._key(operator), []).append(compiled)
 
-    def state(self, true: Iterable[str]) -> State:
-        """The state in which these fluents are true."""
-        return tuple(value for _, value in sorted(self._pairs(self._encoding.values(true))))
+    def state(self, true: Collection[str]) -> State:
+        """The state in which these fluents are true. Raises ValueError where it is none."""
+        state = self._encoding.values(true)
+        if state is None:
+            raise ValueError(f"no state has just these fluents: {', '.join(sorted(true))}")
+        return state
 
     def successors(self, state: State) -> Iterator[tuple[str, State]]:
         """Each action that can be executed, with the state that it leads to."""
-        for entry in enumerate(state):
+        for entry in (None, *enumerate(state)):
             for action, before, after in self._index.get(entry, ()):
                 if all(state[variable] == value for variable, value in before):
                     following = list(state)
@@ -39,9 +36,9 @@ class Search:
                         following[variable] = value
                     yield action, tuple(following)
 
-    def shortest(self, true: Iterable[str], goal: Sequence[str]) -> int | None:
+    def shortest(self, true: Collection[str], goal: Sequence[str]) -> int | None:
         """The length of a shortest plan; None if there is none."""
-        wanted = [self._meets(literal) for literal in goal]
+        wanted = [self._encoding.assignment(literal) for literal in goal]
         start = self.state(true)
         seen, frontier, length = {start}, [start], 0
         while frontier:
@@ -56,15 +53,7 @@ class Search:
             frontier, length = following, length + 1
         return None
 
-    def _meets(self, literal: str) -> tuple[int, int, bool]:
-        """The variable and the value of a literal, and whether it is to have this value."""
-        variable, value, truth = self._encoding.assignment(literal)
-        return self._number[variable], self._value[variable][value], truth
-
-    def _pairs(self, values: Mapping[str, str]) -> Condition:
-        return tuple((self._number[name], self._value[name][v]) for name, v in values.items())
-
-    def _key(self, operator: Operator) -> tuple[int, int]:
-        """The condition that the fewest states meet. Every operator has one."""
-        widest = max(operator.before, key=lambda name: len(self._encoding.domain[name]))
-        return self._pairs({widest: operator.before[widest]})[0]
+    def _key(self, operator: Operator) -> tuple[int, int] | None:
+        """The condition that the fewest states meet, if there is any."""
+        domains = self._encoding.domains
+        return max(operator.before, key=lambda entry: len(domains[entry[0]]), default=None)

@@ -47,7 +47,7 @@ def knowledge(name: str, source: str) -> Knowledge:
     description = parse_description(source, f"{name}.al")
     return Knowledge(
         description,
-        translate(source, name),
+        translate(source, f"{name}.al"),
         ranks=tuple(_ranks(description)),
         start=tuple(_start(description)),
     )

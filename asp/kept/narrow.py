@@ -46,7 +46,7 @@ class NarrowPrograms:
         facts += (fact("symmetric", *pair) for pair in symmetric)
         while True:
             plan = self._preferred("kept_planning", state, [*facts, *candidates(steps)], len(steps))
-            if plan is None or sum(map(len, steps)) <= MOST_LEVELS:
+            if plan is None or _choices(steps) <= MOST_LEVELS:
                 return plan
             steps = _after_deciding(steps, plan)
 
@@ -80,12 +80,19 @@ class NarrowPrograms:
 
 
 def candidates(steps: Sequence[Sequence[str]]) -> Iterator[Symbol]:
-    """candidate(A,I,L): the earlier in this order, the higher the level, while there are any."""
+    """candidate(A,I,L): the earlier in this order, the higher the level, while there are any.
+
+    A step without a choice needs no level.
+    """
     level = MOST_LEVELS
     for step, actions in enumerate(steps):
         for action in actions:
-            yield fact("candidate", action, step, level)
-            level = max(level - 1, 0)
+            yield fact("candidate", action, step, level if len(actions) > 1 else 0)
+            level = max(level - 1, 0) if len(actions) > 1 else level
+
+
+def _choices(steps: Sequence[Sequence[str]]) -> int:
+    return sum(len(actions) for actions in steps if len(actions) > 1)
 
 
 def _after_deciding(steps: Sequence[Sequence[str]], plan: Sequence[str]) -> list[Sequence[str]]:
@@ -93,7 +100,7 @@ def _after_deciding(steps: Sequence[Sequence[str]], plan: Sequence[str]) -> list
     left: list[Sequence[str]] = []
     levels = MOST_LEVELS
     for actions, taken in zip(steps, plan, strict=True):
-        decided, open_ = actions[:levels], actions[levels:]
-        left.append([taken] if taken in decided else open_)
-        levels -= len(decided)
+        decided = actions[:levels] if len(actions) > 1 else actions
+        left.append([taken] if taken in decided else actions[len(decided) :])
+        levels -= len(decided) if len(actions) > 1 else 0
     return left

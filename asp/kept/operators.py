@@ -68,7 +68,8 @@ class Encoding:
             variable, value = self._entries[fluent]
             state[variable] = value
         said = {self._fluent(*entry) for entry in enumerate(state)} - {None}
-        return tuple(state) if said == set(true) and self._laws.hold(state) else None
+        legal = -1 not in state and said == set(true) and self._laws.hold(state)
+        return tuple(state) if legal else None
 
     def assignment(self, literal: str) -> tuple[int, int, bool]:
         """The variable of a literal, the value it speaks of, and whether it claims or denies it."""

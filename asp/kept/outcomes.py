@@ -165,6 +165,8 @@ class Laws:
         self, known: Iterable[Literal], used: Iterable[Literal], before: list[int]
     ) -> Case | _Split | None:
         """The outcome if it is one state, none, or several that cannot be told apart here."""
+        if any(_says(literal, (v, x, not truth)) for literal in known for v, x, truth in used):
+            return _pairs(before), None
         following = before.copy()
         for variable, value, truth in known:
             if truth:
@@ -172,8 +174,6 @@ class Laws:
             elif following[variable] == value:
                 # Of two values the other one, of several the last, which is none of them.
                 following[variable] = self._sizes[variable] - 1
-        if any(_truth(condition, following) is False for condition in used):
-            return _pairs(before), None
         if any(_truth(literal, following) is False for literal in known):
             return None
         after = tuple((v, x) for v, x in _pairs(following) if before[v] != x)

@@ -50,7 +50,6 @@ class Planner:
         description: Description,
         program: str,
         classes: Sequence[Sequence[str]],
-        most_states: int = MOST_STATES,
     ) -> None:
         """`classes` are the interchangeable constants, each class in order of declaration."""
         self.classes = tuple(tuple(members) for members in classes)
@@ -58,7 +57,7 @@ class Planner:
         self._program = program
         self._facts = tuple(_facts(description, self.classes))
         self._narrow = NarrowPrograms(description, program, self._facts)
-        self._spaces = _spaces(description, most_states)
+        self._spaces = _spaces(description)
         self._size = sum(
             map(
                 len,
@@ -182,9 +181,9 @@ class Planner:
         )
 
 
-def _spaces(description: Description, most_states: int) -> Spaces | None:
+def _spaces(description: Description) -> Spaces | None:
     try:
-        return Spaces(Encoding(description), most_states)
+        return Spaces(Encoding(description), MOST_STATES)
     except NotEncodableError:
         return None
 

@@ -8,8 +8,13 @@ import pytest
 
 from asp.description import Description
 from asp.kept.independence import Independence, symmetric_pairs
+from asp.kept.narrow import MOST_LEVELS, candidates
+from asp.kept.operators import Encoding, NotEncodableError
 from asp.kept.plans import Plans
+from asp.kept.search import Spaces
 from asp.loading import analyse, parse_description, read_domain
+from asp.solving import TimeLimitError, time_limit
+from benchmarks.offices import office
 from testbed.environment.world import World
 
 OFFICE = read_domain("office")[1]
@@ -67,6 +72,137 @@ def test_the_plan_is_the_first_shortest_of_the_whole_domain(text: str) -> None:
         if not world.satisfies(state, goal):
             found = plans.shortest(frozenset(world.true_atoms(state)), goal, 9)
             assert found == _first_shortest(world, state, goal, 9), (world.true_atoms(state), goal)
+
+
+# Where a robot is while the library is open: a defined fluent.
+LAMP = OFFICE.replace(
+    "inertial locked(secure_room).", "inertial locked(secure_room).\n  defined free(robot, room)."
+).replace("  % State constraints.", "  free(R, L) if loc(R, L), -locked(library).\n")
+
+# The ways in which a plan may be looked for: the sizes of spaces and of kept controls, and levels.
+WAYS = {
+    "searched, kept": {},
+    "searched, a program of its own": {"_MOST_KEPT": 0},
+    "bounded, kept": {"MOST_STATES": 30},
+    "bounded, a program of its own": {"MOST_STATES": 30, "_MOST_KEPT": 0},
+    "hardly bounded": {"MOST_STATES": 1, "_MOST_KEPT": 0},
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize(
+    ("books", "rooms", "shape"), [(2, 4, "row"), (1, 6, "grid"), (3, 4, "tree")]
+)
+def test_every_way_to_the_plan_gives_the_first_shortest(
+    books: int, rooms: int, shape: str, way: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in WAYS[way].items():
+        monkeypatch.setattr(f"asp.kept.planner.{name}", value)
+    text = office(books, rooms, shape)
+    description = parse_description(text, "office.al")
+    world, plans, draw = World(description), Plans(text, "office.al"), random.Random(11)
+    states = list(world.initial_states())
+    for _ in range(15):
+        state, goal = draw.choice(states), _some_goal(description, draw)
+        if world.satisfies(state, goal):
+            continue
+        now = frozenset(world.true_atoms(state))
+        found = plans.shortest(now, goal, 9)
+        assert found == _first_shortest(world, state, goal, 9), (now, goal)
+        if found is not None:
+            assert plans.succeeds(now, goal, found)
+            assert plans.succeeds(now, goal, (*found, found[0]))
+            assert not plans.succeeds(now, goal, found[:-1])
+
+
+@pytest.mark.parametrize("most_kept", [8_000, 0])
+def test_a_plan_succeeds_where_the_world_says_so(
+    most_kept: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", most_kept)
+    description = parse_description(OFFICE, "office.al")
+    world, plans, draw = World(description), Plans(OFFICE, "office.al"), random.Random(5)
+    states, outcomes = list(world.initial_states()), set()
+    for _ in range(150):
+        state, goal = draw.choice(states), _some_goal(description, draw)[:1]
+        plan, wanted, now = [], False, state
+        for _ in range(draw.randint(1, 4)):
+            plan.append(draw.choice(world.agent_actions))
+            if draw.random() < 0.9:
+                plan[-1] = draw.choice([a for a in world.agent_actions if _can(world, now, a)])
+            if not _can(world, now, plan[-1]):
+                break
+            now = world.successor(now, (plan[-1],))
+            wanted = wanted or world.satisfies(now, goal)
+        true = frozenset(world.true_atoms(state))
+        assert plans.succeeds(true, goal, tuple(plan)) is wanted, (true, goal, plan)
+        outcomes.add(wanted)
+    assert outcomes == {True, False}
+
+
+def _can(world: World, state: int, action: str) -> bool:
+    return world.executable(state, (action,))
+
+
+def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
+    description = parse_description(LAMP, "office.al")
+    with pytest.raises(NotEncodableError, match="defined"):
+        Encoding(description)
+    world, plans, draw = World(description), Plans(LAMP, "office.al"), random.Random(2)
+    states = list(world.initial_states())
+    for _ in range(25):
+        state, goal = draw.choice(states), _some_goal(description, draw)
+        if not world.satisfies(state, goal):
+            found = plans.shortest(frozenset(world.true_atoms(state)), goal, 7)
+            assert found == _first_shortest(world, state, goal, 7), (world.true_atoms(state), goal)
+
+
+@pytest.mark.parametrize("levels", [1, 3, 40])
+def test_with_few_levels_the_plan_is_chosen_bit_by_bit(
+    levels: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", 0)
+    monkeypatch.setattr("asp.kept.planner.MOST_STATES", 1)
+    monkeypatch.setattr("asp.kept.narrow.MOST_LEVELS", levels)
+    description = parse_description(OFFICE, "office.al")
+    world, plans, draw = World(description), Plans(OFFICE, "office.al"), random.Random(8)
+    states = list(world.initial_states())
+    for _ in range(10):
+        state, goal = draw.choice(states), _some_goal(description, draw)
+        if not world.satisfies(state, goal):
+            found = plans.shortest(frozenset(world.true_atoms(state)), goal, 6)
+            assert found == _first_shortest(world, state, goal, 6), (world.true_atoms(state), goal)
+
+
+def test_no_two_choices_share_a_level_that_clasp_knows() -> None:
+    steps = [[f"a({number})" for number in range(600)] for _ in range(60)]
+    levels = [str(c.arguments[2]) for c in candidates(steps)]
+    assert levels[: MOST_LEVELS + 1] == [str(n) for n in range(MOST_LEVELS, -1, -1)]
+    assert set(levels[MOST_LEVELS:]) == {"0"}
+
+
+def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    bounds = Spaces.bounds
+    monkeypatch.setattr(Spaces, "bounds", lambda *given: asked.append(given) or bounds(*given))
+    plans = Plans(OFFICE, "office.al")
+    state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
+    goal = ("loc(book1,library)", "loc(book2,library)")
+    with pytest.raises(TimeLimitError), time_limit(0):
+        plans.shortest(state, goal, 20)
+    plan = plans.shortest(state, goal, 20)
+    assert plan is not None
+    assert len(asked) == 1
+    assert plans.shortest(state, goal, 20) == plan
+    assert len(asked) == 2  # no answer is remembered
+
+
+def test_a_goal_is_never_reached_where_all_states_were_looked_at() -> None:
+    plans = Plans(OFFICE, "office.al")
+    state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
+    assert plans.never(state, ("in_hand(rob1,book1)", "in_hand(rob1,book2)"))
+    assert not plans.never(state, ("loc(book1,library)", "loc(book2,library)"))
+    assert not Plans(LAMP, "office.al").never(state, ("locked(library)",))  # nothing is said
 
 
 def test_books_can_be_left_out_but_not_rooms_or_the_robot() -> None:
