@@ -31,8 +31,12 @@ def _lines(place: Place) -> Iterator[str]:
     marks = [name if true else f"not {name}" for name, true in place.marks.items()]
     yield place.name + (f" ({', '.join(marks)})" if marks else "")
     for robot, held in place.robots.items():
-        yield f"[{robot}]" + (f" holds {', '.join(held)}" if held else "")
-    yield from place.things
+        yield f"[{robot}]{_spot(place, robot)}" + (f" holds {', '.join(held)}" if held else "")
+    yield from (thing + _spot(place, thing) for thing in place.things)
+
+
+def _spot(place: Place, thing: str) -> str:
+    return f" in {place.spots[thing]}" if thing in place.spots else ""
 
 
 def _row(scene: Scene, columns: list[list[str]], number: int, width: int) -> str:

@@ -1,32 +1,35 @@
 """What there is to draw of a situation, read off the description's signature alone.
 
-A place is a member of the sort over which a two-place static (an adjacency) ranges; a fluent of a
-thing and a place says where things are; one of a robot and a thing what it holds; one of a place
-alone is a mark of that place, such as a lock.
+A fluent of a thing and a place says where things are; one of a robot and a thing what it holds; one
+of a place alone is a mark of that place, such as a lock. At the fine resolution a fluent of a
+component and a cell says where in its place a thing is.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import TypeAlias
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
 
 from asp import literals as text
 from asp.description import Description
 from testbed.environment.core import Core
-
-Adjacency: TypeAlias = dict[str, frozenset[str]]
+from testbed.environment.layout import Layout, layout, pairs
 
 
 @dataclass(frozen=True)
 class Place:
-    """A place, the things lying in it, its robots with what they hold, and its marks."""
+    """A place, the things lying in it, its robots with what they hold, and its marks.
+
+    `spots` is the cell of each of its things and robots, where it has `cells`.
+    """
 
     name: str
     things: tuple[str, ...]
     robots: dict[str, tuple[str, ...]]
     marks: dict[str, bool]
     next_to: frozenset[str]
+    cells: tuple[str, ...] = ()
+    spots: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -49,8 +52,9 @@ def scene(core: Core) -> Scene:
     """The scene of the core's present situation."""
     now, description = core.situation, core.world.description
     true = core.world.true_atoms(now.state)
-    adjacent = _adjacency(description)
-    places = tuple(_place(name, description, true, adjacent) for name in _walk(adjacent))
+    where = layout(description)
+    robots = dict.fromkeys([*description.robots, core.robot])
+    places = tuple(_place(name, description, robots, true, where) for name in where.walk())
     return Scene(
         step=now.step,
         places=places,
@@ -65,60 +69,37 @@ def _said(answer: str | None, happened: bool | None) -> str:
     return f"{answer} failed" if happened is False else answer or ""
 
 
-def _adjacency(description: Description) -> Adjacency:
-    """The neighbours of each place, in the order in which the places are declared."""
-    pairs = _pairs(description.statics)
-    joined = {constant for pair in pairs for constant in pair}
-    sorts = [members for members in description.sorts.values() if joined <= set(members)]
-    places = min(sorts, key=len) if joined and sorts else ()
-    return {
-        place: frozenset({b for a, b in pairs if a == place} | {a for a, b in pairs if b == place})
-        for place in places
-    }
-
-
-def _walk(adjacent: Adjacency) -> tuple[str, ...]:
-    """The places in depth-first order, from a dead end if there is one."""
-    seen: dict[str, None] = {}
-    stack = sorted(adjacent, key=lambda place: len(adjacent[place]) != 1)[::-1]
-    while stack:
-        place = stack.pop()
-        if place not in seen:
-            seen[place] = None
-            stack += [other for other in reversed(list(adjacent)) if other in adjacent[place]]
-    return tuple(seen)
-
-
 def _place(
-    name: str, description: Description, true: tuple[str, ...], adjacent: Adjacency
+    name: str,
+    description: Description,
+    robots: Collection[str],
+    true: tuple[str, ...],
+    where: Layout,
 ) -> Place:
-    pairs = _pairs(true)
-    here = [thing for thing, place in pairs if place == name]
+    found = [pair for pair in pairs(true) if not any(map(where.is_component, pair))]
+    here = [thing for thing, place in found if place == name]
     held = {
-        robot: tuple(thing for one, thing in pairs if one == robot and thing not in adjacent)
-        for robot in description.robots
+        robot: tuple(t for one, t in found if one == robot and t not in where.adjacent)
+        for robot in robots
     }
     in_hand = {thing for things in held.values() for thing in things}
     marks = [fluent for fluent in description.fluents if text.arguments(fluent) == (name,)]
+    cells = where.cells.get(name, ())
     return Place(
         name=name,
         things=tuple(t for t in here if t not in in_hand and t not in held),
         robots={robot: things for robot, things in held.items() if robot in here},
         marks={text.name(mark): mark in true for mark in marks},
-        next_to=adjacent[name],
+        next_to=where.adjacent[name],
+        cells=cells,
+        spots={where.wholes[part]: cell for part, cell in pairs(true) if cell in cells},
     )
 
 
 def _shown(arguments: tuple[str, ...], places: tuple[Place, ...]) -> bool:
     """Whether a true fluent of these arguments is among what the places show."""
-    names = {place.name for place in places}
+    names = {name for place in places for name in (place.name, *place.cells)}
     robots = {robot for place in places for robot in place.robots}
     if len(arguments) == 2:
         return arguments[1] in names or arguments[0] in robots
     return len(arguments) == 1 and arguments[0] in names
-
-
-def _pairs(atoms: Iterable[str]) -> list[tuple[str, str]]:
-    """The arguments of the two-place atoms."""
-    found = (text.arguments(atom) for atom in atoms)
-    return [(args[0], args[1]) for args in found if len(args) == 2]

@@ -4,8 +4,12 @@ import numpy as np
 import pytest
 
 from asp import load_description, parse_description
+from asp.levels import level_text
+from asp.loading import read_domain
+from asp.refinement import load
 from testbed.environment.ansi import draw_text
 from testbed.environment.core import Core
+from testbed.environment.fine import fine_core
 from testbed.environment.picture import Image, draw_picture
 from testbed.environment.rendering import MODES, render
 from testbed.environment.rules import Rules
@@ -13,6 +17,7 @@ from testbed.environment.scene import Scene, scene
 from testbed.environment.world import World
 
 WORLD = World(load_description("office"))
+OFFICE = read_domain("office")[1]
 IN_KITCHEN = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,office2)")
 TOWER = """
 sorts
@@ -123,3 +128,42 @@ def test_no_mode_needs_a_screen(mode: str | None, capsys: pytest.CaptureFixture[
     shown = render(office(), mode)
     assert (shown is None) is (mode in ("human", None))
     assert ("kitchen" in capsys.readouterr().out) is (mode == "human")
+
+
+def level(*literals: str) -> Core:
+    coarse, fine = level_text(2, 2, 2, ((2, 2),))
+    core = fine_core(load(coarse, "level.al", fine, "level.fine"), Rules(goal=()))
+    core.reset(0, literals)
+    return core
+
+
+IN_HAND = ("fine_loc(rob1,room2_3)", "fine_in_hand(rob1,object2_1)", "fine_loc(object1_2,room1_4)")
+
+
+def test_at_the_fine_resolution_rooms_show_their_cells() -> None:
+    shown = scene(level(*IN_HAND))
+    first, second = shown.places
+    assert (first.name, first.cells) == ("room1", ("room1_1", "room1_2", "room1_3", "room1_4"))
+    assert (first.things, first.robots, first.spots) == (("object1",), {}, {"object1": "room1_4"})
+    assert (second.things, second.robots) == ((), {"rob1": ("object2",)})
+    assert second.spots == {"rob1": "room2_3", "object2": "room2_3"}
+    assert shown.rest == ()
+    text = draw_text(shown)
+    assert "object1 in room1_4" in text
+    assert "[rob1] in room2_3 holds object2" in text
+
+
+def test_the_picture_tells_cells_apart() -> None:
+    elsewhere = [literal.replace("room1_4", "room1_2") for literal in IN_HAND]
+    beside = (IN_HAND[0], "fine_loc(object2_1,room2_3)", IN_HAND[2])
+    pictures = [picture(level(*literals)) for literals in (IN_HAND, elsewhere, beside)]
+    assert len({image.tobytes() for image in pictures}) == 3
+    assert len({image.shape for image in pictures}) == 1
+
+
+def test_a_static_between_two_sorts_is_no_cell_of_the_other() -> None:
+    owned = OFFICE.replace("next_to(room, room).", "next_to(room, room).  owner(object, robot).")
+    world = World(parse_description(owned.replace("\nfacts", "\nfacts\n  owner(book1, rob1).")))
+    core = Core(world, Rules(goal=()), ())
+    core.reset(0, IN_KITCHEN)
+    assert scene(core).places == scene(office()).places
