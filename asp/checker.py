@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 from asp import roles, syntax
 from asp.reserved import is_reserved_constant
-from asp.signature import Problems, Signature, report_reserved, suggestion
+from asp.signature import Problems, Signature, report_reserved
+from asp.spelling import suggestion
 
 Domains = Mapping[str, tuple[str, ...]]
 """What each variable of one statement ranges over."""
@@ -50,7 +51,7 @@ def _check_defaults(source: syntax.Source, problems: Problems) -> None:
     for exception in source.each(syntax.ExceptionStatement):
         if exception.of is None:
             known = suggestion(exception.name, lines)
-            problems.report(exception.place, f"unknown default '{exception.name}'{known}")
+            problems.report(exception.place, f"unknown default '{exception.name}'; {known}")
 
 
 def _check_scenarios(source: syntax.Source, problems: Problems) -> None:
@@ -71,11 +72,18 @@ def variable_domains(statement: syntax.Statement, signature: Signature) -> Domai
     for use in roles.scope(statement):
         for term, members in zip(use.atom.args, _places(use.atom, signature), strict=True):
             if term.is_variable:
-                before = domains.get(term.name, members)
-                domains[term.name] = tuple(m for m in before if m in members)
+                domains[term.name] = _common(domains.get(term.name, members), members)
     if isinstance(statement, syntax.SeesStatement) and statement.robot.is_variable:
         domains.setdefault(statement.robot.name, ())
     return domains
+
+
+def _common(some: tuple[str, ...], others: tuple[str, ...]) -> tuple[str, ...]:
+    """The members of both, in the order of the first."""
+    if some is others:
+        return some
+    both = set(others)
+    return tuple(member for member in some if member in both)
 
 
 def _places(atom: syntax.Atom, signature: Signature) -> list[tuple[str, ...]]:
@@ -90,7 +98,7 @@ def _check_use(use: roles.Use, signature: Signature, problems: Problems) -> None
     if kind is None:
         known = [n for n, d in signature.symbols.items() if d.kind in use.kinds]
         noun = roles.noun(use.kinds)
-        problems.report(atom.place, f"unknown {noun} '{atom.name}'{suggestion(atom.name, known)}")
+        problems.report(atom.place, f"unknown {noun} '{atom.name}'; {suggestion(atom.name, known)}")
     elif kind not in use.kinds:
         problems.report(
             atom.place, f"'{atom.name}' is {_noun(kind)}; this place needs {use.wanted}"
@@ -135,7 +143,7 @@ def _check_arguments(atom: syntax.Atom, signature: Signature, problems: Problems
         if not term.is_variable and members and term.name not in members:
             problems.report(
                 term.place,
-                f"'{term.name}' is not of sort '{sort}'{suggestion(term.name, members)}",
+                f"'{term.name}' is not of sort '{sort}'; {suggestion(term.name, members)}",
             )
 
 
@@ -201,8 +209,8 @@ def _check_named(
 
 def _check_constant(term: syntax.Term, signature: Signature, problems: Problems) -> None:
     if term.name not in signature.constants:
-        known = suggestion(term.name, sorted(signature.constants))
-        problems.report(term.place, f"unknown constant '{term.name}'{known}")
+        known = suggestion(term.name, signature.constants)
+        problems.report(term.place, f"unknown constant '{term.name}'; {known}")
 
 
 def _stands_nowhere(statement: syntax.Statement, variable: str) -> bool:

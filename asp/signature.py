@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 from asp import syntax
 from asp.errors import SourceError
 from asp.reserved import is_reserved_constant, is_reserved_sort, is_reserved_symbol
+from asp.spelling import suggestion
 
 
 class Problems(list[SourceError]):
@@ -61,13 +61,8 @@ def signature_of(source: syntax.Source, problems: Problems) -> Signature:
     return Signature(sorts, symbols)
 
 
-def suggestion(name: str, known: Iterable[str]) -> str:
-    """`; did you mean 'x'?` for the known name nearest to a misspelt one, else what is known."""
-    names = list(known)
-    near = get_close_matches(name, names, n=1)
-    if near:
-        return f"; did you mean '{near[0]}'?"
-    return f"; known are {', '.join(names)}" if names else ""
+def _report_sort(name: str, place: syntax.Place, sorts: Iterable[str], problems: Problems) -> None:
+    problems.report(place, f"unknown sort '{name}'; {suggestion(name, sorts)}")
 
 
 def _claim(
@@ -91,7 +86,9 @@ def _members(
         elif part.name in sorts:
             members += sorts[part.name]
         else:
-            problems.report(part.place, f"unknown sort '{part.name}'{suggestion(part.name, sorts)}")
+            problems.report(
+                part.place, f"unknown sort '{part.name}'; {suggestion(part.name, sorts)}"
+            )
     return tuple(dict.fromkeys(members))
 
 
@@ -119,4 +116,6 @@ def _check_sorts(
 ) -> None:
     for sort in declaration.sorts:
         if sort.name not in sorts:
-            problems.report(sort.place, f"unknown sort '{sort.name}'{suggestion(sort.name, sorts)}")
+            problems.report(
+                sort.place, f"unknown sort '{sort.name}'; {suggestion(sort.name, sorts)}"
+            )

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 from lark import ParseTree, Token, Tree
 from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
 
 from asp.errors import SourceError
+from asp.spelling import nearest
 
 _READABLE = {
     "NAME": "a name",
@@ -101,7 +101,7 @@ def _meant_section(token: Token, text: str, words: Words) -> str | None:
     begins = not before or before[-1].endswith(".") or before[-1].upper() in words.names
     if not begins or lines[line - 1].strip() != token:
         return None
-    return next(iter(get_close_matches(token, sorted(map(str.lower, words.names)), n=1)), None)
+    return nearest(token, map(str.lower, words.names))
 
 
 def _without_comment(line: str) -> str:

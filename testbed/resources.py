@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import difflib
 from pathlib import Path
+
+from asp.spelling import suggestion
 
 SUFFIX = ".yaml"
 
@@ -37,12 +38,4 @@ def find_config(source: str | Path) -> Path:
     packaged = config_folder() / (path.name + SUFFIX)
     if path.name == str(source) and packaged.is_file():
         return packaged
-    raise FileNotFoundError(f"{source}: no such file; {_packaged_hint(path.stem)}")
-
-
-def _packaged_hint(name: str) -> str:
-    names = config_names()
-    near = difflib.get_close_matches(name, names, n=1)
-    if near:
-        return f"did you mean '{near[0]}'?"
-    return "packaged configurations are " + (", ".join(names) or "missing from this installation")
+    raise FileNotFoundError(f"{source}: no such file; {suggestion(path.stem, config_names())}")

@@ -10,8 +10,9 @@ from asp import Description
 from asp.conflicts import cannot_hold, never_together
 from asp.errors import SourceError
 from asp.literals import atom, complement
+from asp.spelling import suggestion
 from asp.translation import translate
-from testbed.config.errors import ConfigError, nearest
+from testbed.config.errors import ConfigError
 from testbed.config.grounds import grounds
 from testbed.config.levels import ground_findings, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings, ScriptEntry
@@ -120,7 +121,7 @@ def _twice(config: ExperimentConfig) -> Iterator[Finding]:
 def _robots(config: ExperimentConfig, known: Collection[str] | None) -> Iterator[Finding]:
     for index, kind in enumerate(config.robots):
         if known is not None and kind not in known:
-            yield ("robots", index), f"unknown robot '{kind}'; {nearest(kind, known)}"
+            yield ("robots", index), f"unknown robot '{kind}'; {suggestion(kind, known)}"
 
 
 def _scenarios(config: ExperimentConfig, description: Description) -> Iterator[Finding]:
@@ -128,17 +129,17 @@ def _scenarios(config: ExperimentConfig, description: Description) -> Iterator[F
     scripted = [name for name, own in config.scenario_settings.items() if own.script is not None]
     for index, name in enumerate(config.scenarios):
         if config.script is None and name not in (*known, *scripted):
-            yield ("scenarios", index), f"unknown scenario '{name}'; {nearest(name, known)}"
+            yield ("scenarios", index), f"unknown scenario '{name}'; {suggestion(name, known)}"
     for name in config.scenario_settings:
         if name not in (*known, *config.scenarios):
-            yield ("scenario_settings", name), f"unknown scenario; {nearest(name, known)}"
+            yield ("scenario_settings", name), f"unknown scenario; {suggestion(name, known)}"
 
 
 def _observability(config: ExperimentConfig, description: Description) -> Iterator[Finding]:
     known = {action.partition("(")[0] for action in description.exogenous_actions}
     for name in config.observability:
         if name not in known:
-            yield ("observability", name), f"no such exogenous action; {nearest(name, known)}"
+            yield ("observability", name), f"no such exogenous action; {suggestion(name, known)}"
 
 
 def _literals(key: Key, literals: Sequence[str], description: Description) -> Iterator[Finding]:

@@ -10,7 +10,7 @@ from asp.levels import LEVELS
 from asp.literals import atom
 from asp.refinement import Refinement
 from asp.signature import Signature
-from testbed.config.errors import nearest
+from asp.spelling import suggestion
 from testbed.config.models import ExperimentConfig
 from testbed.config.places import Key
 from testbed.config.words import Finding, unknown_atom
@@ -44,7 +44,7 @@ def _names(config: ExperimentConfig) -> Iterator[Finding]:
     known = (*LEVELS, *config.level_sizes)
     for index, name in enumerate(config.levels):
         if name not in known:
-            yield ("levels", index), f"unknown level '{name}'; {nearest(name, known)}"
+            yield ("levels", index), f"unknown level '{name}'; {suggestion(name, known)}"
         if name in config.levels[:index]:
             yield ("levels", index), f"'{name}' is listed twice; keep one of the two"
     for name in config.level_sizes:
@@ -96,7 +96,7 @@ def _patterns(given: Iterable[str], signature: Signature) -> Iterator[Finding]:
         key, name = ("draw", "goal", index), literals.name(literal)
         fluents = {n: s for n, s in signature.symbols.items() if s.kind in FLUENTS}
         if name not in fluents:
-            yield key, f"no fluent '{name}'; {nearest(name, fluents)}"
+            yield key, f"no fluent '{name}'; {suggestion(name, fluents)}"
             continue
         sorts = literals.arguments(literal)
         if len(sorts) != len(fluents[name].sorts):
@@ -104,13 +104,13 @@ def _patterns(given: Iterable[str], signature: Signature) -> Iterator[Finding]:
             yield key, f"{name} takes {len(fluents[name].sorts)} sorts, as in {example}"
         for sort in sorts:
             if sort not in signature.sorts:
-                yield key, f"unknown sort '{sort}'; {nearest(sort, signature.sorts)}"
+                yield key, f"unknown sort '{sort}'; {suggestion(sort, signature.sorts)}"
 
 
 def _known(key: Key, given: Iterable[str], known: Collection[str]) -> Iterator[Finding]:
     for name in given:
         if name not in known:
-            yield (*key, name), f"no such action at this resolution; {nearest(name, known)}"
+            yield (*key, name), f"no such action at this resolution; {suggestion(name, known)}"
 
 
 def _named(signature: Signature, kind: str) -> list[str]:

@@ -14,8 +14,9 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 import asp
+from asp.spelling import suggestion
 from testbed.config.checking import check
-from testbed.config.errors import ConfigError, nearest
+from testbed.config.errors import ConfigError
 from testbed.config.models import ExperimentConfig, Section
 from testbed.config.places import Key, Places
 from testbed.resources import find_config
@@ -153,14 +154,14 @@ def _choice_hint(error: ErrorDetails) -> str:
     if expected is None or not isinstance(error["input"], str):
         return ""
     choices = str(expected).replace("'", "").replace(" or ", ", ").split(", ")
-    near = nearest(error["input"], choices)
+    near = suggestion(error["input"], choices)
     return f"; {near}" if near.startswith("did") else ""
 
 
 def _unknown_key_hint(key: str, known: Sequence[str]) -> str:
     if "(" in key or ")" in key:
         return "put quotes around an action or a literal with a comma in it"
-    return nearest(key, known)
+    return suggestion(key, known)
 
 
 def _known_keys(parents: tuple[str | int, ...]) -> list[str]:

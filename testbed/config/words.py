@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from asp import literals
-from testbed.config.errors import nearest
+from asp.spelling import suggestion
 from testbed.config.places import Key
 
 Finding = tuple[Key, str]
@@ -17,11 +17,11 @@ def unknown_atom(text: str, known: Sequence[str], what: str) -> str:
     name, values = literals.name(text), literals.arguments(text)
     same = [literals.arguments(item) for item in known if literals.name(item) == name]
     if not same:
-        return f"no {what} '{name}'; {nearest(name, map(literals.name, known))}"
+        return f"no {what} '{name}'; {suggestion(name, map(literals.name, known))}"
     if len(values) != len(same[0]):
         return f"{name} takes {len(same[0])} arguments, as in {literals.ground(name, same[0])}"
     for position, value in enumerate(values):
         possible = {parts[position] for parts in same}
         if value not in possible:
-            return f"'{value}' in {text} is not known there; {nearest(value, possible)}"
-    return f"{text} is not a {what}; {nearest(text, known)}"
+            return f"'{value}' in {text} is not known there; {suggestion(value, possible)}"
+    return f"{text} is not a {what}; {suggestion(text, known)}"

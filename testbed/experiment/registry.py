@@ -12,7 +12,7 @@ from agents.intentional.logician import Logician
 from agents.intentional.undivided import UndividedLogician
 from agents.traditional import TraditionalRobot
 from agents.traditional.planner import Planner
-from testbed.config.errors import nearest
+from asp.spelling import suggestion
 from testbed.link.robot import Robot
 
 ROBOTS: Mapping[str, Callable[[], Robot]] = {
@@ -33,5 +33,5 @@ def make_robot(kind: str) -> Robot:
         ValueError: for an unknown kind, naming the nearest known one.
     """
     if kind not in ROBOTS:
-        raise ValueError(f"unknown robot '{kind}'; {nearest(kind, ROBOTS)}")
+        raise ValueError(f"unknown robot '{kind}'; {suggestion(kind, ROBOTS)}")
     return ROBOTS[kind]()

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterable
 from pathlib import Path
 
-from testbed.config.errors import nearest
+from asp.spelling import suggestion
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import TrialRecord, logical
@@ -68,7 +68,7 @@ def find_trial(specs: Iterable[TrialSpec], trial: str) -> TrialSpec:
     if found:
         ids = ", ".join(spec.trial for spec in found[:5])
         raise StoreError(f"--trial {trial}: several trials begin so: {ids}")
-    near = nearest(trial, [spec.trial for spec in known])
+    near = suggestion(trial, [spec.trial for spec in known])
     hint = near if near.startswith("did") else f"one of them is {known[0].trial}"
     raise StoreError(
         f"--trial {trial}: not one of the run's {counted(len(known), 'trial')}; {hint}"

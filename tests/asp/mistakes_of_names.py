@@ -9,7 +9,7 @@ NAMES = {
     "a sort used before its line": (
         "fluents\n  inertial old(year).\nsorts\n  year = {1..3}.",
         "17:16",
-        "unknown sort 'year'; known are room, thing",
+        "unknown sort 'year'; known: room, thing",
     ),
     "an unknown sort of a static": ("statics\n  big(thng).", "17:7", "did you mean 'thing'?"),
     "an unknown sort of an action": ("actions\n  agent go(rom).", "17:12", "did you mean 'room'?"),
@@ -42,7 +42,7 @@ NAMES = {
     "a name without likeness": (
         "lit if xyzzy.",
         "16:8",
-        "known are next_to, far, loc, lit, warm, seen",
+        "known: far, lit, loc, next_to, seen, warm",
     ),
     "an unknown constant in a comparison": (
         "lit if loc(T, L), L != hal.",
@@ -102,7 +102,7 @@ ARGUMENTS = {
     "a constant of another sort": (
         "lit if loc(hall, attic).",
         "16:12",
-        "'hall' is not of sort 'thing'; known are book, lamp",
+        "'hall' is not of sort 'thing'; known: book, lamp",
     ),
     "a misspelt constant": (
         "lit if loc(boook, hall).",
