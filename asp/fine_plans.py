@@ -10,7 +10,7 @@ from itertools import product
 from clingo import Symbol
 
 from asp import literals, syntax
-from asp.kept.patterns import Function, functions, subject, subjects
+from asp.kept.patterns import Function, functions, subject
 from asp.rules import term_text
 from asp.signature import Signature
 from asp.solving import fact, first_model, ground, select, theory
@@ -46,11 +46,6 @@ class FineStart:
         groups = (_within(group, constants) for group in self.candidates)
         return FineStart(frozenset(true), tuple(group for group in groups if group))
 
-    @property
-    def possible(self) -> frozenset[str]:
-        """The fluents that are or may be true."""
-        return self.true.union(*self.candidates)
-
 
 def plain_plan(
     strong: syntax.Source,
@@ -74,7 +69,7 @@ def plain_plan(
     actions = _concrete_actions(signature)
     facts = [fact("ranks", len(actions))]
     facts += (fact("rank", action, number) for number, action in enumerate(actions))
-    facts += _start(start, actions, functions(strong, signature), signature)
+    facts += _start(start, actions, functions(strong, signature))
     facts += (
         fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
         for literal in goal
@@ -135,33 +130,15 @@ def _start(
     start: FineStart,
     actions: Iterable[str],
     known: Mapping[str, Function],
-    signature: Signature,
 ) -> Iterator[Symbol]:
-    """What is certain, the groups of candidates, and which actions deal with what these are about.
-
-    What is nowhere, since only a part of the description is planned in, is never found.
-    """
+    """What is certain, the candidates, and which actions deal with what these are about."""
     yield from (fact("certain", fluent) for fluent in sorted(start.true))
     for number, group in enumerate(start.candidates):
         yield from (fact("candidate", number, fluent) for fluent in group)
     about = dict(enumerate(_about(group, known) for group in start.candidates))
-    about |= enumerate(nowhere(start, known, subjects(known, signature)), start=len(about))
     for action in actions:
         named = frozenset(literals.arguments(action))
         yield from (fact("deals_with", action, n) for n, some in about.items() if some <= named)
-
-
-def nowhere(
-    start: FineStart,
-    known: Mapping[str, Function],
-    places: Mapping[tuple[str, ...], frozenset[str]],
-) -> Iterator[frozenset[str]]:
-    """The constants of which a total function has no value, neither certain nor a candidate.
-
-    `places` are the `subjects` of the description or of a part of it.
-    """
-    given = {subject(fluent, known) for fluent in (*start.true, *(g[0] for g in start.candidates))}
-    return (constants for key, constants in places.items() if key not in given)
 
 
 def _about(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:

@@ -74,7 +74,10 @@ class _Translation:
     def _function(
         self, symbol: syntax.Declaration, given: Sequence[str], function: Function
     ) -> Iterator[Rule]:
-        """A function has one value; where a new one is true, the old one is not."""
+        """A function has one value; where a new one is true, the old one is not.
+
+        That a total one has a value at first is assumed by placed(K) where it is not told which.
+        """
         fluent, sorts = _term(symbol.name, given), _sorts(symbol, given)
         others = _without(given, function.place)
         subject, value = _term(symbol.name, others), sorts[function.place]
@@ -84,7 +87,9 @@ class _Translation:
         most = f"2 {{ holds({fluent},{NOW}) : {value} }}"
         yield Rule(STATE, rule("", [most, *body]))
         if function.total:
-            yield Rule(BASE, rule("", [f"not 1 {{ holds({fluent},0) : {value} }}", *body]))
+            yield Rule(BASE, rule(f"{{ placed({subject}) }}", body))
+            some = f"not 1 {{ holds({fluent},0) : {value} }}"
+            yield Rule(BASE, rule("", [f"placed({subject})", some, *body]))
 
     def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
         name = law.head.atom.name

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 
 import clingo
 from clingo import Function, Number, Symbol
@@ -24,7 +25,8 @@ class Horizon:
         ranks.append(Function("ranks", [Number(len(actions))]))
         with standing_still():
             self.control = ground([program, theory("kept_fine")], {"n": length}, ranks)
-            self._initial = self._inertial()
+            self._initial = _literals(self.control, "holds", 2)
+            self._placed = _literals(self.control, "placed", 1)
             self.control.ground(_parts(length))
             # The first call prepares the solver, whatever it is asked.
             with solving(self.control):
@@ -32,19 +34,22 @@ class Horizon:
         self.ordered = len(actions) * (length + 1) < _MOST_LEVELS
         self._goals: dict[str, int | None] = {}
 
-    def start(self, true: frozenset[str], candidates: frozenset[str]) -> list[int]:
-        """Assumptions that make these fluents true at step 0, of which candidates are left open.
+    def start(self, true: frozenset[str], candidates: Mapping[str, Sequence[str]]) -> list[int]:
+        """Assumptions that make these fluents true at step 0 and leave the candidates open.
 
-        All others are false. Raises ValueError for what is no inertial fluent.
+        Of the candidates for the value of each function (`fine_loc(box)`) one is true; all other
+        fluents are false. Raises ValueError for what is no inertial fluent.
         """
-        unknown = true.union(candidates) - self._initial.keys()
+        open_ = frozenset(chain(*candidates.values()))
+        unknown = true.union(open_) - self._initial.keys()
         if unknown:
             raise ValueError(f"no inertial fluent: {min(unknown)}")
-        return [
+        assumed = [
             number if fluent in true else -number
             for fluent, number in self._initial.items()
-            if fluent not in candidates
+            if fluent not in open_
         ]
+        return [*assumed, *(self._placed[function] for function in candidates)]
 
     def plan(self, start: Sequence[int], goal: Iterable[str]) -> tuple[str, ...] | None:
         """The first plan of exactly this length, or None. Raises TimeLimitError."""
@@ -66,12 +71,13 @@ class Horizon:
             self._goals[fluent] = None if found is None else found.literal
         return self._goals[fluent]
 
-    def _inertial(self) -> dict[str, int]:
-        """The solver's literals of the inertial fluents at step 0."""
-        return {
-            str(found.symbol.arguments[0]): found.literal
-            for found in self.control.symbolic_atoms.by_signature("holds", 2)
-        }
+
+def _literals(control: clingo.Control, predicate: str, arity: int) -> dict[str, int]:
+    """The solver's literals of a predicate's atoms by their first argument."""
+    return {
+        str(found.symbol.arguments[0]): found.literal
+        for found in control.symbolic_atoms.by_signature(predicate, arity)
+    }
 
 
 def _parts(length: int) -> list[tuple[str, list[Symbol]]]:

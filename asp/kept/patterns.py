@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from itertools import product
 
 from asp import literals, syntax
 from asp.signature import Signature
@@ -36,29 +35,8 @@ def functions(source: syntax.Source, signature: Signature) -> dict[str, Function
     return found
 
 
-def subjects(
-    known: Mapping[str, Function], signature: Signature
-) -> dict[tuple[str, ...], frozenset[str]]:
-    """Of what each total function has a value: its name and other arguments, with these constants.
-
-    Keys are as `subject` makes them.
-    """
-    return {
-        (name, *others): frozenset(others)
-        for name, function in known.items()
-        if function.total
-        for others in product(
-            *(
-                signature.sorts[sort.name]
-                for place, sort in enumerate(signature.symbols[name].sorts)
-                if place != function.place
-            )
-        )
-    }
-
-
 def subject(fluent: str, known: Mapping[str, Function]) -> tuple[str, ...] | None:
-    """The function and its arguments that a fluent gives a value; None if it is of no total one."""
+    """The total function and its arguments that a fluent gives a value; None if it is of none."""
     function = known.get(literals.name(fluent))
     if function is None or not function.total:
         return None

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from itertools import chain
 
 from asp import syntax
-from asp.fine_plans import FinePlan, FineStart, NoPlan, nowhere
+from asp.fine_plans import FinePlan, FineStart, NoPlan
 from asp.kept.horizon import Horizon
 from asp.kept.narrowing import Narrow, Narrower
-from asp.kept.patterns import functions, subjects
+from asp.kept.patterns import functions, subject
 from asp.kept.relaxed import Relaxed
 from asp.kept.sparing import Sparing
-from asp.literals import arguments, is_positive
+from asp.literals import arguments, ground
 from asp.signature import Signature
 
 _MOST_NARROWED = 1_000
@@ -35,7 +35,6 @@ class FinePlanner:
         """
         self._constants = signature.constants
         self._functions = functions(source, signature)
-        self._places = subjects(self._functions, signature)
         self._sparing = Sparing(source, signature)
         self._narrower = Narrower(source, signature)
         self._narrow = lru_cache(_MOST_NARROWED)(self._narrower.narrow)
@@ -52,7 +51,7 @@ class FinePlanner:
         """The first of the shortest plans of at most `limit` actions.
 
         Of candidates those are assumed that make it short. `constants` are those of the part of
-        the description that is planned in (None: the whole); what is nowhere there is left out.
+        the description that is planned in (None: the whole).
         Raises TimeLimitError, and ValueError for a goal about other constants.
         """
         if not all(start.candidates):
@@ -62,20 +61,16 @@ class FinePlanner:
             if not kept.issuperset(arguments(literal)):
                 raise ValueError(f"{literal}: not about what is planned for")
         kept -= self._sparing.spare(chain(start.true, *start.candidates), goal)
-        here = start.within(kept)
-        kept = kept.difference(*nowhere(here, self._functions, self._places))
-        if not all(kept.issuperset(arguments(literal)) for literal in filter(is_positive, goal)):
-            return NoPlan.OUT_OF_REACH
-        return self._search(self._narrow(kept), here, goal, limit)
+        return self._search(self._narrow(kept), start.within(kept), goal, limit)
 
     def _search(
         self, narrow: Narrow, start: FineStart, goal: tuple[str, ...], limit: int
     ) -> FinePlan | NoPlan:
         true = frozenset(narrow.seen(start.true))
-        candidates = frozenset(narrow.seen(chain(*start.candidates)))
+        candidates = self._by_function(map(narrow.seen, start.candidates))
         wanted = narrow.seen(goal)
         domain = self._domain(narrow)
-        least = domain.relaxed.bound(true | candidates, wanted)
+        least = domain.relaxed.bound(chain(true, *candidates.values()), wanted)
         if least is None:
             return NoPlan.OUT_OF_REACH
         for length in range(least, limit + 1):
@@ -84,6 +79,16 @@ class FinePlanner:
             if plan is not None:
                 return narrow.back(plan)
         return NoPlan.BEYOND_LIMIT
+
+    def _by_function(self, groups: Iterable[tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
+        """The groups of candidates by what they give a value. Raises ValueError."""
+        found = {}
+        for group in groups:
+            function = subject(group[0], self._functions)
+            if function is None:
+                raise ValueError(f"{group[0]}: not a value of a function that always has one")
+            found[ground(function[0], function[1:])] = group
+        return found
 
     def _domain(self, narrow: Narrow) -> _Domain:
         """What is kept of a narrowed description, used last of all."""

@@ -1,0 +1,130 @@
+"""Planning problems at the fine resolution, drawn, and an oracle that searches states."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import product
+
+from asp import syntax
+from asp.fine_plans import FineStart
+from asp.literals import arguments
+from asp.refinement import Refinement
+from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant
+from asp.signature import Problems, Signature, signature_of
+from testbed.environment.sparse.world import SparseWorld
+from tests.asp.refinement.levels import coarse_world
+
+_KNOWN, _HELD = 0.4, 0.4
+
+
+@dataclass(frozen=True)
+class FineProblem:
+    """A refined transition: what is known of its first state, and the constants it is about."""
+
+    refinement: Refinement
+    start: FineStart
+    transition: Transition
+    relevant: frozenset[str]
+
+    @property
+    def goal(self) -> tuple[str, ...]:
+        return fine_goal(self.refinement, self.transition, self.relevant).effects
+
+    @property
+    def constants(self) -> frozenset[str]:
+        """Those of the zoomed description."""
+        return self.relevant | fine_constants(self.refinement, self.relevant)
+
+
+def drawn_problem(refinement: Refinement, draw: random.Random) -> FineProblem:
+    """A transition possible in some coarse state of a level, with cells known or among some."""
+    components, sorts = refinement.components, refinement.coarse_signature.sorts
+    where = {thing: draw.choice(sorts["room"]) for thing in ("rob1", *sorts["object"])}
+    held = draw.choice(sorts["object"]) if draw.random() < _HELD else None
+    if held is not None:
+        where[held] = where["rob1"]
+    own = draw.choice(components[where["rob1"]])
+    true, candidates = {f"fine_loc(rob1,{own})"}, []
+    for thing in sorts["object"]:
+        cells = components[where[thing]]
+        some = sorted(draw.sample(cells, draw.randint(1, len(cells))), key=cells.index)
+        if thing == held:
+            some = [own]
+            true.add(f"fine_in_hand(rob1,{draw.choice(components[thing])})")
+        certain = thing == held or (len(some) == 1 and draw.random() < _KNOWN)
+        for part in components[thing]:
+            group = tuple(f"fine_loc({part},{cell})" for cell in some)
+            if certain:
+                true.update(group)
+            else:
+                candidates.append(group)
+    coarse = {f"loc({thing},{room})" for thing, room in where.items()}
+    coarse |= {f"in_hand(rob1,{held})"} if held else set()
+    goal = (f"loc({draw.choice(sorts['object'])},{draw.choice(sorts['room'])})",)
+    transition = _drawn_transition(refinement, frozenset(coarse), draw)
+    about = relevant(refinement.coarse, transition, goal)
+    return FineProblem(refinement, FineStart(frozenset(true), tuple(candidates)), transition, about)
+
+
+def _drawn_transition(
+    refinement: Refinement, before: frozenset[str], draw: random.Random
+) -> Transition:
+    world = coarse_world(refinement)
+    state = world.state(before)
+    possible = [a for a in world.agent_actions if world.executable(state, [a])]
+    # Moves are many, what is in reach and in hand is of as much interest.
+    kind = draw.choice(sorted({action.partition("(")[0] for action in possible}))
+    action = draw.choice([a for a in possible if a.startswith(f"{kind}(")])
+    return Transition(before, action, frozenset(world.true_atoms(world.successor(state, [action]))))
+
+
+def signature(source: syntax.Source) -> Signature:
+    return signature_of(source, Problems(source.file))
+
+
+@cache
+def _world(refinement: Refinement) -> SparseWorld:
+    return SparseWorld(refinement.weak, refinement.weak_signature)
+
+
+def first_shortest(
+    refinement: Refinement, start: FineStart, goal: Sequence[str], limit: int
+) -> tuple[str, ...] | None:
+    """The first plan in the order of declaration, by layers of a breadth-first search.
+
+    It starts from every state that the candidates allow.
+    """
+    world = _world(refinement)
+    rank = {action: number for number, action in enumerate(world.agent_actions)}
+
+    def order(plan: tuple[str, ...]) -> list[int]:
+        return [rank[action] for action in plan]
+
+    plans: dict[int, tuple[str, ...]] = dict.fromkeys(_states(refinement, start), ())
+    seen = set(plans)
+    for _ in range(limit + 1):
+        reached = [plan for state, plan in plans.items() if world.satisfies(state, goal)]
+        if reached or not plans:
+            return min(reached, key=order, default=None)
+        following: dict[int, tuple[str, ...]] = {}
+        for state, plan in sorted(plans.items(), key=lambda item: order(item[1])):
+            for action in world.agent_actions:
+                for after in world.successors(state, [action]):
+                    if after not in seen:
+                        following.setdefault(after, (*plan, action))
+        seen |= following.keys()
+        plans = following
+    return None
+
+
+def _states(refinement: Refinement, start: FineStart) -> list[int]:
+    """The states that the candidates allow: parts of one thing are at one place."""
+    groups: dict[str, list[tuple[str, ...]]] = {}
+    for group in start.candidates:
+        part = arguments(group[0])[0]
+        groups.setdefault(refinement.wholes[part], []).append(group)
+    places = [list(zip(*of_thing, strict=True)) for of_thing in groups.values()]
+    return [_world(refinement).state(start.true.union(*chosen)) for chosen in product(*places)]
