@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property, lru_cache
 
 from clingo import Symbol
 
@@ -13,6 +13,9 @@ from asp.literals import atom, complement, is_positive
 from asp.loading import parse_description
 from asp.solving import fact
 from asp.translation import translate
+
+# A robot whose domain follows from its goal has as many domains as goals.
+_REMEMBERED = 32
 
 
 @dataclass(frozen=True)
@@ -41,7 +44,7 @@ class Knowledge:
         return list(dict.fromkeys(map(complement, heads)))
 
 
-@cache
+@lru_cache(maxsize=_REMEMBERED)
 def knowledge(name: str, source: str) -> Knowledge:
     """The knowledge that an AL_d text holds. Raises asp.SourceError."""
     description = parse_description(source, f"{name}.al")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from dataclasses import dataclass
 
 from agents.shared.knowledge import Knowledge
@@ -21,12 +22,20 @@ class Tools:
     reach: Reach
 
 
-_TOOLS: dict[str, Tools] = {}
+MOST_DOMAINS = 16
+"""Of how many domains controls are kept: those that were used last."""
+
+_TOOLS: OrderedDict[str, Tools] = OrderedDict()
 
 
 def tools_of(knowledge: Knowledge) -> Tools:
-    """The kept controls of a domain, made when they are first asked for."""
+    """The kept controls of a domain, made when they are first asked for.
+
+    A robot whose domain follows from its goal has as many domains as goals.
+    """
     if knowledge.program not in _TOOLS:
+        while len(_TOOLS) >= MOST_DOMAINS:
+            _TOOLS.popitem(last=False)
         description, program, ranks = knowledge.description, knowledge.program, knowledge.ranks
         fluents = description.fluents
         _TOOLS[knowledge.program] = Tools(
@@ -41,4 +50,5 @@ def tools_of(knowledge: Knowledge) -> Tools:
             Plans(description.source, f"{description.name}.al"),
             Reach(description, program),
         )
+    _TOOLS.move_to_end(knowledge.program)
     return _TOOLS[knowledge.program]

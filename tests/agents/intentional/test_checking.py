@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections import OrderedDict
 from collections.abc import Callable, Sequence
 
 import pytest
@@ -11,6 +12,9 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
 from agents.intentional.controller import IntentionalRobot
+from agents.shared import tools
+from agents.shared.knowledge import knowledge
+from agents.shared.tools import Tools, tools_of
 from asp.loading import parse_description
 from testbed.experiment.oracle import minimal_actions
 from testbed.link.messages import Task
@@ -148,6 +152,24 @@ def test_its_task_is_the_task_with_what_it_has_to_be_sure_of() -> None:
     laws = {(law.head, frozenset(law.body)) for law in description.constraints}
     assert ("sure_1", frozenset({"loc(book1,kitchen)", "loc(rob1,kitchen)"})) in laws
     assert ("-sure_1", frozenset({"-loc(book1,kitchen)"})) in laws
+
+
+def test_of_many_goals_only_the_last_domains_keep_their_controls(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(tools, "MOST_DOMAINS", 2)
+    monkeypatch.setattr(tools, "_TOOLS", OrderedDict())
+    initial = WORLD.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
+    kept = list[Tools]()
+    for room in ("office2", "library", "office2", "kitchen", "office2", "library"):
+        goal = [f"loc(rob1,{room})"]
+        assert live(CheckingRobot(), initial, goal, feedback=False).achieved
+        task = to_be_sure(_task(SOURCE, goal))
+        kept.append(tools_of(knowledge(DOMAIN, task.source)))
+        assert len(tools._TOOLS) <= 2
+    first, other, again, _, still, anew = kept
+    assert first is again is still, "used in between"
+    assert other is not anew
 
 
 def test_what_nothing_shows_is_not_asked_for() -> None:
