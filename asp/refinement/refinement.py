@@ -15,6 +15,7 @@ from asp.errors import SourceError
 from asp.literals import arguments, atom, complement, ground, is_positive, name
 from asp.loading import analyse, parse_description
 from asp.parser import parse
+from asp.refinement.facts import Facts
 from asp.refinement.language import parse_fine
 from asp.refinement.maps import check_maps
 from asp.refinement.observation import check_tested, observation_text, tested_fluents
@@ -54,6 +55,21 @@ class Refinement:
     def wholes(self) -> Mapping[str, str]:
         """The coarse constant to which each fine constant belongs."""
         return {part: whole for whole, parts in self.components.items() for part in parts}
+
+    @cached_property
+    def constants(self) -> frozenset[str]:
+        """The constants of either resolution."""
+        return self.coarse_signature.constants.union(self.wholes)
+
+    @cached_property
+    def weak_facts(self) -> Facts:
+        """The weak refinement, its ground facts found by their constants."""
+        return Facts(self.weak)
+
+    @cached_property
+    def strong_facts(self) -> Facts:
+        """The strong refinement, its ground facts found by their constants."""
+        return Facts(self.strong)
 
     @property
     def counterparts(self) -> Mapping[str, str]:
@@ -115,9 +131,21 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     check_maps(fine, coarse, vocabulary, true_statics(weak, weak_signature), problems)
     tested = tested_fluents(fine, weak_signature, problems)
     problems.raise_first()
-    strong = parse(f"{text}\n{observation_text(fine, vocabulary, tested)}", weak.file)
+    strong = _with(weak, observation_text(fine, vocabulary, tested))
     strong_signature = signature_of(strong, Problems(strong.file))
     return Refinement(coarse, signature, vocabulary, weak, weak_signature, strong, strong_signature)
+
+
+def _with(weak: syntax.Source, observation: str) -> syntax.Source:
+    """The weak refinement with further sections behind it, which are parsed where they stand."""
+    lines = weak.text.count("\n") + 1
+    added = parse("\n" * lines + observation, weak.file)
+    return syntax.Source(
+        weak.file,
+        f"{weak.text}\n{observation}",
+        weak.statements + added.statements,
+        weak.comments + added.comments,
+    )
 
 
 def _check_own(fine: syntax.Source, weak: Signature) -> None:

@@ -5,13 +5,14 @@ relCon(T, G), D_c(T, G) and D_f(T, G) are those of Definitions 1 and 2 of the pa
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
 from asp import roles, syntax
 from asp.checker import variable_domains
 from asp.literals import arguments, atom, complement, is_positive, name
+from asp.refinement.facts import Facts
 from asp.refinement.refinement import Refinement
 from asp.restriction import restrict
 from asp.signature import Problems, Signature, signature_of
@@ -50,17 +51,29 @@ def relevant(coarse: syntax.Source, transition: Transition, goal: Iterable[str])
 def zoom_coarse(coarse: syntax.Source, constants: Collection[str]) -> syntax.Source:
     """D_c(T, G): the coarse description restricted to the relevant constants."""
     dropped = _signature(coarse).constants.difference(constants)
-    return _writable(restrict(coarse, dropped))
+    return _commented(coarse, _writable(restrict(coarse, dropped)))
 
 
 def zoom_weak(refinement: Refinement, constants: Collection[str]) -> syntax.Source:
     """D_f(T, G) without the theory of observation: the weak refinement about the components."""
-    return _writable(restrict(refinement.weak, _dropped(refinement, constants)))
+    return _zoomed(refinement, refinement.weak_facts, constants)
 
 
 def zoom_strong(refinement: Refinement, constants: Collection[str]) -> syntax.Source:
     """D_f(T, G): the strong refinement restricted to the components of the relevant constants."""
-    return _writable(restrict(refinement.strong, _dropped(refinement, constants)))
+    return _zoomed(refinement, refinement.strong_facts, constants)
+
+
+def _zoomed(refinement: Refinement, whole: Facts, constants: Collection[str]) -> syntax.Source:
+    """A refined description about the components of the relevant constants.
+
+    Most of its statements are ground facts; they are looked up by their constants, so that the
+    time that this takes depends on what is relevant.
+    """
+    kept = fine_constants(refinement, constants).union(constants)
+    rules = _writable(restrict(whole.rules, refinement.constants - kept))
+    statements = sorted([*rules, *whole.about(kept)], key=lambda s: s.place.line)
+    return _commented(whole.rules, statements)
 
 
 def fine_constants(refinement: Refinement, constants: Collection[str]) -> frozenset[str]:
@@ -89,13 +102,6 @@ def fine_goal(
         if is_positive(literal) != (atom(literal) in transition.before)
     )
     return FineGoal(literals, tuple(effects))
-
-
-def _dropped(refinement: Refinement, constants: Collection[str]) -> frozenset[str]:
-    """All constants of either resolution that are not relevant, nor components of such."""
-    coarse = refinement.coarse_signature.constants
-    every = coarse | fine_constants(refinement, coarse)
-    return every.difference(constants, fine_constants(refinement, constants))
 
 
 def _in_conditions(coarse: syntax.Source, transition: Transition) -> Iterator[str]:
@@ -149,8 +155,8 @@ def _signature(source: syntax.Source) -> Signature:
     return signature_of(source, Problems(source.file))
 
 
-def _writable(source: syntax.Source) -> syntax.Source:
-    """The source without sorts that are empty now, and without all that speaks of them."""
+def _writable(source: syntax.Source) -> list[syntax.Statement]:
+    """The statements without sorts that are empty now, and without all that speaks of them."""
     signature = _signature(source)
     empty = {sort for sort, members in signature.sorts.items() if not members}
     known = {
@@ -158,12 +164,11 @@ def _writable(source: syntax.Source) -> syntax.Source:
         for symbol, declaration in signature.symbols.items()
         if empty.isdisjoint(sort.name for sort in declaration.sorts)
     }.union(signature.sorts)
-    kept = [
+    return [
         _without_parts(statement, empty)
         for statement in source.statements
         if _is_writable(statement, empty, known) and _has_instances(statement, signature)
     ]
-    return replace(source, statements=tuple(kept), comments=_comments(source, kept))
 
 
 def _is_writable(statement: syntax.Statement, empty: set[str], known: set[str]) -> bool:
@@ -187,17 +192,16 @@ def _without_parts(statement: syntax.Statement, empty: set[str]) -> syntax.State
     return replace(statement, parts=tuple(parts))
 
 
-def _comments(
-    source: syntax.Source, kept: Iterable[syntax.Statement]
-) -> tuple[syntax.Comment, ...]:
-    """The comments behind the statements that are left, and the headings above such."""
-    starts = sorted(s.place.line for s in kept)
+def _commented(source: syntax.Source, kept: Sequence[syntax.Statement]) -> syntax.Source:
+    """The source with these statements, the comments behind them, and the headings above."""
+    starts = [statement.place.line for statement in kept]
     lines = {line for s in kept for line in range(s.place.line, s.last_line + 1)}
     alone = [comment.line for comment in source.comments if comment.alone]
     ends = dict(zip(alone, [*alone[1:], len(source.text)], strict=True))
-    return tuple(
+    comments = tuple(
         comment
         for comment in source.comments
         if comment.line in lines
-        or (comment.alone and any(comment.line < n < ends[comment.line] for n in starts))
+        or (comment.alone and any(comment.line < start < ends[comment.line] for start in starts))
     )
+    return replace(source, statements=tuple(kept), comments=comments)

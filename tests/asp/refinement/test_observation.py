@@ -124,7 +124,7 @@ def one_part_does_not(text: str) -> bool:
     return "observed_in_hand(rob1,object1,false)" not in known
 
 
-def testing_changes_nothing_else(text: str) -> bool:
+def what_is_tested_stays_as_it_is(text: str) -> bool:
     for state in (AT_HOME, AWAY):
         before, now = (
             {a for a in found or () if not a.startswith(("observed_", "possible_"))}
@@ -151,7 +151,7 @@ CLAIMS: list[Callable[[str], bool]] = [
     one_cell_does_not,
     all_parts_tell_that_it_is_not_held,
     one_part_does_not,
-    testing_changes_nothing_else,
+    what_is_tested_stays_as_it_is,
 ]
 
 
