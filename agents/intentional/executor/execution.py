@@ -98,11 +98,14 @@ class Execution:
         return False
 
     def _outcome(self, effect: str, percept: Percept) -> Generator[str, Percept, str]:
-        """The effect if it came about, as far as that can be observed; else its complement."""
+        """The effect if it came about, as far as that can be observed; else its complement.
+
+        A test that shows nothing was not possible: the robot is not where it wanted to be.
+        """
         if self._mind.tests.of(effect) is None:
             return complement(effect) if complement(effect) in percept.visible else effect
         holds = yield from self._read(effect)
-        return effect if holds is None or holds == is_positive(effect) else complement(effect)
+        return effect if holds == is_positive(effect) else complement(effect)
 
     def _look(self) -> Generator[str, Percept, None]:
         """Tests what can be tested here of what is relevant, where it is not known."""
