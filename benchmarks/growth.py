@@ -29,6 +29,7 @@ ROOMS = {"small": (4, 5), "full": (4, 8, 16, 32)}
 CARRIED = {"small": (1,), "full": (1, 2, 3, 4, 5)}
 CORRIDORS = {"small": (4,), "full": (4, 8, 12, 16, 20)}
 DRAWN = {"small": 2, "full": 6}
+LIVES = 5
 
 
 def main(size: str) -> list[Sheet]:
@@ -176,8 +177,8 @@ def _lives(steps: Sequence[int], window: int, limit_s: float) -> Iterator[Row]:
     goal = delivered(book_names(2))
     given_up: dict[str, bool] = {}
     for step in steps:
-        siege = _long_life(source, initial, goal, step, window)
-        for kind, (took, question) in _points(siege, step).items():
+        sieges = _long_lives(source, initial, goal, step, window)
+        for kind, (took, question) in _points(sieges, step).items():
             slow = None if given_up.get(kind) else _asked_again(source, goal, question, limit_s)
             given_up[kind] = slow is None
             yield {
@@ -192,34 +193,39 @@ def _lives(steps: Sequence[int], window: int, limit_s: float) -> Iterator[Row]:
             }
 
 
-def _long_life(
+def _long_lives(
     source: str, initial: Sequence[str], goal: Sequence[str], step: int, window: int
-) -> Siege:
-    """The life up to a contradiction after `step`, when all it needs has been grounded before."""
-    window_steps = range(max(1, step - window), step + 25)
-    for _ in range(2):
+) -> list[Siege]:
+    """Lives up to a contradiction after `step`, when all they need has been grounded before."""
+    window_steps = range(max(1, step - window), step + LIVES + 25)
+    lives = []
+    for late in (0, *range(LIVES)):
         forget()
-        siege = besiege(
-            source,
-            initial,
-            goal,
-            step + 25,
-            silent=[step],
-            forgetful=window_steps,
-            recorded=window_steps,
-        )
-    return siege
+        with no_collection():
+            life = besiege(
+                source,
+                initial,
+                goal,
+                step + LIVES + 25,
+                silent=[step + late],
+                forgetful=window_steps,
+                recorded=window_steps,
+            )
+        lives.append(life)
+    return lives[1:]
 
 
-def _points(siege: Siege, step: int) -> Mapping[str, tuple[list[float], Question]]:
-    """Of each kind of decision: the times in the window, and one question."""
-    steps = sorted(siege.questions)
-    news = next(i for i in steps if i > step and siege.contradicted(i - 1))
-    ordinary = [siege.took_ms[i - 1] for i in steps if i < news]
-    return {
-        "ordinary": (ordinary, siege.questions[max(i for i in steps if i < news)]),
-        "contradiction": ([siege.took_ms[news - 1]], siege.questions[news]),
-    }
+def _points(sieges: Sequence[Siege], step: int) -> Mapping[str, tuple[list[float], Question]]:
+    """Of each kind of decision: the times in the windows, and one question."""
+    ordinary, contradictions = list[float](), list[float]()
+    for siege in sieges:
+        steps = sorted(siege.questions)
+        news = next(i for i in steps if i > step and siege.contradicted(i - 1))
+        ordinary += (siege.took_ms[i - 1] for i in steps if i < news)
+        contradictions.append(siege.took_ms[news - 1])
+        before = siege.questions[max(i for i in steps if i < news)]
+        question = siege.questions[news]
+    return {"ordinary": (ordinary, before), "contradiction": (contradictions, question)}
 
 
 def _asked_again(

@@ -160,7 +160,7 @@ class IntentionalRobot:
         if diagnosis == before:
             return trace
         step, believed = self._believed
-        alternatives, more = self._reasons.alternatives(self._history, diagnosis)
+        alternatives, more = self._reasons.alternatives(self._history, explained)
         return structs.replace(
             trace,
             explanation=self._reasons.explanation(diagnosis, self._history.step),

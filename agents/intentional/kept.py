@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import partial
 
 from agents.intentional.intention import Intention
 from agents.intentional.logician import Logician
@@ -10,8 +11,10 @@ from agents.shared.believing import Believer
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge
+from agents.shared.memory import PACE
 from agents.shared.tools import tools_of
 from asp.kept.control import State
+from asp.kept.folding import Pace
 
 # (16): nothing else happens while the goal is selected.
 _FIRST_EVENT = 1
@@ -28,7 +31,13 @@ class _Active:
 class KeptLogician:
     """Reasons about one goal in one domain, as `Logician` does, for one trial."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        pace: Pace = PACE,
+    ) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         plain = Logician(knowledge, goal, plan_limit)
         self._plans = tools_of(knowledge).plans
@@ -41,13 +50,15 @@ class KeptLogician:
             goal,
             _FIRST_EVENT,
             lambda history, adopted: plain.diagnose(history, adopted).diagnosis,
+            pace,
         )
 
     def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
         """Phase one. Raises InconsistentHistoryError."""
         self._follow(history)
         diagnosis, kept = self._believer.diagnose(history, adopted)
-        return Explained(diagnosis, kept, self._indices(history))
+        others = partial(self._believer.alternatives, history, diagnosis)
+        return Explained(diagnosis, kept, self._indices(history), others)
 
     def intend(self, history: History, explained: Explained) -> Intention:
         """Phase two."""

@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from agents.intentional.intention import Intention
-from agents.shared.believing import past_of
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
+from agents.shared.memory import past_of
 from agents.shared.tools import tools_of
 from asp.kept.control import State
 from asp.literals import atom, complement, is_positive
@@ -95,12 +95,16 @@ class Reasons:
             state, step = after[0], step + 1
 
     def alternatives(
-        self, history: History, diagnosis: Diagnosis
+        self, history: History, explained: Explained
     ) -> tuple[list[Explanation], bool]:
         """The other explanations that are as small, and whether there are more than are given."""
-        past = past_of(self._knowledge, self._goal, history, _FIRST_EVENT)
-        size = (diagnosis.size, len(diagnosis.exceptions))
-        found, more = self._tools.explanations.alternatives(past, size, MOST_ALTERNATIVES)
+        diagnosis = explained.diagnosis
+        if explained.others is not None:
+            found, more = explained.others(MOST_ALTERNATIVES)
+        else:
+            past = past_of(self._knowledge, self._goal, history, _FIRST_EVENT)
+            size = (diagnosis.size, len(diagnosis.exceptions))
+            found, more = self._tools.explanations.alternatives(past, size, MOST_ALTERNATIVES)
         others = (Diagnosis(_events(a.events), _events(a.distrusted), a.exceptions) for a in found)
         own = replace(diagnosis, initial=())
         return [self.explanation(other, history.step) for other in others if other != own], more

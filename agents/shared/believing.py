@@ -11,9 +11,11 @@ from dataclasses import dataclass, replace
 
 from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
+from agents.shared.memory import PACE, Memory, record_of
 from agents.shared.tools import tools_of
 from asp.kept.control import State
-from asp.kept.explanations import Account, Assumed, Past, Record
+from asp.kept.folding import Pace
+from asp.kept.pasts import Account, Assumed, Past, Record
 from asp.literals import atom, is_positive
 from testbed.link.messages import Event
 
@@ -40,10 +42,11 @@ class Believer:
         goal: tuple[str, ...],
         since: int,
         plain: Callable[[History, Diagnosis], Diagnosis],
+        pace: Pace = PACE,
     ) -> None:
         self._knowledge = knowledge
         self._tools = tools_of(knowledge)
-        self._inertial = knowledge.description.inertial
+        self._memory = Memory(knowledge, goal, since, self.holds, pace)
         self._has_defaults = bool(knowledge.description.defaults)
         self._goal = goal
         self._since = since
@@ -58,21 +61,46 @@ class Believer:
         assert self._belief is not None, "a belief follows a diagnosis"
         return self._belief
 
+    @property
+    def folded(self) -> int:
+        """The step up to which the past is folded; 0: it is not."""
+        folding = self._memory.folding
+        return folding.step if folding else 0
+
+    @property
+    def kept(self) -> int:
+        """How much is kept for folding, in explanations and transitions."""
+        folding = self._memory.folding
+        return folding.size if folding else 0
+
     def diagnose(self, history: History, adopted: Diagnosis) -> tuple[Diagnosis, bool]:
         """The explanation up to the history's step, and whether it is the adopted one.
 
         Raises InconsistentHistoryError.
         """
+        self._memory.record(history)
         if history.late_news > self._late_news:
             self._late_news = history.late_news
             self._belief, self._fewest = None, (0, 0)
             adopted = _without_reported(history, adopted)
-        carried = self._carry(history, adopted)
+        self._memory.fold(history)
+        diagnosis, carried = adopted, self._carry(history, adopted)
         if carried is not None:
             self._belief = carried
-            return adopted, True
-        diagnosis = self._explain(history, adopted)
+        else:
+            diagnosis = self._explain(history, adopted)
         return diagnosis, diagnosis == adopted
+
+    def alternatives(
+        self, history: History, diagnosis: Diagnosis, most: int
+    ) -> tuple[list[Assumed], bool]:
+        """At most so many explanations of the size of one, and whether there are more of them."""
+        past, folding = self._memory.past(history), self._memory.folding
+        found = folding.alternatives(past, diagnosis.size, most) if folding else None
+        if found is not None:
+            return found
+        size = (diagnosis.size, len(diagnosis.exceptions))
+        return self._tools.explanations.alternatives(past, size, most)
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
@@ -80,7 +108,9 @@ class Believer:
 
     def _carry(self, history: History, adopted: Diagnosis) -> Belief | None:
         """The belief at this step, if what is new agrees with the adopted explanation."""
-        belief: Belief | None = self._belief or self._first(history, adopted)
+        belief: Belief | None = (
+            self._belief or self._folded(adopted) or self._first(history, adopted)
+        )
         while belief is not None and self._agrees(history.at(belief.step), belief.state):
             if belief.step == history.step:
                 return belief
@@ -90,7 +120,7 @@ class Believer:
     def _advance(self, belief: Belief, history: History, adopted: Diagnosis) -> Belief | None:
         """The belief a step later, if what happened there agrees with the explanation."""
         step = belief.step
-        record = self._record(history.at(step))
+        record = record_of(self._knowledge, history.at(step))
         attempt = None if record.attempt is None else record.attempt[0]
         events = _happened(record, adopted, step)
         if events and step < self._since:
@@ -102,13 +132,15 @@ class Believer:
 
     def _explain(self, history: History, adopted: Diagnosis) -> Diagnosis:
         """The explanation of the whole history; the belief becomes what it implies."""
-        explanations, past = self._tools.explanations, self._past(history)
-        unknown = self._unknown(history)
+        explanations, past = self._tools.explanations, self._memory.past(history)
+        unknown = self._memory.unknown(history)
         if unknown:
             account = explanations.keeping(past, _assumed(adopted))
             if account is not None:
                 return self._adopt(account, history, unknown)
-        account = explanations.smallest(past, self._fewest)
+        folding = self._memory.folding
+        account = folding.smallest(past, self._fewest[0]) if folding else None
+        account = account or explanations.smallest(past, self._fewest)
         if account is None:
             diagnosis = self._plain(history, adopted)
             self._belief = self._replay(history, diagnosis)
@@ -129,19 +161,11 @@ class Believer:
             tuple(sorted(f if f in account.initial else f"-{f}" for f in unknown)),
         )
 
-    def _past(self, history: History) -> Past:
-        return past_of(self._knowledge, self._goal, history, self._since)
-
-    def _unknown(self, history: History) -> list[str]:
-        """The inertial fluents of which nothing was observed at step 0."""
-        known = history.at(0).observed
-        return [fluent for fluent in self._inertial if fluent not in known]
-
     def _first(self, history: History, adopted: Diagnosis) -> Belief | None:
         """The belief at step 0, if the adopted explanation says how it began."""
-        if {atom(literal) for literal in adopted.initial} != set(self._unknown(history)):
+        if {atom(literal) for literal in adopted.initial} != set(self._memory.unknown(history)):
             return None
-        observed = self._record(history.at(0)).observed
+        observed = record_of(self._knowledge, history.at(0)).observed
         state = frozenset(filter(is_positive, observed))
         if adopted.initial or self._has_defaults:
             records = {0: Record(observed=(*observed, *adopted.initial))}
@@ -150,6 +174,12 @@ class Believer:
                 return None
             state = began.initial
         return Belief(0, state, frozenset([0]) if self.holds(state) else frozenset())
+
+    def _folded(self, adopted: Diagnosis) -> Belief | None:
+        """The belief at the step up to which the history is folded, if that is remembered."""
+        folding = self._memory.folding
+        found = folding.along(_assumed(adopted)) if folding else None
+        return Belief(folding.step, *found) if folding and found else None
 
     def _next(self, belief: Belief, state: State) -> Belief:
         step = belief.step + 1
@@ -165,37 +195,12 @@ class Believer:
             belief = after
         return belief
 
-    def _record(self, moment: Moment) -> Record:
-        return record_of(self._knowledge, moment)
-
     def _agrees(self, moment: Moment, state: State) -> bool:
         """Whether what was observed at a moment is so in the state."""
         return all(
             truth == (self.holds(state) if fluent == GOAL else fluent in state)
             for fluent, truth in moment.observed.items()
         )
-
-
-def past_of(knowledge: Knowledge, goal: tuple[str, ...], history: History, since: int) -> Past:
-    """A history as the kept controls are asked about it."""
-    records = {step: record_of(knowledge, moment) for step, moment in history.moments.items()}
-    return Past(goal, records, history.step, since)
-
-
-def record_of(knowledge: Knowledge, moment: Moment) -> Record:
-    """A moment without the mental part of the theory."""
-    own, others = knowledge.actions
-    physical = next((a for a in moment.attempted if a in own), None)
-    return Record(
-        observed=tuple(
-            fluent if truth else f"-{fluent}"
-            for fluent, truth in moment.observed.items()
-            if fluent != GOAL
-        ),
-        attempt=None if physical is None else (physical, moment.happened[physical]),
-        reported=tuple(a for a, truth in moment.happened.items() if truth and a in others),
-        goal=moment.observed.get(GOAL),
-    )
 
 
 def _happened(record: Record, diagnosis: Diagnosis, step: int) -> tuple[str, ...]:

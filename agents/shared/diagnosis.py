@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import clingo
 from clingo import Symbol
 
 from agents.shared.history import Diagnosis, History
 from asp.conflicts import cannot_hold, conflict
+from asp.kept.pasts import Assumed
 from asp.preferring import preferring
 from asp.solving import fact, ground, select, theory
 from testbed.link.errors import RobotStops
@@ -26,11 +27,18 @@ class InconsistentHistoryError(RobotStops):
 
 @dataclass(frozen=True)
 class Explained:
-    """A diagnosis, whether it is the one held before, and the indices of active activities."""
+    """A diagnosis, whether it is the one held before, and the indices of active activities.
+
+    `others` gives at most so many explanations of the same size, and whether there are more; where
+    it is None they have to be looked for.
+    """
 
     diagnosis: Diagnosis
     kept: bool
     indices: Mapping[int, int]
+    others: Callable[[int], tuple[list[Assumed], bool]] | None = field(
+        default=None, compare=False, repr=False
+    )
 
 
 def diagnose(

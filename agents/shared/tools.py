@@ -10,6 +10,7 @@ from asp.kept.explanations import Explanations
 from asp.kept.plans import Plans
 from asp.kept.reach import Reach
 from asp.kept.transitions import Transitions
+from asp.kept.windows import Windows
 
 
 @dataclass(frozen=True)
@@ -18,6 +19,7 @@ class Tools:
 
     transitions: Transitions
     explanations: Explanations
+    windows: Windows
     plans: Plans
     reach: Reach
 
@@ -47,6 +49,7 @@ def tools_of(knowledge: Knowledge) -> Tools:
                 [default.name for default in description.defaults],
                 (*ranks, *knowledge.start),
             ),
+            Windows(program, fluents, description.inertial, description.exogenous_actions, ranks),
             Plans(description.source, f"{description.name}.al"),
             Reach(description, program),
         )

@@ -2,69 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
-import clingo
 from clingo import Symbol
 
-from asp.kept.control import KeptControl, State, goal_externals
-from asp.literals import atom, is_positive
+from asp.kept.control import KeptControl, goal_externals
+from asp.kept.pasts import (
+    Account,
+    Assumed,
+    Past,
+    account,
+    assumed,
+    assumptions,
+    externals,
+    observations,
+)
 from asp.preferring import preferring
-from asp.solving import answer_sets, fact, theory
+from asp.solving import answer_sets, is_satisfiable, theory
 
 _FIRST_HORIZON = 16
-_MOST = 4
-
-
-@dataclass(frozen=True)
-class Record:
-    """What one step of a history says.
-
-    `observed` are literals, `attempt` the agent's physical action with whether it took effect,
-    `reported` the exogenous actions that happened, `goal` whether the goal was seen to hold.
-    """
-
-    observed: tuple[str, ...] = ()
-    attempt: tuple[str, bool] | None = None
-    reported: tuple[str, ...] = ()
-    goal: bool | None = None
-
-
-@dataclass(frozen=True)
-class Past:
-    """What there is to explain: the records up to `step`, with a goal that some of them tell of.
-
-    `since` is the first step at which an event may have occurred.
-    """
-
-    goal: tuple[str, ...]
-    records: Mapping[int, Record]
-    step: int
-    since: int
-
-
-@dataclass(frozen=True)
-class Assumed:
-    """An explanation: unobserved events, reports of what did not happen, defaults by name."""
-
-    events: tuple[tuple[int, str], ...] = ()
-    distrusted: tuple[tuple[int, str], ...] = ()
-    exceptions: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Account:
-    """An explanation, the initial state, the state at the last step, when the goal held."""
-
-    assumed: Assumed
-    initial: State
-    state: State
-    held: frozenset[int]
+_FEW, _MANY = 4, 16
 
 
 class Explanations:
-    """The smallest explanations in one domain; the horizon doubles when a history outgrows it."""
+    """The smallest explanations in one domain; the horizon doubles when a history outgrows it.
+
+    A control counts events up to a number. Most explanations are of a few, for which a small
+    control is kept; one that counts further is grounded when they do not suffice.
+    """
 
     def __init__(
         self,
@@ -80,35 +46,41 @@ class Explanations:
         self._events = events
         self._defaults = defaults
         self._ranks = tuple(ranks)
-        self._kept: KeptControl | None = None
+        self._controls: dict[int, KeptControl] = {}
         self._horizon = _FIRST_HORIZON
 
     def smallest(self, past: Past, fewest: tuple[int, int] = (0, 0)) -> Account | None:
         """The first of the smallest explanations of the past.
 
         None has fewer events and distrusted reports than the first number of `fewest`, or as many
-        and fewer exceptions than the second. None stands for "more than a handful of events",
-        which is left to the theory itself.
+        and fewer exceptions than the second. None stands for "more events than are counted, or no
+        explanation at all", which is left to the theory itself.
         """
-        kept, given = self._given(past)
-        for events in range(fewest[0], _MOST + 1):
-            least = fewest[1] if events == fewest[0] else 0
-            for exceptions in range(least, len(self._defaults) + 1):
-                account = self._first(kept, given, past, events, exceptions)
-                if account is not None:
-                    return account
+        tried = fewest[0]
+        for most in (_FEW, _MANY):
+            question = self._question(past, most)
+            if question.possible and tried <= most:
+                for events in range(tried, most + 1):
+                    least = fewest[1] if events == fewest[0] else 0
+                    for exceptions in range(least, len(self._defaults) + 1):
+                        found = self._first(question, events, exceptions)
+                        if found is not None:
+                            return found
+            tried = max(tried, most + 1)
         return None
 
-    def keeping(self, past: Past, assumed: Assumed) -> Account | None:
+    def keeping(self, past: Past, adopted: Assumed) -> Account | None:
         """The first account with exactly this explanation; None: there is none, or it is long."""
-        kept, given = self._given(past)
-        events = [kept.literal("unobserved", name, step) for step, name in assumed.events]
-        events += [kept.literal("distrusted", name, step) for step, name in assumed.distrusted]
-        exceptions = [kept.literal("exception", name) for name in assumed.exceptions]
-        exactly = _assumptions((literal, True) for literal in (*events, *exceptions))
-        if given is None or exactly is None or len(events) > _MOST:
+        question = self._question(past, _FEW if adopted.size <= _FEW else _MANY)
+        kept = question.kept
+        events = [kept.literal("unobserved", name, step) for step, name in adopted.events]
+        events += [kept.literal("distrusted", name, step) for step, name in adopted.distrusted]
+        exceptions = [kept.literal("exception", name) for name in adopted.exceptions]
+        exactly = assumptions((literal, True) for literal in (*events, *exceptions))
+        if question.given is None or exactly is None or len(events) > question.most:
             return None
-        return self._first(kept, given + exactly, past, len(events), len(exceptions))
+        question = replace(question, given=question.given + exactly)
+        return self._first(question, len(events), len(exceptions))
 
     def alternatives(
         self, past: Past, size: tuple[int, int], most: int
@@ -118,130 +90,67 @@ class Explanations:
         With them, whether there are more than `most`; True also where the control cannot tell. If
         `size` is the smallest, these are all smallest explanations.
         """
-        kept, given = self._given(past)
-        assumptions = self._at_most(kept, given, past, *size)
-        if assumptions is None or size[0] > _MOST:
+        question = self._question(past, _FEW if size[0] <= _FEW else _MANY)
+        limited = question.at_most(*size)
+        if limited is None or size[0] > question.most:
             return [], True
-        found, more = answer_sets(kept.control, assumptions, most)
-        return [_assumed(shown) for shown in found], more
+        found, more = answer_sets(question.kept.control, limited, most)
+        return [assumed(shown) for shown in found], more
 
-    def _given(self, past: Past) -> tuple[KeptControl, list[int] | None]:
-        """The control with the past's externals, and assumptions for everything observed."""
-        kept = self._reaching(past.step)
-        kept.switch_on(*goal_externals(past.goal), *_externals(past))
-        return kept, self._assume(kept, past)
+    def _question(self, past: Past, most: int) -> _Question:
+        """The control that counts so far, with the past's externals, and what was observed."""
+        kept = self._reaching(past.step, most)
+        kept.switch_on(*goal_externals(past.goal), *externals(past))
+        return _Question(kept, most, past.step, observations(kept, past))
 
-    def _first(
-        self,
-        kept: KeptControl,
-        given: list[int] | None,
-        past: Past,
-        events: int,
-        exceptions: int,
-    ) -> Account | None:
+    def _first(self, question: _Question, events: int, exceptions: int) -> Account | None:
         """The preferred explanation with at most so many events and exactly so many exceptions."""
-        assumptions = self._at_most(kept, given, past, events, exceptions)
-        if assumptions is None:
+        limited = question.at_most(events, exceptions)
+        if limited is None:
             return None
-        with preferring(kept.control, assumptions) as model:
-            return None if model is None else self._read(kept, model, past.step)
+        kept = question.kept
+        with preferring(kept.control, limited) as model:
+            if model is None:
+                return None
+            return account(kept, model, question.step, self._events, self._defaults)
 
-    def _at_most(
-        self,
-        kept: KeptControl,
-        given: list[int] | None,
-        past: Past,
-        events: int,
-        exceptions: int,
-    ) -> list[int] | None:
-        more = kept.literal("count", past.step, events + 1) if events < _MOST else None
-        number = kept.literal("number_exceptions", exceptions)
-        if given is None or number is None:
-            return None
-        return [*given, number] if more is None else [*given, number, -more]
-
-    def _reaching(self, step: int) -> KeptControl:
+    def _reaching(self, step: int, most: int) -> KeptControl:
         while self._horizon < step:
             self._horizon *= 2
-            self._kept = None
-        if self._kept is None:
-            self._kept = KeptControl(
+            self._controls.clear()
+        if most not in self._controls:
+            self._controls[most] = KeptControl(
                 self._program,
                 "kept_diagnosis",
                 self._fluents,
                 self._ranks,
                 n=self._horizon,
-                most=_MOST,
+                most=most,
             )
-        return self._kept
-
-    def _assume(self, kept: KeptControl, past: Past) -> list[int] | None:
-        """Assumptions for everything observed; None where an atom that must be true cannot be."""
-        wanted: list[tuple[int | None, bool]] = []
-        for time, record in past.records.items():
-            if time > past.step:
-                continue
-            wanted += (
-                (kept.holds(atom(literal), time), is_positive(literal))
-                for literal in record.observed
-            )
-            if record.goal is not None:
-                wanted.append((kept.literal("reached", time), record.goal))
-            if record.attempt is not None and time < past.step:
-                action, happened = record.attempt
-                wanted.append((kept.literal("occurs", action, time), happened))
-        return _assumptions(wanted)
-
-    def _read(self, kept: KeptControl, model: clingo.Model, step: int) -> Account:
-        unobserved, distrusted = (
-            tuple(
-                (time, event)
-                for time in range(step)
-                for event in self._events
-                if _true(model, kept.literal(predicate, event, time))
-            )
-            for predicate in ("unobserved", "distrusted")
-        )
-        exceptions = tuple(
-            name for name in self._defaults if _true(model, kept.literal("exception", name))
-        )
-        held = frozenset(
-            time for time in range(step + 1) if _true(model, kept.literal("reached", time))
-        )
-        assumed = Assumed(unobserved, distrusted, exceptions)
-        return Account(assumed, kept.state(model, 0), kept.state(model, step), held)
+        return self._controls[most]
 
 
-def _assumed(shown: Iterable[Symbol]) -> Assumed:
-    """The explanation that the shown atoms of an answer set are."""
-    found: dict[str, list[list[Symbol]]] = {}
-    for symbol in shown:
-        found.setdefault(symbol.name, []).append(symbol.arguments)
-    unobserved, distrusted = (
-        tuple(sorted((step.number, str(event)) for event, step in found.get(name, [])))
-        for name in ("unobserved", "distrusted")
-    )
-    exceptions = sorted(str(default) for (default,) in found.get("exception", []))
-    return Assumed(unobserved, distrusted, tuple(exceptions))
+@dataclass(frozen=True)
+class _Question:
+    """A control switched to a past of so many steps, and assumptions for everything observed."""
 
+    kept: KeptControl
+    most: int
+    step: int
+    given: list[int] | None
 
-def _externals(past: Past) -> list[Symbol]:
-    atoms = [fact("past", time) for time in range(past.since, past.step)]
-    for time, record in past.records.items():
-        if time < past.step:
-            atoms += (fact("reported", event, time) for event in record.reported)
-            if record.attempt is not None:
-                atoms.append(fact("attempted", record.attempt[0], time))
-    return atoms
+    @property
+    def possible(self) -> bool:
+        """Whether any explanation has at most as many events as are counted."""
+        if self.most == _FEW:
+            return self.given is not None  # found out while they are counted
+        return self.given is not None and is_satisfiable(self.kept.control, self.given)
 
-
-def _assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:
-    """Truth values of solver literals as assumptions; None where one cannot be true."""
-    known = list(wanted)
-    if any(literal is None and truth for literal, truth in known):
-        return None
-    return [lit if truth else -lit for lit, truth in known if lit is not None]
-
-
-def _true(model: clingo.Model, literal: int | None) -> bool:
-    return literal is not None and model.is_true(literal)
+    def at_most(self, events: int, exceptions: int) -> list[int] | None:
+        """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
+        kept = self.kept
+        more = kept.literal("count", self.step, events + 1) if events < self.most else None
+        number = kept.literal("number_exceptions", exceptions)
+        if self.given is None or number is None:
+            return None
+        return [*self.given, number] if more is None else [*self.given, number, -more]

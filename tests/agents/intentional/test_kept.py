@@ -66,7 +66,7 @@ def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish
     live(IntentionalRobot(Both), initial, goal, wishes, steps=15)
 
 
-@pytest.mark.parametrize("gone", [3, 4, 5])
+@pytest.mark.parametrize("gone", [3, 4, 5, 7])
 def test_as_many_events_as_are_needed_at_one_step_and_no_more(gone: int) -> None:
     """A robot sees so many books in its room, and at the next step none."""
     large = knowledge("office", office(gone))

@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasons import Reasons
+from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from agents.shared.tools import tools_of
+from asp.kept.plans import Plans
 from asp.kept.reach import Reach
 from asp.solving import ground, select, theory
 from testbed.link.messages import Decision, Event, Percept, Task
@@ -104,7 +106,9 @@ def test_alternatives_are_all_explanations_of_the_plain_theory(
     if plain is None:
         return
     one = next(iter(sorted(plain, key=str)))
-    others, more = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, _diagnosis(one))
+    others, more = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
+        history, Explained(_diagnosis(one), kept=False, indices={})
+    )
     found = {(frozenset(_pairs(o.unobserved)), frozenset(_pairs(o.distrusted))) for o in others}
     assert not more
     assert len(others) == len(found)
@@ -157,7 +161,9 @@ def test_more_alternatives_than_are_listed_are_said_to_be_there() -> None:
     history.step = 30
     history.observe(["loc(book2,office1)"], 30)
     diagnosis = Diagnosis((Event(step=29, action="exo_move(book2,office1)"),))
-    others, more = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, diagnosis)
+    others, more = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
+        history, Explained(diagnosis, kept=False, indices={})
+    )
     assert more
     assert 19 <= len(others) <= 20
 
@@ -194,7 +200,8 @@ def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
     goal: tuple[str, ...], provable: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("asp.kept.reach._MOST_STATES", 0)
-    reach = Reach(CART.description, CART.program)
+    plans = Plans(CART.description.source, "cart.al")
+    reach = Reach(CART.description, CART.program, plans)
     assert reach.out_of_reach(frozenset(["at(left)"]), goal) is provable
 
 

@@ -1,0 +1,228 @@
+"""Smallest explanations of a history of which only the end is explained, from a frontier on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import clingo
+from clingo import Symbol
+
+from asp.kept.control import KeptControl, State, goal_externals
+from asp.kept.frontier import Frontier, Prefix, steps
+from asp.kept.pasts import (
+    Account,
+    Assumed,
+    Happening,
+    Past,
+    account,
+    assumed,
+    externals,
+    is_true,
+    observations,
+)
+from asp.preferring import preferring
+from asp.solving import answer_sets, fact, theory
+
+LENGTH = 24
+"""How many steps the end of a history may have."""
+
+MOST_ENTRIES = 64
+"""How many states a frontier may have."""
+
+_MOST = 4
+
+
+class Windows:
+    """What explains the end of a history in one domain, and with it the whole."""
+
+    def __init__(
+        self,
+        program: str,
+        fluents: Sequence[str],
+        inertial: Sequence[str],
+        events: Sequence[str],
+        ranks: Iterable[Symbol],
+    ) -> None:
+        """`ranks` are the facts rank(A,R) and ranks(M)."""
+        self._program = "\n".join([program, theory("order"), theory("kept_diagnosis")])
+        self._fluents = fluents
+        self._inertial = inertial
+        self._events = events
+        self._ranks = [_with_room(rank) for rank in ranks]
+        self._made: KeptControl | None = None
+        self._on: set[int] = set()
+
+    def smallest(self, frontier: Frontier, past: Past, fewest: int) -> Account | None:
+        """The first of the smallest explanations of a past, not smaller than `fewest`.
+
+        None where the frontier does not know all of those that are as small.
+        """
+        question = self._question(frontier, past)
+        if question is None:
+            return None
+        for size in range(max(fewest, frontier.least), question.most + 1):
+            found = self._first(question, size)
+            if found is not None:
+                return found
+        return None
+
+    def alternatives(
+        self, frontier: Frontier, past: Past, size: int, most: int
+    ) -> tuple[list[Assumed], bool] | None:
+        """At most so many explanations of the smallest size, and whether there are more of them.
+
+        None where the frontier does not know.
+        """
+        question = self._question(frontier, past)
+        if question is None or not frontier.least <= size <= question.most:
+            return None
+        shown, more = answer_sets(question.kept.control, question.at_most(size), most)
+        found: list[Assumed] = []
+        for answer in shown:
+            (entry,) = (s.arguments[0].number for s in answer if s.name == "from")
+            end = assumed(s for s in answer if s.name != "from")
+            prefixes, left_off = frontier.told(question.entries[entry - 1][1])
+            found += (_joined(prefix, end, frontier.step) for prefix in prefixes)
+            more = more or left_off
+        return found[:most], more or len(found) > most
+
+    def _first(self, question: _Question, size: int) -> Account | None:
+        """The first explanation with at most so many events and distrusted reports."""
+        control, limited = question.kept.control, question.at_most(size)
+        with preferring(control, limited) as model:
+            if model is None:
+                return None
+            if len(question.alike) == 1:
+                return self._read(question, model)
+            limited = [*limited, *_trust(question, model, self._events)]
+        # Which reports are distrusted before the end comes before which events are assumed in it.
+        for entries in question.alike:
+            self._offer(question, entries)
+            with preferring(control, limited) as model:
+                if model is not None:
+                    return self._read(question, model)
+        raise AssertionError("some entry led to the first model")
+
+    def _question(self, frontier: Frontier, past: Past) -> _Question | None:
+        """The control with the end of a past and the entries of a frontier; None: too many."""
+        end = past.from_step(frontier.step)
+        most = min(frontier.limit, frontier.least + _MOST)
+        known = [
+            (state, prefixes)
+            for state, prefixes in frontier.entries.items()
+            if prefixes[0].size <= most
+        ]
+        if not known or len(known) > MOST_ENTRIES or end.step > LENGTH:
+            return None
+        kept = self._kept
+        kept.switch_on(*goal_externals(past.goal), *externals(end))
+        given = observations(kept, end)
+        if given is None:
+            return None
+        entries = sorted(known, key=lambda entry: entry[1][0].order)
+        question = _Question(kept, frontier, end, most, entries, given)
+        self._offer(question, range(1, len(entries) + 1))
+        return question
+
+    def _offer(self, question: _Question, entries: Iterable[int]) -> None:
+        """Makes exactly these entries available."""
+        kept, wanted = question.kept, set[int | None]()
+        for entry in entries:
+            state, prefixes = question.entries[entry - 1]
+            wanted.add(kept.literal("available", entry))
+            wanted |= {kept.literal("has", entry, f) for f in self._inertial if f in state}
+            dearer = prefixes[0].size - question.frontier.least
+            wanted |= {kept.literal("price", entry, number) for number in range(1, dearer + 1)}
+        on = {literal for literal in wanted if literal is not None}
+        for literal in self._on - on:
+            kept.control.assign_external(literal, False)
+        for literal in on - self._on:
+            kept.control.assign_external(literal, True)
+        self._on = on
+
+    def _read(self, question: _Question, model: clingo.Model) -> Account:
+        """An account of the whole history, but for how it began and its exceptions."""
+        kept, first = question.kept, question.frontier.step
+        end = account(kept, model, question.end.step, self._events, ())
+        prefixes = next(
+            prefixes
+            for number, (_, prefixes) in enumerate(question.entries, start=1)
+            if is_true(model, kept.literal("from", number))
+        )
+        held = frozenset(first + step for step in end.held).union(steps(prefixes[0].held))
+        return Account(_joined(prefixes[0], end.assumed, first), frozenset(), end.state, held)
+
+    @property
+    def _kept(self) -> KeptControl:
+        if self._made is None:
+            self._made = KeptControl(
+                self._program,
+                "kept_window",
+                self._fluents,
+                self._ranks,
+                n=LENGTH,
+                most=_MOST,
+                entries=MOST_ENTRIES,
+            )
+        return self._made
+
+
+@dataclass(frozen=True)
+class _Question:
+    """A control switched to the end of a past, and what the frontier's entries lead to.
+
+    `entries` are in the order of their explanations, `most` is the size up to which they are
+    complete.
+    """
+
+    kept: KeptControl
+    frontier: Frontier
+    end: Past
+    most: int
+    entries: Sequence[tuple[State, Sequence[Prefix]]]
+    given: list[int]
+
+    def at_most(self, size: int) -> list[int]:
+        """Assumptions for at most so many events and distrusted reports in the whole history."""
+        room = size - self.frontier.least
+        more = self.kept.literal("count", self.end.step, room + 1) if room < _MOST else None
+        return self.given if more is None else [*self.given, -more]
+
+    @property
+    def alike(self) -> list[list[int]]:
+        """The numbers of the entries, grouped by which reports they distrust, in order."""
+        numbered = enumerate(self.entries, start=1)
+        groups = groupby(numbered, key=lambda entry: entry[1][1][0].distrusts)
+        return [[number for number, _ in group] for _, group in groups]
+
+
+def _trust(question: _Question, model: clingo.Model, events: Sequence[str]) -> Iterator[int]:
+    """Assumptions: the same reports are distrusted as in a model."""
+    for step in range(question.end.step):
+        for event in events:
+            literal = question.kept.literal("distrusted", event, step)
+            if literal is not None:
+                yield literal if model.is_true(literal) else -literal
+
+
+def _joined(prefix: Prefix, end: Assumed, first: int) -> Assumed:
+    """An explanation up to a step, and one from there on."""
+    return Assumed(
+        _one_after_another(prefix.events, end.events, first),
+        _one_after_another(prefix.distrusted, end.distrusted, first),
+    )
+
+
+def _one_after_another(
+    before: Sequence[Happening], after: Sequence[Happening], first: int
+) -> tuple[Happening, ...]:
+    return (*sorted(before), *((first + step, event) for step, event in after))
+
+
+def _with_room(rank: Symbol) -> Symbol:
+    """ranks(M) with as many places more as there are entries; other facts as they are."""
+    if not rank.match("ranks", 1):
+        return rank
+    return fact("ranks", rank.arguments[0].number + MOST_ENTRIES)

@@ -1,0 +1,93 @@
+"""Histories of a robot that wanders about aimlessly, while others do as they please."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from random import Random
+
+from agents.shared.history import GOAL, History
+from testbed.environment.world import World
+from tests.agents.intentional.lives import Place
+
+Report = tuple[int, str]
+
+
+@dataclass(frozen=True)
+class Habits:
+    """How likely things are at each step, and how many steps late a report may come."""
+
+    event: float = 0.1
+    reported: float = 0.5
+    false_report: float = 0.05
+    late: int = 3
+    looks: float = 0.7
+    waits: float = 0.3
+    told: float = 0.1
+
+
+def wander(
+    where: Place, goal: tuple[str, ...], steps: int, seed: int, habits: Habits
+) -> Iterator[History]:
+    """The history at each step, one that grows. The robot knows how it began."""
+    draw, world = Random(seed), where.world
+    state = draw.choice(list(world.initial_states()))
+    history, news = History(), list[tuple[int, Report]]()
+    history.observe(world.literals(state), 0)
+    history.happened(f"select({GOAL})", True, 0)
+    for step in range(steps):
+        attempt = _attempt(world, state, draw, habits) if step else None
+        actions = _recorded(history, world, state, attempt, step)
+        events = _events(world, state, actions, draw, habits) if step else ()
+        news += _news(world, events, step, draw, habits)
+        state = world.successor(state, (*actions, *events))
+        for due, (time, event) in list(news):
+            if due <= step:
+                news.remove((due, (time, event)))
+                history.happened(event, True, time)
+        history.step = step + 1
+        if draw.random() < habits.looks:
+            history.observe(world.visible(state, where.robot), history.step)
+        if draw.random() < habits.told:
+            history.observe([GOAL if world.satisfies(state, goal) else f"-{GOAL}"], history.step)
+        yield history
+
+
+def _attempt(world: World, state: int, draw: Random, habits: Habits) -> str | None:
+    if draw.random() < habits.waits:
+        return None
+    actions = list(world.description.agent_actions)
+    possible = [action for action in actions if world.executable(state, [action])]
+    return draw.choice(possible if possible and draw.random() < 0.8 else actions)
+
+
+def _recorded(
+    history: History, world: World, state: int, attempt: str | None, step: int
+) -> tuple[str, ...]:
+    """The attempt if it takes effect; it is recorded with its result."""
+    if attempt is None:
+        return ()
+    success = world.executable(state, [attempt])
+    history.attempt(attempt, step)
+    history.happened(attempt, success, step)
+    return (attempt,) if success else ()
+
+
+def _events(
+    world: World, state: int, actions: tuple[str, ...], draw: Random, habits: Habits
+) -> tuple[str, ...]:
+    if draw.random() >= habits.event:
+        return ()
+    possible = [e for e in world.exogenous_actions if world.executable(state, {*actions, e})]
+    return (draw.choice(possible),) if possible else ()
+
+
+def _news(
+    world: World, events: tuple[str, ...], step: int, draw: Random, habits: Habits
+) -> Iterator[tuple[int, Report]]:
+    for event in events:
+        if draw.random() < habits.reported:
+            yield step + draw.randint(0, habits.late), (step, event)
+    if step and draw.random() < habits.false_report:
+        event = draw.choice(list(world.exogenous_actions))
+        yield step + draw.randint(0, habits.late), (step, event)
