@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from benchmarks import decisions, figures, growth, joint_growth, memory, mutation, peers
+from benchmarks import decisions, figures, growth, joint_growth, memory, mutation, peers, worlds
 from benchmarks.sheets import Sheet
 
 SIZES = ("small", "full")
@@ -17,6 +17,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "memory": memory.main,
     "mutation": mutation.main,
     "joint_growth": joint_growth.main,
+    "worlds": worlds.main,
 }
 
 FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import decisions, growth, memory, mutation, peers
+from benchmarks import decisions, growth, memory, mutation, peers, worlds
 from benchmarks.__main__ import main
 from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS
 from benchmarks.sheets import Row, Sheet
@@ -80,3 +80,10 @@ def test_an_unknown_benchmark_is_told_in_one_line(capsys: pytest.CaptureFixture[
     with pytest.raises(SystemExit):
         main(["speed"])
     assert "unknown: speed; there are decisions" in capsys.readouterr().err
+
+
+def test_worlds_have_a_row_a_level() -> None:
+    (rows,) = rows_of(worlds.main("small")).values()
+    assert column(rows, "level") == ["L1", "L3"]
+    assert column(rows, "fluents") == [14, 188]
+    assert column(rows, "events") == [1 * 4, 9 * 16]

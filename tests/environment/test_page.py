@@ -47,3 +47,13 @@ def test_every_ending_is_worth_what_the_page_says() -> None:
         ending = Ending(outcome.strip("`"))
         assert rewards(ending) == {"robot_0": float(robot), "adversary_0": float(adversary)}
         assert ending.by_answer == (flag == "termination")
+
+
+def test_the_levels_have_the_sizes_that_are_told() -> None:
+    text = PAGE.read_text(encoding="utf-8").partition("## The fine resolution\n")[2]
+    table = text[text.index("| | L1 |") :].partition("\n\n")[0].splitlines()
+    levels, _, *rows = ([cell.strip("` ") for cell in row.split("|")[1:-1]] for row in table)
+    for number, level in list(enumerate(levels))[1:3]:
+        core = office_v0.raw_env(level=level).core
+        sizes = (core.world.fluents, core.robot_actions, core.adversary_actions)
+        assert [row[number] for row in rows] == [f"{len(size):,}" for size in sizes]
