@@ -40,6 +40,7 @@ def tools_of(knowledge: Knowledge) -> Tools:
             _TOOLS.popitem(last=False)
         description, program, ranks = knowledge.description, knowledge.program, knowledge.ranks
         fluents = description.fluents
+        plans = Plans(description.source, f"{description.name}.al")
         _TOOLS[knowledge.program] = Tools(
             Transitions(program, fluents, ranks),
             Explanations(
@@ -50,8 +51,8 @@ def tools_of(knowledge: Knowledge) -> Tools:
                 (*ranks, *knowledge.start),
             ),
             Windows(program, fluents, description.inertial, description.exogenous_actions, ranks),
-            Plans(description.source, f"{description.name}.al"),
-            Reach(description, program),
+            plans,
+            Reach(description, program, plans),
         )
     _TOOLS.move_to_end(knowledge.program)
     return _TOOLS[knowledge.program]

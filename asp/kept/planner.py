@@ -84,8 +84,7 @@ class Planner:
         it goes on where it was.
         """
         if self._open is None or self._open.asked != (state, goal):
-            bounds = None if self._spaces is None else self._spaces.bounds(state, goal)
-            self._open = _Question((state, goal), bounds)
+            self._open = _Question((state, goal), self._bounds(state, goal))
         plan = self._answer(self._open, limit, symmetric)
         self._open = None
         return plan
@@ -101,12 +100,18 @@ class Planner:
         start = kept.assume_state(state, 0)
         return start is not None and is_satisfiable(kept.control, start)
 
-    def never(self, state: State, goal: tuple[str, ...]) -> bool:
-        """Whether every state that can be reached was looked at and none satisfies the goal."""
-        if self._spaces is None or not self._spaces.exact:
-            return False
-        bounds = self._spaces.bounds(state, goal)
-        return bounds is not None and bounds.least(None, check_time) is None
+    def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
+        """Whether some state that can be reached satisfies the goal; None where nothing is said.
+
+        Raises TimeLimitError.
+        """
+        bounds = self._bounds(state, goal)
+        if bounds is None or self._spaces is None or not self._spaces.exact:
+            return None
+        return bounds.least(None, check_time) is not None
+
+    def _bounds(self, state: State, goal: tuple[str, ...]) -> Bounds | None:
+        return None if self._spaces is None else self._spaces.bounds(state, goal)
 
     def _answer(self, question: _Question, limit: int, pairs: Pairs) -> tuple[str, ...] | None:
         state, goal = question.asked

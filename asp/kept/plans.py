@@ -49,10 +49,13 @@ class Plans:
         planner = self._planner(view.dropped)
         return planner.succeeds(view.state, view.seen(goal), view.seen(plan))
 
-    def never(self, state: State, goal: tuple[str, ...]) -> bool:
-        """Whether it is proved, by looking at all states, that no plan of any length succeeds."""
+    def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
+        """Whether a plan of any length succeeds; None where there is too much to look at.
+
+        Raises TimeLimitError.
+        """
         view = _View(self._independence, state, goal)
-        return self._planner(view.dropped).never(view.state, view.goal)
+        return self._planner(view.dropped).reachable(view.state, view.goal)
 
     def _planner(self, dropped: frozenset[str]) -> Planner:
         if dropped not in self._planners:

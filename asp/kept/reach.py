@@ -10,6 +10,7 @@ from clingo import Symbol
 
 from asp.description import Causal, Constraint, Description
 from asp.kept.control import KeptControl, State
+from asp.kept.plans import Plans
 from asp.literals import atom, is_positive
 from asp.solving import answer_sets, core, fact, ground, is_satisfiable, symbol, theory
 
@@ -22,13 +23,15 @@ class Reach:
 
     It is if no state satisfies it, or if one of its literals can never become true even where laws
     ask for no more than each condition by itself, or if every state that can be reached has been
-    looked at. Of a state with more than some thousand of those nothing is said.
+    looked at: by the search that bounds plans where there is one, else one by one, where nothing is
+    said of a state with more than some thousand of those.
     """
 
-    def __init__(self, description: Description, program: str) -> None:
+    def __init__(self, description: Description, program: str, plans: Plans) -> None:
         self._fluents = description.fluents
         self._laws = list(_laws(description))
         self._program = program
+        self._plans = plans
         self._kept: KeptControl | None = None
         self._all_from = lru_cache(maxsize=16)(self._explore)
         self.out_of_reach = lru_cache(maxsize=_REMEMBERED)(self._out_of_reach)
@@ -76,6 +79,9 @@ class Reach:
         return any(shown for shown in found)
 
     def _looked(self, state: State, goal: tuple[str, ...]) -> bool:
+        reachable = self._plans.reachable(state, goal)
+        if reachable is not None:
+            return not reachable
         states = self._all_from(state)
         return states is not None and not any(
             all((atom(literal) in other) == is_positive(literal) for literal in goal)
