@@ -14,7 +14,6 @@ from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from agents.shared.tools import tools_of
 from asp.kept.plans import Plans
-from asp.kept.plans import Plans
 from asp.kept.reach import Reach
 from asp.solving import ground, select, theory
 from testbed.link.messages import Decision, Event, Percept, Task
