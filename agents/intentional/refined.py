@@ -78,15 +78,31 @@ class RefinedRobot:
         outcome, self._outcome = self._outcome, None
         told, expected = self._reporter.percept(percept, self._believed, outcome)
         if outcome is not None:
-            self._mind.tally.end(outcome.happened, told.visible)
-        self._calendar.begin(percept.step)
-        decision = self._coarse.act(told)
+            inferred = [*self._reporter.inferred(outcome), *told.visible]
+            self._mind.tally.end(outcome.happened, inferred)
+        decision = self._ask(percept, told)
         self._believe(expected, decision)
         trace = self._calendar.trace(decision.trace)
         decision = structs.replace(decision, step=percept.step, trace=trace)
         if decision.action in (_WAIT, _FINISH):
             return self._with_trace(decision)
         return self._begin(percept, decision)
+
+    def _ask(self, percept: Percept, told: Percept) -> Decision:
+        """The coarse robot's decision.
+
+        That the goal does not hold it is told a coarse step after what it saw before: in between
+        something may have happened.
+        """
+        self._calendar.begin(percept.step)
+        decision = self._coarse.act(structs.replace(told, goal_holds=None))
+        if told.goal_holds is None or decision.action != _FINISH:
+            return decision
+        self._calendar.begin(percept.step)
+        step = self._calendar.step
+        return self._coarse.act(
+            Percept(trial=told.trial, step=step, visible=[], goal_holds=told.goal_holds)
+        )
 
     def _believe(self, expected: State, decision: Decision) -> None:
         """What is believed now; what was known to the contrary at the fine resolution is old."""

@@ -47,15 +47,16 @@ class Mind:
         are is another matter: that is looked for.
         """
         magnified = frozenset(filter(self.is_magnified, coarse))
-        fine = [
-            part
+        self.belief = FineBelief(self.refinement, literals)
+        fluents = [
+            atom(part)
             for literal in magnified
-            if not is_positive(literal) and self.coarse.robot in arguments(literal)
+            if self.coarse.robot in arguments(literal)
             for parts in self.refinement.counterpart(literal)
             for part in parts
+            if not is_positive(part) or self.belief.is_false(part)
         ]
-        self.belief = FineBelief(self.refinement, fine)
-        self.belief.see(literals)
+        self.belief.see(f"-{fluent}" for fluent in fluents)
         self.plain = frozenset(filter(is_positive, coarse)) - magnified
 
     def is_magnified(self, literal: str) -> bool:
@@ -84,8 +85,13 @@ class Mind:
     def plan(
         self, goal: tuple[str, ...], candidates: tuple[tuple[str, ...], ...], zoom: Collection[str]
     ) -> tuple[str, ...] | None:
-        """A shortest plan of concrete actions; None if there is none. Raises TimeLimitError."""
-        constants = frozenset(zoom) | fine_constants(self.refinement, zoom)
+        """A shortest plan of concrete actions; None if there is none. Raises TimeLimitError.
+
+        By Definition 1 the place of the robot need not be relevant to what it does there; a state
+        has to say where it is all the same.
+        """
+        zoom = frozenset(zoom) | self._whereabouts()
+        constants = zoom | fine_constants(self.refinement, zoom)
         start = FineStart(self.belief.known.true | self.plain, candidates)
         limit = sum(len(self.refinement.components[constant]) for constant in zoom) + 1
         planner = _planner(self.refinement)
@@ -94,6 +100,12 @@ class Mind:
         except ValueError:  # the goal is about something that is elsewhere
             return None
         return None if isinstance(found, NoPlan) else found
+
+    def _whereabouts(self) -> frozenset[str]:
+        """The coarse constants of what is known of the robot itself."""
+        robot, wholes = self.coarse.robot, self.refinement.wholes
+        own = (f for f in self.belief.known.true if robot in arguments(f))
+        return frozenset(wholes[part] for fluent in own for part in arguments(fluent))
 
     def looked_for(self, wholes: Iterable[str]) -> frozenset[str]:
         """What is tested for of some coarse constants: one component, where they share a place."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from agents.intentional.executor.calendar import Calendar
 from agents.intentional.executor.coarse import State
 from agents.intentional.executor.mind import Mind
-from asp.literals import complement, is_positive
+from asp.literals import atom, complement
 from testbed.link.messages import Event, Percept
 
 
@@ -33,15 +33,15 @@ class Reporter:
     ) -> tuple[Percept, State]:
         """The percept of the next coarse step, and the state that was to be expected there.
 
-        It has the effects of the action that follow from what is known, and what is contrary to
-        expectation. What is as expected says nothing new; it is not added to the history, because
-        the coarse step may have begun before it was observed, and something happened in between.
+        It says whether the action happened, and of what is known whatever is contrary to
+        expectation. What is as expected says nothing new, and it was observed a while ago: added to
+        the history as seen at this step it would deny that anything happened since.
         """
         action = outcome.action if outcome is not None and outcome.happened else None
         events = self._events(believed, action, outcome)
         at_last = [event.action for event in events if event.step >= self._latest(outcome)]
         expected = self._mind.coarse.after(believed, action, at_last) or believed
-        told = list(self._told(expected, outcome))
+        told = list(self._contrary(expected))
         return Percept(
             trial=percept.trial,
             step=self._calendar.step + 1,
@@ -52,21 +52,28 @@ class Reporter:
             goal_holds=percept.goal_holds,
         ), expected
 
-    def _told(self, expected: State, outcome: Outcome | None) -> Iterator[str]:
+    def inferred(self, outcome: Outcome) -> list[str]:
+        """The effects of an action that follow from what is known."""
         mind = self._mind
-        effects = frozenset(() if outcome is None else outcome.effects)
+        effects = [effect for effect in outcome.effects if mind.is_magnified(effect)]
+        return sorted(mind.belief.coarse(list(map(atom, effects))).intersection(effects))
+
+    def _contrary(self, expected: State) -> Iterator[str]:
+        mind = self._mind
         magnified = [fluent for fluent in mind.coarse.fluents if mind.is_magnified(fluent)]
         with mind.tally.inferring():
             follows = mind.belief.coarse(magnified)
         for fluent in mind.coarse.fluents:
-            literals = (
-                follows.intersection((fluent, complement(fluent)))
+            surprise = complement(fluent) if fluent in expected else fluent
+            if (
+                surprise in follows
                 if mind.is_magnified(fluent)
-                else [fluent if fluent in mind.plain else complement(fluent)]
-            )
-            for literal in literals:
-                if literal in effects or (fluent in expected) != is_positive(literal):
-                    yield literal
+                else self._differs(fluent, expected)
+            ):
+                yield surprise
+
+    def _differs(self, fluent: str, expected: State) -> bool:
+        return (fluent in self._mind.plain) != (fluent in expected)
 
     def _latest(self, outcome: Outcome | None) -> int:
         """The coarse step to which news of the present one is put down.
