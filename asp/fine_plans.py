@@ -57,7 +57,8 @@ def plain_plan(
     """The first shortest plan of at most `limit` actions and tests in the strong refinement.
 
     Every concrete action is followed by a test of its outcome, and what is not certain is found by
-    a test before anything is done with it. Raises TimeLimitError.
+    a test before anything is done with it. In the weak refinement, which has no tests, the plan has
+    none either. Raises TimeLimitError.
     """
     if not all(start.candidates):
         return NoPlan.OUT_OF_REACH
@@ -69,7 +70,9 @@ def plain_plan(
     actions = _concrete_actions(signature)
     facts = [fact("ranks", len(actions))]
     facts += (fact("rank", action, number) for number, action in enumerate(actions))
-    facts += _start(start, actions, functions(strong, signature))
+    facts += _start(start)
+    if any(symbol.startswith(_TEST) for symbol in signature.symbols):
+        facts += _dealing(start, actions, functions(strong, signature))
     facts += (
         fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
         for literal in goal
@@ -126,19 +129,21 @@ def _concrete_actions(signature: Signature) -> list[str]:
     ]
 
 
-def _start(
-    start: FineStart,
-    actions: Iterable[str],
-    known: Mapping[str, Function],
-) -> Iterator[Symbol]:
-    """What is certain, the candidates, and which actions deal with what these are about."""
+def _start(start: FineStart) -> Iterator[Symbol]:
+    """What is certain, and the candidates."""
     yield from (fact("certain", fluent) for fluent in sorted(start.true))
     for number, group in enumerate(start.candidates):
         yield from (fact("candidate", number, fluent) for fluent in group)
-    about = dict(enumerate(_about(group, known) for group in start.candidates))
+
+
+def _dealing(
+    start: FineStart, actions: Iterable[str], known: Mapping[str, Function]
+) -> Iterator[Symbol]:
+    """deals_with(A,G): the actions that name what a group of candidates is about."""
+    about = [_about(group, known) for group in start.candidates]
     for action in actions:
         named = frozenset(literals.arguments(action))
-        yield from (fact("deals_with", action, n) for n, some in about.items() if some <= named)
+        yield from (fact("deals_with", action, n) for n, some in enumerate(about) if some <= named)
 
 
 def _about(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:

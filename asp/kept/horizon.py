@@ -16,22 +16,26 @@ _MOST_LEVELS = 32_767  # of decisions, that clasp tells apart
 
 
 class Horizon:
-    """The transitions of so many steps; the start and the goal are assumed."""
+    """The transitions of so many steps; the start and the goal are assumed.
+
+    Of shortest plans the first in the order of declaration is found, as far as clasp tells levels of
+    decisions apart: actions beyond step 32,767 / (number of actions) come in any order.
+    """
 
     def __init__(self, program: str, actions: Sequence[str], length: int) -> None:
         """`actions` are the agent actions in the order of declaration."""
         self._length = length
         ranks = [Function("rank", [symbol(a), Number(n)]) for n, a in enumerate(actions)]
         ranks.append(Function("ranks", [Number(len(actions))]))
+        constants = {"n": length, "ordered": min(length, _MOST_LEVELS // (len(actions) + 1))}
         with standing_still():
-            self.control = ground([program, theory("kept_fine")], {"n": length}, ranks)
+            self.control = ground([program, theory("kept_fine")], constants, ranks)
             self._initial = _literals(self.control, "holds", 2)
             self._placed = _literals(self.control, "placed", 1)
             self.control.ground(_parts(length))
             # The first call prepares the solver, whatever it is asked.
             with solving(self.control):
                 pass
-        self.ordered = len(actions) * (length + 1) < _MOST_LEVELS
         self._goals: dict[str, int | None] = {}
 
     def start(self, true: frozenset[str], candidates: Mapping[str, Sequence[str]]) -> list[int]:

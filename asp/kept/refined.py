@@ -8,20 +8,22 @@ from functools import lru_cache
 from itertools import chain
 
 from asp import syntax
-from asp.fine_plans import FinePlan, FineStart, NoPlan
+from asp.fine_plans import FinePlan, FineStart, NoPlan, plain_plan
+from asp.kept.compact import NotCompactError
 from asp.kept.horizon import Horizon
 from asp.kept.narrowing import Narrow, Narrower
 from asp.kept.patterns import functions, subject
 from asp.kept.relaxed import Relaxed
 from asp.kept.sparing import Sparing
 from asp.literals import arguments, ground
+from asp.restriction import narrowed, restrict
 from asp.signature import Signature
 
 _MOST_NARROWED = 1_000
 
 
 class FinePlanner:
-    """Plans in one refined description, or in parts of it.
+    """Plans in one refined description, or in parts of it. Making it may raise NotCompactError.
 
     What a plan can do without is left out (`Sparing`), what is left gets names by position
     (`Narrower`), so that problems that differ in names only share controls; of these there is one
@@ -29,10 +31,7 @@ class FinePlanner:
     """
 
     def __init__(self, source: syntax.Source, signature: Signature, most: int = 32) -> None:
-        """`source` has the physics only; the controls of at most `most` parts of it are kept.
-
-        Raises NotCompactError for laws that cannot be put in terms of what is true only.
-        """
+        """`source` has the physics only; the controls of at most `most` parts of it are kept."""
         self._constants = signature.constants
         self._functions = functions(source, signature)
         self._sparing = Sparing(source, signature)
@@ -90,6 +89,11 @@ class FinePlanner:
             found[ground(function[0], function[1:])] = group
         return found
 
+    @property
+    def kept(self) -> int:
+        """Of how many parts of the description controls are kept."""
+        return len(self._kept)
+
     def _domain(self, narrow: Narrow) -> _Domain:
         """What is kept of a narrowed description, used last of all."""
         if narrow.key not in self._kept:
@@ -114,3 +118,34 @@ class _Domain:
         if length not in self._horizons:
             self._horizons[length] = Horizon(self._program, self._actions, length)
         return self._horizons[length]
+
+
+class LiteralPlanner:
+    """Plans as `FinePlanner` does, for any laws: by their literal translation, from scratch."""
+
+    def __init__(self, source: syntax.Source, signature: Signature) -> None:
+        self._source = source
+        self._signature = signature
+
+    def plan(
+        self,
+        start: FineStart,
+        goal: tuple[str, ...],
+        limit: int,
+        constants: frozenset[str] | None = None,
+    ) -> FinePlan | NoPlan:
+        """The first of the shortest plans of at most `limit` actions."""
+        kept = self._signature.constants if constants is None else constants
+        dropped = self._signature.constants - kept
+        source = restrict(self._source, dropped)
+        return plain_plan(
+            source, narrowed(self._signature, dropped), start.within(kept), goal, limit
+        )
+
+
+def fine_planner(source: syntax.Source, signature: Signature) -> FinePlanner | LiteralPlanner:
+    """The fastest planner for a description of the physics."""
+    try:
+        return FinePlanner(source, signature)
+    except NotCompactError:
+        return LiteralPlanner(source, signature)

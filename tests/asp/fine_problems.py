@@ -10,6 +10,7 @@ from itertools import product
 
 from asp import syntax
 from asp.fine_plans import FineStart
+from asp.kept.patterns import functions, subject
 from asp.literals import arguments
 from asp.refinement import Refinement
 from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant
@@ -79,6 +80,38 @@ def _drawn_transition(
     kind = draw.choice(sorted({action.partition("(")[0] for action in possible}))
     action = draw.choice([a for a in possible if a.startswith(f"{kind}(")])
     return Transition(before, action, frozenset(world.true_atoms(world.successor(state, [action]))))
+
+
+def drawn_state(refinement: Refinement, draw: random.Random) -> FineStart:
+    """All of a state that some actions lead to from one in which everything is somewhere."""
+    world = _world(refinement)
+    values: dict[tuple[str, ...], list[str]] = {}
+    known = functions(refinement.weak, refinement.weak_signature)
+    for fluent in world.description.inertial:
+        place = subject(fluent, known)
+        if place is not None:
+            values.setdefault(place, []).append(fluent)
+    together = {}  # parts of one thing are at one place
+    for (name, *others), fluents in values.items():
+        whole = tuple(refinement.wholes[constant] for constant in others)
+        together[name, whole] = together.get((name, whole), draw.randrange(len(fluents)))
+    state = world.state(
+        fluents[together[name, tuple(refinement.wholes[c] for c in others)]]
+        for (name, *others), fluents in values.items()
+    )
+    for _ in range(draw.randrange(12)):
+        actions = [a for a in world.description.agent_actions if world.executable(state, [a])]
+        exogenous = world.description.exogenous_actions
+        actions += [a for a in exogenous if not draw.randrange(4) and world.executable(state, [a])]
+        state = world.successor(state, [draw.choice(actions)])
+    inertial = frozenset(world.description.inertial)
+    return FineStart(inertial.intersection(world.true_atoms(state)))
+
+
+def drawn_goal(refinement: Refinement, draw: random.Random) -> tuple[str, ...]:
+    """One or two literals of either resolution."""
+    fluents = draw.sample(_world(refinement).fluents, draw.choice([1, 1, 2]))
+    return tuple(draw.choice(["", "-"]) + fluent for fluent in fluents)
 
 
 def signature(source: syntax.Source) -> Signature:

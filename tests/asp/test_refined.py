@@ -1,0 +1,156 @@
+"""The fine planner in domains of all sorts, what it refuses, and what it keeps."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import pytest
+
+from asp.fine_plans import FineStart, NoPlan
+from asp.kept.compact import NotCompactError
+from asp.kept.refined import FinePlanner, fine_planner
+from asp.loading import analyse
+from asp.refinement import Refinement, load, load_refinement
+from tests.asp.fine_problems import drawn_goal, drawn_state, first_shortest
+from tests.asp.refinement.levels import level
+from tests.asp.refinement.locked import locked_texts
+
+HERE = Path(__file__).parent / "refinement"
+DOMAINS = {
+    "tabletop": load_refinement(str(HERE / "tabletop.fine")),
+    "assistant": load_refinement(str(HERE / "assistant.fine")),
+    "locked": load(*locked_texts()),
+    "L2": level("L2"),
+}
+LIMIT = 6
+
+
+def _planner(refinement: Refinement, most: int = 32) -> FinePlanner:
+    return FinePlanner(refinement.weak, refinement.weak_signature, most)
+
+
+@pytest.mark.parametrize("name", DOMAINS)
+def test_the_plan_is_the_first_shortest_that_a_search_finds(name: str) -> None:
+    draw, planner = random.Random(21), _planner(DOMAINS[name])
+    for _ in range(30):
+        start, goal = drawn_state(DOMAINS[name], draw), drawn_goal(DOMAINS[name], draw)
+        found = planner.plan(start, goal, LIMIT)
+        expected = first_shortest(DOMAINS[name], start, goal, LIMIT)
+        assert (None if isinstance(found, NoPlan) else found) == expected, (start, goal)
+
+
+ROW = FineStart(
+    frozenset(
+        {"fine_loc(rob1,room1_1)", "fine_loc(object2_1,room2_1)", "fine_loc(object2_2,room2_1)"}
+    ),
+    tuple(
+        tuple(f"fine_loc({part},{cell})" for cell in ("room1_2", "room3_2"))
+        for part in ("object1_1", "object1_2")
+    ),
+)
+
+
+def _zoom(refinement: Refinement, *wholes: str) -> frozenset[str]:
+    return frozenset(wholes).union(*(refinement.components[whole] for whole in wholes))
+
+
+def test_of_places_where_a_thing_may_be_the_nearest_is_searched() -> None:
+    plan = _planner(level("L2")).plan(ROW, ("in_hand(rob1,object1)",), LIMIT)
+    assert plan == ("fine_move(rob1,room1_2)", "fine_pickup(rob1,object1_1)")
+
+
+def test_a_goal_beyond_the_limit_is_told_from_one_out_of_reach() -> None:
+    planner, goal = _planner(level("L2")), ("loc(rob1,room3)",)
+    assert planner.plan(ROW, goal, 3) is NoPlan.BEYOND_LIMIT
+    # Without the room between there is no way.
+    zoomed = _zoom(level("L2"), "rob1", "room1", "room3")
+    assert planner.plan(ROW, goal, 3, zoomed) is NoPlan.OUT_OF_REACH
+
+
+def test_what_is_nowhere_is_out_of_reach() -> None:
+    nowhere = FineStart(ROW.true, ((),))
+    planner = _planner(level("L2"))
+    assert planner.plan(nowhere, ("in_hand(rob1,object1)",), LIMIT) is NoPlan.OUT_OF_REACH
+
+
+def test_what_cannot_be_reached_without_its_place_is_out_of_reach() -> None:
+    zoomed = _zoom(level("L2"), "rob1", "room1", "object2")
+    planner = _planner(level("L2"))
+    assert planner.plan(ROW, ("in_hand(rob1,object2)",), LIMIT, zoomed) is NoPlan.OUT_OF_REACH
+
+
+def test_what_is_held_is_put_down_wherever_that_is() -> None:
+    start = FineStart(frozenset({"fine_in_hand(rob1,object2_1)"}))
+    planner, zoomed = _planner(level("L2")), _zoom(level("L2"), "rob1", "object2")
+    plan = planner.plan(start, ("-in_hand(rob1,object2)",), LIMIT, zoomed)
+    assert plan == ("fine_put_down(rob1,object2_1)",)
+
+
+def test_a_goal_that_holds_needs_no_action() -> None:
+    assert _planner(level("L2")).plan(ROW, ("loc(rob1,room1)",), LIMIT) == ()
+
+
+def test_a_goal_about_what_is_zoomed_out_is_refused() -> None:
+    zoomed = _zoom(level("L2"), "rob1", "room1")
+    with pytest.raises(ValueError, match="room3"):
+        _planner(level("L2")).plan(ROW, ("loc(rob1,room3)",), LIMIT, zoomed)
+
+
+def test_candidates_are_values_of_what_always_has_one() -> None:
+    odd = FineStart(ROW.true, (("fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)"),))
+    with pytest.raises(ValueError, match="always has one"):
+        _planner(level("L2")).plan(odd, ("in_hand(rob1,object1)",), LIMIT)
+
+
+def test_what_is_no_fluent_is_refused() -> None:
+    odd = FineStart(ROW.true | {"fine_lok(rob1,room1_1)"})
+    with pytest.raises(ValueError, match="no inertial fluent"):
+        _planner(level("L2")).plan(odd, ("loc(rob1,room2)",), LIMIT)
+
+
+def test_problems_that_differ_in_names_share_what_is_kept() -> None:
+    planner = _planner(level("L2"))
+    for one, other in (("room1", "room2"), ("room2", "room3")):
+        start = FineStart(frozenset({f"fine_loc(rob1,{one}_1)"}))
+        plan = planner.plan(
+            start, (f"loc(rob1,{other})",), LIMIT, _zoom(level("L2"), "rob1", one, other)
+        )
+        assert plan == (f"fine_move(rob1,{one}_2)", f"fine_move(rob1,{other}_1)")
+    assert planner.kept == 1
+
+
+def test_no_more_is_kept_than_was_asked_for() -> None:
+    planner = _planner(level("L2"), most=1)
+    for _ in range(2):
+        for room in ("room2", "room3"):
+            assert planner.plan(ROW, (f"loc(rob1,{room})",), LIMIT)
+            assert planner.kept == 1
+
+
+LAMP = """
+sorts
+  lamp = {lamp1}.
+fluents
+  inertial lit(lamp).
+  inertial dark(lamp).
+actions
+  agent light(lamp).
+  agent quench(lamp).
+laws
+  light(L)  causes lit(L).
+  quench(L) causes -lit(L).
+  dark(L)  if -lit(L).
+  -dark(L) if lit(L).
+"""
+
+
+def test_laws_about_what_is_false_are_translated_literally() -> None:
+    source, signature = analyse(LAMP)
+    with pytest.raises(NotCompactError, match="line 13"):
+        FinePlanner(source, signature)
+    planner = fine_planner(source, signature)
+    assert planner.plan(FineStart(frozenset({"lit(lamp1)"})), ("dark(lamp1)",), LIMIT) == (
+        "quench(lamp1)",
+    )
+    assert planner.plan(FineStart(frozenset({"dark(lamp1)"})), ("dark(lamp1)",), LIMIT) == ()
