@@ -37,9 +37,9 @@ def main(size: str) -> list[Sheet]:
     notes = (
         "ours, from nothing: the domain read, grounded and planned in, in a process of its own",
         "(imports and the grammar not counted, as the others' are not);",
-        "ours, again: grounded before, for problems of other states; answers forgotten;",
-        "others: the median of some runs from nothing, on operators made of the same description",
-        "(not counted; encoding ms); – stands for a planner that is not installed",
+        "ours, again: after problems of other states in a process of its own; answers forgotten;",
+        "others: from nothing, on operators of the same description (not counted; encoding ms);",
+        "all: medians of some runs; – stands for a planner that is not installed",
     )
     return [Sheet("peers", "A shortest plan", rows, notes)]
 
@@ -70,8 +70,8 @@ def _generated() -> list[Problem]:
 
 
 def _row(problem: Problem, repeats: int, limit_s: float) -> Row:
-    nothing = within(limit_s, lambda: _ours_from_nothing(problem))
-    again = within(limit_s * 2, lambda: _ours_again(problem))
+    nothing = _often(repeats, limit_s, lambda: _ours_from_nothing(problem))
+    again = _often(repeats, limit_s * 2, lambda: _ours_again(problem))
     encoding_ms, encoding = timed(lambda: Encoding(problem.description))
     row: dict[str, Value] = {
         "problem": problem.name,
@@ -98,6 +98,17 @@ def _row(problem: Problem, repeats: int, limit_s: float) -> Row:
         "again_faster_than_Fast_Downward": _ratio(theirs, again),
         "agree": len(found) > 1,
     }
+
+
+def _often(repeats: int, limit_s: float, call: Callable[[], Outcome]) -> Outcome | None:
+    """The median over some runs, each in a process of its own; None if one takes too long."""
+    runs: list[Outcome] = []
+    while len(runs) < repeats and sum(took for took, _ in runs) < ENOUGH_MS:
+        run = within(limit_s, call)
+        if run is None:
+            return None
+        runs.append(run)
+    return median([took for took, _ in runs]), runs[0][1]
 
 
 def _ratio(theirs: Value, ours: Outcome | None) -> Value:
