@@ -9,13 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from agents.intentional.intention import Intention
+from agents.shared.contradicting import Contradicting, holds
 from agents.shared.diagnosis import Explained
-from agents.shared.history import GOAL, Diagnosis, History, Moment
+from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import past_of
 from agents.shared.tools import tools_of
 from asp.kept.control import State
-from asp.literals import atom, complement, is_positive
+from asp.literals import complement
 from asp.solving import TimeLimitError, time_limit
 from testbed.link.messages import Contradiction, Event, Explanation
 
@@ -47,8 +48,7 @@ class Reasons:
         self._goal = goal
         self._plan_limit = plan_limit
         self._decision_s = decision_s
-        self._actions = frozenset(knowledge.description.agent_actions)
-        self._events = frozenset(knowledge.description.exogenous_actions)
+        self._contradicting = Contradicting(knowledge, goal)
 
     def why(self, history: History, intention: Intention, explained: Explained) -> Why:
         """Why this is intended at the history's step."""
@@ -67,32 +67,8 @@ class Reasons:
     def contradictions(
         self, history: History, adopted: Diagnosis, believed: State, step: int
     ) -> list[Contradiction]:
-        """What contradicts the belief of an earlier step, first, projected with what was adopted.
-
-        Of all steps the first one at which something does, with everything that does there.
-        """
-        state = believed
-        while True:
-            moment = history.at(step)
-            found = self._unexpected(moment, state, step)
-            if found or step >= history.step:
-                return found
-            attempt = next((a for a in moment.attempted if a in self._actions), None)
-            events = self._trusted(moment, adopted, step)
-            after = self._tools.transitions.after(state, attempt, events)
-            if after is None:
-                return self._impossible(events, state, step)
-            if attempt is not None and after[1] != moment.happened.get(attempt):
-                expected = "" if after[1] else "-"
-                unexpected = "-" if after[1] else ""
-                return [
-                    Contradiction(
-                        step=step,
-                        observed=f"hpd({unexpected}{attempt})",
-                        believed=f"hpd({expected}{attempt})",
-                    )
-                ]
-            state, step = after[0], step + 1
+        """What contradicts the belief of an earlier step, first; `Contradicting`."""
+        return self._contradicting.contradictions(history, adopted, believed, step)
 
     def alternatives(
         self, history: History, explained: Explained
@@ -137,41 +113,9 @@ class Reasons:
                 return Why(f"futile: {action} is impossible at step {later}{why}", later)
             state = after[0]
         end = step + len(left)
-        missing = (literal for literal in self._goal if not _holds(literal, state))
+        missing = (literal for literal in self._goal if not holds(literal, state))
         failing = ", ".join(complement(literal) for literal in missing)
         return Why(f"futile: its end, at step {end}, violates the goal with {failing}", end)
-
-    def _unexpected(self, moment: Moment, state: State, step: int) -> list[Contradiction]:
-        found = []
-        for fluent, truth in moment.observed.items():
-            if fluent == GOAL:
-                believed = all(_holds(literal, state) for literal in self._goal)
-            else:
-                believed = fluent in state
-            if believed != truth:
-                literal = fluent if truth else f"-{fluent}"
-                found.append(
-                    Contradiction(step=step, observed=literal, believed=complement(literal))
-                )
-        return found
-
-    def _trusted(self, moment: Moment, adopted: Diagnosis, step: int) -> tuple[str, ...]:
-        false = {report.action for report in adopted.distrusted if report.step == step}
-        reported = [a for a, truth in moment.happened.items() if truth and a in self._events]
-        unobserved = [
-            event.action
-            for event in adopted.unobserved
-            if event.step == step and event.action not in reported
-        ]
-        return (*(event for event in reported if event not in false), *unobserved)
-
-    def _impossible(self, events: tuple[str, ...], state: State, step: int) -> list[Contradiction]:
-        """The reports that cannot be true; all of them, where they only exclude each other."""
-        alone = [e for e in events if self._tools.transitions.after(state, None, (e,)) is None]
-        return [
-            Contradiction(step=step, observed=f"hpd({event})", believed=f"impossible({event})")
-            for event in alone or events
-        ]
 
 
 def _started(history: History, intention: Intention) -> str:
@@ -183,10 +127,6 @@ def _started(history: History, intention: Intention) -> str:
         f"{'s' if count == 1 else ''} it, none fewer"
         + ("; the plan of an earlier activity" * again)
     )
-
-
-def _holds(literal: str, state: State) -> bool:
-    return (atom(literal) in state) == is_positive(literal)
 
 
 def _events(pairs: tuple[tuple[int, str], ...]) -> tuple[Event, ...]:
