@@ -23,13 +23,19 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return site
 
 
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["quickstart", "scenarios=[2]", "robots=[intentional]"], "exo_move(book2,library)"),
+        (["levels", "levels=[L1]", "limit=1"], "no zoom / zoom"),
+    ],
+)
 def test_a_bare_name_finds_the_packaged_configuration_and_domain(
-    site: Path, tmp_path: Path
+    site: Path, tmp_path: Path, arguments: list[str], said: str
 ) -> None:
     environment = {**os.environ, "PYTHONPATH": str(site)}
-    arguments = ["run", "quickstart", "scenarios=[2]", "robots=[intentional]", "--out", "run"]
     done = subprocess.run(
-        [sys.executable, "-m", "testbed", *arguments],
+        [sys.executable, "-m", "testbed", "run", *arguments, "--out", "run"],
         cwd=tmp_path,
         env=environment,
         capture_output=True,
@@ -37,7 +43,7 @@ def test_a_bare_name_finds_the_packaged_configuration_and_domain(
         check=False,
     )
     assert done.returncode == 0, done.stderr
-    assert "exo_move(book2,library)" in done.stdout
+    assert said in done.stdout
     where = subprocess.run(
         [sys.executable, "-c", "import testbed; print(testbed.__file__)"],
         cwd=tmp_path,

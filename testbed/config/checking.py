@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 
 import asp
@@ -21,8 +21,11 @@ from testbed.config.words import Finding, unknown_atom
 from testbed.environment.errors import StateError
 from testbed.environment.world import World
 
+Robots = Callable[[bool], Collection[str]]
+"""The robots that may be asked for, at the fine resolution or at the coarse one."""
 
-def check(config: ExperimentConfig, places: Places, robots: Collection[str] | None) -> None:
+
+def check(config: ExperimentConfig, places: Places, robots: Robots | None) -> None:
     """Raise ConfigError with a line for everything in `config` that its domain does not allow."""
     findings = [*_twice(config), *_robots(config, robots)]
     if config.is_fine:
@@ -118,9 +121,18 @@ def _twice(config: ExperimentConfig) -> Iterator[Finding]:
                 yield (key, index), f"'{name}' is listed twice; keep one of the two"
 
 
-def _robots(config: ExperimentConfig, known: Collection[str] | None) -> Iterator[Finding]:
+def _robots(config: ExperimentConfig, robots: Robots | None) -> Iterator[Finding]:
+    if robots is None:
+        return
+    known, others = robots(config.is_fine), robots(not config.is_fine)
     for index, kind in enumerate(config.robots):
-        if known is not None and kind not in known:
+        if kind in known:
+            continue
+        resolution = "fine" if config.is_fine else "coarse"
+        what = f"'{kind}' does not act at the {resolution} resolution; robots that do: "
+        if kind in others:
+            yield ("robots", index), what + ", ".join(known)
+        else:
             yield ("robots", index), f"unknown robot '{kind}'; {suggestion(kind, known)}"
 
 

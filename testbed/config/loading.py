@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from pydantic_core import ErrorDetails
 
 import asp
 from asp.spelling import suggestion
-from testbed.config.checking import check
+from testbed.config.checking import Robots, check
 from testbed.config.errors import ConfigError
 from testbed.config.models import ExperimentConfig, Section
 from testbed.config.places import Key, Places
@@ -28,13 +28,13 @@ SCRIPT, NONE = "script", "none"
 def load_config(
     source: str | Path,
     overrides: Sequence[str] = (),
-    robots: Collection[str] | None = None,
+    robots: Robots | None = None,
     given_in: str = "command line",
 ) -> ExperimentConfig:
     """The validated configuration of a file or a packaged name, with dotted overrides applied.
 
     A `domain` given as a path, and a `refinement`, are taken relative to the configuration, and
-    are absolute in the answer. `robots`, where given, are the kinds of robot that may be asked
+    are absolute in the answer. `robots`, where given, says which kinds of robot may be asked
     for. `given_in` is what errors call the place of the overrides.
 
     Raises:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from agents.adversary.base import Adversary
 from agents.adversary.random import Random
 from agents.adversary.scripted import Script
-from asp.literals import arguments
+from asp.literals import arguments, complement
 from testbed.config.grounds import Ground
 from testbed.environment.core import Core
 from testbed.environment.fine import fine_core, fine_world
@@ -29,6 +29,8 @@ class FineStage:
         self._coarse = World(description)
         self._oracle = Oracle(description, refinement.coarse, refinement.coarse_signature)
         self.costs = description.costs
+        inertial, robot = self._world.description.inertial, description.robots[0]
+        self._about_robot = [fluent for fluent in inertial if robot in arguments(fluent)]
 
     def core(self, setting: Setting) -> Core:
         """A new game, with the setting's statistics and pace."""
@@ -42,9 +44,7 @@ class FineStage:
         return Random(self._world.exogenous_actions, spec.setting.rate or 0.0)
 
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
-        """Of the fine initial state the robot is told what is true of itself."""
-        robot = self._refinement.description.robots[0]
-        own = [atom for atom in self._true(state) if robot in arguments(atom)]
+        """Of the fine initial state the robot is told what holds of itself."""
         return Task(
             trial=spec.trial,
             robot=spec.robot,
@@ -56,16 +56,17 @@ class FineStage:
             seed=seed,
             decision_s=spec.setting.decision_s,
             refinement=self._text,
-            initial_fine=own,
+            initial_fine=self._own(state),
         )
 
     def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
         """The least number of abstract actions, by search over the coarse world."""
         return self._oracle.minimal_actions(self._coarse_atoms(state), goal)
 
-    def _true(self, state: int) -> Iterable[str]:
-        inertial = frozenset(self._world.description.inertial)
-        return (atom for atom in self._world.true_atoms(state) if atom in inertial)
+    def _own(self, state: int) -> list[str]:
+        """The inertial literals about the robot: where it is and is not, what it holds and not."""
+        true = frozenset(self._world.true_atoms(state))
+        return [fluent if fluent in true else complement(fluent) for fluent in self._about_robot]
 
     def _coarse_atoms(self, state: int) -> frozenset[str]:
         return frozenset(self._world.true_atoms(state)).intersection(self._coarse.fluents)

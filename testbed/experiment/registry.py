@@ -9,6 +9,7 @@ from agents.intentional import IntentionalRobot
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.joint import JointLogician
 from agents.intentional.logician import Logician
+from agents.intentional.refined import EitherRobot
 from agents.intentional.undivided import UndividedLogician
 from agents.traditional import TraditionalRobot
 from agents.traditional.planner import Planner
@@ -16,7 +17,8 @@ from asp.spelling import suggestion
 from testbed.link.robot import Robot
 
 ROBOTS: Mapping[str, Callable[[], Robot]] = {
-    "intentional": IntentionalRobot,
+    "intentional": EitherRobot,
+    "intentional-nozoom": partial(EitherRobot, zooms=False),
     "intentional-plain": partial(IntentionalRobot, Logician),
     "intentional-joint": partial(IntentionalRobot, JointLogician),
     "intentional-joint-plain": partial(IntentionalRobot, UndividedLogician),
@@ -24,6 +26,16 @@ ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "traditional": TraditionalRobot,
     "traditional-plain": partial(TraditionalRobot, Planner),
 }
+
+FINE = ("intentional", "intentional-nozoom")
+"""Those that can act at the fine resolution."""
+ONLY_FINE = ("intentional-nozoom",)
+"""Those that act there alone."""
+
+
+def known_robots(fine: bool) -> tuple[str, ...]:
+    """The names of the robots that can act at the fine, or at the coarse resolution."""
+    return FINE if fine else tuple(name for name in ROBOTS if name not in ONLY_FINE)
 
 
 def make_robot(kind: str) -> Robot:

@@ -21,7 +21,7 @@ from rich.text import Text
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.level_table import rich_level_table
 from testbed.experiment.provenance import Provenance, session_arguments
-from testbed.experiment.registry import ROBOTS
+from testbed.experiment.registry import known_robots
 from testbed.experiment.report import Tables, write_report
 from testbed.experiment.runner import Notify, Tally, run_trials
 from testbed.experiment.store import (
@@ -41,7 +41,7 @@ WIDE = 120
 
 def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
     """A configuration that may be run here. Raises ConfigError."""
-    return load_config(source, overrides, ROBOTS)
+    return load_config(source, overrides, known_robots)
 
 
 def run_session(
@@ -111,6 +111,7 @@ def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Con
 def _show(console: Console, tables: Tables) -> None:
     console.print(rich_table(tables.rows))
     if tables.levels:
+        console.print()
         console.print(rich_level_table(tables.levels))
     for row in tables.rows:
         for note in row.notes():

@@ -174,3 +174,25 @@ def test_a_map_that_is_not_there_is_one_line(own_map: Path) -> None:
 def test_levels_go_with_no_refinement(own_map: Path) -> None:
     (line,) = _refusal(own_map.parent, own_map.read_text(encoding="utf-8"), "levels=[L1]")
     assert line.startswith("command line: levels: goes with no refinement")
+
+
+def _robots(fine: bool) -> list[str]:
+    return ["both", "zooming"] if fine else ["both", "planning"]
+
+
+@pytest.mark.parametrize(
+    ("robot", "line"),
+    [
+        ("planning", "'planning' does not act at the fine resolution; robots that do: both, zoom"),
+        ("zoming", "unknown robot 'zoming'; did you mean 'zooming'?"),
+    ],
+)
+def test_a_robot_is_one_that_acts_at_the_resolution(tmp_path: Path, robot: str, line: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        load_config(_file(tmp_path, VALID), [f"robots=[both,{robot}]"], _robots)
+    assert str(caught.value).startswith(f"command line: robots[1]: {line}")
+
+
+def test_a_robot_of_the_fine_resolution_is_refused_without_levels() -> None:
+    with pytest.raises(ConfigError, match="'zooming' does not act at the coarse resolution"):
+        load_config("office", ["robots=[zooming]"], _robots)

@@ -31,7 +31,7 @@ def _file(folder: Path, text: str) -> Path:
 
 def _refusal(folder: Path, text: str, *overrides: str, robots: tuple[str, ...] = ()) -> list[str]:
     with pytest.raises(ConfigError) as caught:
-        load_config(_file(folder, text), overrides, robots or None)
+        load_config(_file(folder, text), overrides, (lambda _: robots) if robots else None)
     prefix = f"{folder / 'tiny.yaml'}"
     return [line.replace(prefix, "tiny.yaml") for line in str(caught.value).splitlines()]
 
@@ -101,7 +101,7 @@ def test_literals_need_no_quotes_and_no_exact_spacing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["quickstart", "office"])
 def test_packaged_configurations_are_found_by_name(name: str) -> None:
-    assert load_config(name, robots=["intentional", "traditional"]).name == name
+    assert load_config(name, robots=lambda _: ["intentional", "traditional"]).name == name
 
 
 @pytest.mark.parametrize(

@@ -110,7 +110,10 @@ def test_an_action_in_the_middle_of_which_the_trial_ends_did_not_happen() -> Non
 def test_the_robot_knows_of_the_fine_resolution_where_it_is_and_not_where_objects_are() -> None:
     _, robot = _play(CARRYING)
     assert robot.task is not None
-    assert robot.task.initial_fine == ["fine_loc(rob1,room1_1)"]
+    known = robot.task.initial_fine
+    assert [literal for literal in known if not literal.startswith("-")] == [START[0]]
+    assert {"-fine_loc(rob1,room2_2)", "-fine_in_hand(rob1,object1_2)"} <= set(known)
+    assert not [literal for literal in known if "fine_loc(object" in literal]
     assert {"loc(object1,room1)", "-in_hand(rob1,object2)"} <= set(robot.task.initial)
     assert "magnify" in robot.task.refinement
     assert "sorts" in robot.task.source

@@ -1,0 +1,101 @@
+"""Runs at the fine resolution with real robots: the same wherever they are played."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from testbed.cli import app
+from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.record import logical
+from testbed.experiment.report import write_report
+from testbed.experiment.runner import Tally, run_trials
+from testbed.experiment.store import read_records, write_config
+
+
+def _config(*overrides: str) -> ExperimentConfig:
+    return load_config("levels", ["levels=[L1,L2]", "limit=2", "adversary.rate=0.2", *overrides])
+
+
+def _run(config: ExperimentConfig, folder: Path, workers: int = 1) -> list[dict[str, object]]:
+    run_trials(config, folder, workers, _ignore)
+    return [logical(record) for record in read_records(folder)]
+
+
+def _ignore(tally: Tally) -> None:
+    del tally
+
+
+@pytest.fixture(scope="module")
+def here(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run of both robots in this process."""
+    folder: Path = tmp_path_factory.mktemp("levels")
+    config = _config()
+    write_config(folder, config)
+    run_trials(config, folder, 1, _ignore)
+    return folder
+
+
+def _played(folder: Path) -> list[dict[str, object]]:
+    return [logical(record) for record in read_records(folder)]
+
+
+def test_every_trial_achieves_its_goal_with_and_without_zooming(here: Path) -> None:
+    records = list(read_records(here))
+    assert len(records) == 2 * 2 * 2
+    assert {record.outcome for record in records} == {"achieved"}
+    for record in records:
+        assert record.fine is not None
+        assert record.fine.actions >= record.action_count == len(record.actions)
+        assert record.fine.plans >= record.action_count
+        assert record.fine.planning_time_s > 0
+        assert all(attempt.action in _abstract(record.level) for attempt in record.actions)
+
+
+def _abstract(level: str) -> set[str]:
+    rooms = {"L1": 2, "L2": 3}[level]
+    objects = {"L1": 1, "L2": 2}[level]
+    moves = {f"move(rob1,room{n})" for n in range(1, rooms + 1)}
+    return moves | {
+        f"{name}(rob1,object{n})" for name in ("pickup", "put_down") for n in range(1, objects + 1)
+    }
+
+
+@pytest.mark.parametrize(("link", "workers"), [("zenoh", 1), ("inprocess", 2)])
+def test_the_same_trials_come_out_wherever_they_are_played(
+    tmp_path: Path, here: Path, link: str, workers: int
+) -> None:
+    assert _run(_config(f"link={link}"), tmp_path, workers) == _played(here)
+
+
+def test_a_run_of_levels_goes_on_with_what_is_missing(tmp_path: Path, here: Path) -> None:
+    lines = (here / "trials.jsonl").read_bytes().splitlines(keepends=True)
+    write_config(tmp_path, _config())
+    (tmp_path / "trials.jsonl").write_bytes(b"".join(lines[:5]) + lines[5][:40])
+    resumed = ["run", str(tmp_path / "config.yaml"), "--out", str(tmp_path), "--resume", "--quiet"]
+    assert CliRunner().invoke(app, resumed).exit_code == 0
+    assert (tmp_path / "trials.jsonl").read_bytes().startswith(b"".join(lines[:5]))
+    assert _played(tmp_path) == _played(here)
+
+
+def test_summary_and_report_have_the_columns_of_the_levels(here: Path) -> None:
+    tables = write_report(here, _config())
+    summary = json.loads((here / "summary.json").read_text(encoding="utf-8"))
+    assert set(summary["levels"]) == {"L1", "L2"}
+    for level in summary["levels"].values():
+        assert set(level["reasoning"]) == {"intentional", "intentional-nozoom"}
+        assert all(ratio > 0 for ratio in level["zoom_ratios"].values())
+    page = (here / "report.html").read_text(encoding="utf-8")
+    assert "Reasoning at each level" in page
+    assert "<h3>Level L1</h3>" in page
+    assert len(tables.levels) == 2 * 6
+
+
+def test_a_replay_is_as_recorded(here: Path) -> None:
+    first = next(read_records(here))
+    told = CliRunner().invoke(app, ["replay", str(here), "--trial", first.trial])
+    assert told.exit_code == 0, told.output
+    assert told.output.rstrip().endswith("as recorded")
+    for word in ("abstract", "relevant", "refined to", "observed", "inferred"):
+        assert f"\n  {word}" in told.output
