@@ -6,6 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
+from msgspec import structs
+
+from agents.shared.contradicting import Contradicting
 from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
@@ -13,6 +16,8 @@ from agents.shared.relevance import outcome_literals
 from agents.traditional.kept import KeptPlanner
 from agents.traditional.planner import Plan
 from asp.kept.clock import reasoning_clock
+from asp.kept.control import State
+from asp.literals import is_positive
 from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
@@ -52,6 +57,9 @@ class TraditionalRobot:
         self._plan: Plan | None = None
         self._plans = 0
         self._told = self._diagnosis
+        self._believed: tuple[int, State] = (0, frozenset(filter(is_positive, task.initial)))
+        self._contradicting = Contradicting(domain, tuple(task.goal))
+        self._plan_limit = task.plan_limit
 
     def act(self, percept: Percept) -> Decision:
         """The next action of the plan; where the time for a decision runs out, it waits a step.
@@ -108,30 +116,57 @@ class TraditionalRobot:
 
     def _trace(self, thought: _Thought, step: int) -> Trace:
         """The mind behind the decision, before anything of it is recorded."""
+        trace = self._with_explanation(
+            Trace(
+                reason=OUT_OF_TIME,
+                plans=self._plans,
+                planning_time_s=thought.planning_s,
+                diagnosis_time_s=thought.diagnosis_s,
+            ),
+            step,
+        )
         plan = thought.plan
-        self._plans += thought.made and plan is not None and bool(plan.actions)
-        return Trace(
-            intention="" if plan is None else _next(plan),
-            plan=[] if plan is None else list(plan.actions),
-            belief=list(plan.believed) if plan is not None and thought.made else [],
-            explanation=self._newly_adopted(step),
-            reason=OUT_OF_TIME if plan is None else "",
+        if plan is None:
+            return trace
+        if thought.made and plan.reachable:
+            self._believed = (step, frozenset(plan.believed))
+        self._plans += thought.made and bool(plan.actions)
+        return structs.replace(
+            trace,
+            intention=_next(plan),
+            plan=list(plan.actions),
+            belief=list(plan.believed) if thought.made else [],
+            reason=self._why(thought.made, plan),
             plans=self._plans,
-            planning_time_s=thought.planning_s,
-            diagnosis_time_s=thought.diagnosis_s,
         )
 
-    def _newly_adopted(self, step: int) -> Explanation | None:
-        """The explanation, if it has not been told yet."""
-        if self._diagnosis == self._told:
-            return None
-        self._told = diagnosis = self._diagnosis
-        return Explanation(
-            step=step,
-            unobserved=list(diagnosis.unobserved),
-            exceptions=self._domain.against(diagnosis.exceptions),
-            distrusted=list(diagnosis.distrusted),
+    def _with_explanation(self, trace: Trace, step: int) -> Trace:
+        """The trace with the explanation, and what made it needed, if it has not been told yet."""
+        diagnosis, before = self._diagnosis, self._told
+        if diagnosis == before:
+            return trace
+        self._told = diagnosis
+        since, believed = self._believed
+        return structs.replace(
+            trace,
+            explanation=Explanation(
+                step=step,
+                unobserved=list(diagnosis.unobserved),
+                exceptions=self._domain.against(diagnosis.exceptions),
+                distrusted=list(diagnosis.distrusted),
+            ),
+            contradictions=self._contradicting.contradictions(
+                self._history, before, believed, since
+            ),
         )
+
+    def _why(self, made: bool, plan: Plan) -> str:
+        if not plan.reachable:
+            return f"no plan of at most {self._plan_limit} actions achieves the goal"
+        if not plan.actions:
+            return "the goal holds" if made else "the plan is over"
+        left = f"{len(plan.actions)} action{'' if len(plan.actions) == 1 else 's'}"
+        return f"a new plan: {left} to the goal, none fewer" if made else f"{left} of the plan left"
 
 
 @dataclass
