@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from itertools import product
 
 from asp import roles, syntax
@@ -20,6 +21,8 @@ from asp.refinement import Refinement
 from asp.refinement.refining import shared_places
 from asp.signature import Signature
 
+_REMEMBERED = 50_000
+
 
 class Quick:
     """What is known after observations, in a refinement; `is_enough` if its laws are simple."""
@@ -28,6 +31,11 @@ class Quick:
         self._refinement = refinement
         self._laws = _Laws(refinement.weak, refinement.weak_signature)
         self.is_enough = self._laws.are_simple
+        remembering = lru_cache(_REMEMBERED)
+        self._alike = remembering(self._find_alike)
+        self._parts = remembering(self._find_parts)
+        self._variables = remembering(self._find_variables)
+        self._values = lru_cache(1)(self._find_values)
 
     def after(self, known: Known, seen: Iterable[str]) -> Known | None:
         """What is known after literals seen at one step; None: they contradict each other.
@@ -37,23 +45,24 @@ class Quick:
         literals = list(seen)
         told = [literal for literal in literals if is_positive(literal)]
         denied = {atom(literal) for literal in literals if not is_positive(literal)}
-        impossible = {other for fluent in denied for other in self.alike(fluent)}
+        impossible = {other for fluent in denied for other in self._alike(fluent)}
         old = set(known.true)
         true = self._closed({*told, *old})
-        while lost := {f for f in old if f in impossible or self._excludes(true - old, f)}:
+        while lost := old & impossible | self._excluded(true - old, old):
             old -= lost
             true = self._closed({*told, *old})
-        consistent = true.isdisjoint(impossible) and not any(self._excludes(true, f) for f in true)
         lost = set(known.true - old)
-        if not consistent or not all(f in impossible or self._excludes(true, f) for f in lost):
+        contradictory = true & impossible or self._excluded(true, true)
+        if contradictory or lost != lost & impossible | self._excluded(true, lost):
             return None
         return Known(frozenset(true), (known.false | denied) - true)
 
     def is_false(self, known: Known, fluent: str) -> bool:
         """Whether an inertial fluent is known to be false."""
-        if self._excludes(known.true, fluent):
+        if any(place in known.false for place in self._alike(fluent)):
             return True
-        return not known.false.isdisjoint(self.alike(fluent))
+        values = self._values(known.true)
+        return any(values.get(key, own) != own for key, own in self._variables(fluent))
 
     def possible(self, known: Known, fluents: Iterable[str]) -> list[str]:
         """Those inertial fluents of which it is not known whether they are true."""
@@ -61,14 +70,20 @@ class Quick:
 
     def coarse(self, known: Known, fluents: Iterable[str]) -> frozenset[str]:
         """What follows of coarse fluents that have counterparts, as literals."""
+        true = {coarse for fluent in known.true for coarse in self._refinement.coarse_of(fluent)}
         return frozenset(
-            literal
+            fluent if fluent in true else complement(fluent)
             for fluent in fluents
-            for literal in (fluent, complement(fluent))
-            if self._follows(known, literal)
+            if fluent in true or all(self.is_false(known, part) for part in self._parts(fluent))
         )
 
-    def alike(self, fluent: str) -> tuple[str, ...]:
+    def variable(self, fluent: str) -> tuple[str, ...]:
+        """What the fluent is a value of: itself without the places that have one value at most."""
+        places = self._laws.single.get(name(fluent), ())
+        args = arguments(fluent)
+        return (name(fluent), *(arg for place, arg in enumerate(args) if place not in places))
+
+    def _find_alike(self, fluent: str) -> tuple[str, ...]:
         """The fluents that are true exactly if this one is: those of other components."""
         place = self._laws.shared.get(name(fluent))
         if place is None:
@@ -77,40 +92,41 @@ class Quick:
         others = self._refinement.components[self._refinement.wholes[args[place]]]
         return tuple(ground(name(fluent), _with(args, place, other)) for other in others)
 
-    def variable(self, fluent: str) -> tuple[str, ...]:
-        """What the fluent is a value of: itself without the places that have one value at most."""
-        places = self._laws.single.get(name(fluent), ())
-        args = arguments(fluent)
-        return (name(fluent), *(arg for place, arg in enumerate(args) if place not in places))
+    def _find_parts(self, coarse: str) -> tuple[str, ...]:
+        """The fluents all of which are false exactly if a coarse one is; one of those alike."""
+        groups = self._refinement.counterpart(coarse)
+        return tuple(dict.fromkeys(self._alike(part)[0] for group in groups for part in group))
 
-    def _follows(self, known: Known, literal: str) -> bool:
-        return any(
-            all(
-                part in known.true if is_positive(part) else self.is_false(known, atom(part))
-                for part in group
-            )
-            for group in self._refinement.counterpart(literal)
+    def _find_variables(self, fluent: str) -> tuple[tuple[tuple[str, ...], str], ...]:
+        """For each place in which a fluent has one value at most: the rest of it, the value."""
+        args = arguments(fluent)
+        return tuple(
+            ((name(fluent), str(place), *_with(args, place, "")), args[place])
+            for place in self._laws.single.get(name(fluent), ())
         )
 
-    def _excludes(self, true: Iterable[str], fluent: str) -> bool:
-        """Whether something that is true takes the place of the fluent."""
-        places = self._laws.single.get(name(fluent), ())
-        args = arguments(fluent)
-        return any(
-            name(other) == name(fluent)
-            and arguments(other)[place] != args[place]
-            and _with(arguments(other), place, args[place]) == args
-            for place in places
-            for other in true
-        )
+    def _find_values(self, true: frozenset[str]) -> Mapping[tuple[str, ...], str]:
+        return {key: value for fluent in true for key, value in self._variables(fluent)}
+
+    def _excluded(self, true: Iterable[str], fluents: Iterable[str]) -> set[str]:
+        """Those of the fluents whose place is taken by something that is true."""
+        values: dict[tuple[str, ...], set[str]] = {}
+        for fluent in true:
+            for key, value in self._variables(fluent):
+                values.setdefault(key, set()).add(value)
+        return {
+            fluent
+            for fluent in fluents
+            if any(values.get(key, set()) - {own} for key, own in self._variables(fluent))
+        }
 
     def _closed(self, fluents: Iterable[str]) -> set[str]:
         """The fluents with all that follows from them and is true."""
         found: set[str] = set()
-        new = {other for fluent in fluents for other in self.alike(fluent)}
+        new = {other for fluent in fluents for other in self._alike(fluent)}
         while not new <= found:
             found |= new
-            new = {f for head in self._laws.derived(found) for f in self.alike(head)}
+            new = {f for head in self._laws.derived(found) for f in self._alike(head)}
         return found
 
 

@@ -83,20 +83,19 @@ class FineBelief:
                 group.append(fluent)
         return tuple(map(tuple, groups.values()))
 
-    def adapt(self, before: Collection[str], now: Collection[str], fluents: Iterable[str]) -> None:
+    def adapt(
+        self, before: Collection[str], now: Collection[str], fluents: Collection[str]
+    ) -> None:
         """Forgets what an explanation at the coarse resolution has made doubtful.
 
         `before` and `now` are the fluents that were expected and that are believed. Of what is now
         believed and was not expected, and of what is nowhere to be any more though it is believed,
         observations to the contrary are old.
         """
+        follows = self.coarse(fluents)
         for fluent in fluents:
             literal = fluent if fluent in now else complement(fluent)
-            follows = self.coarse([fluent])
-            if complement(literal) in follows or (
-                literal not in follows and (fluent in before) != (fluent in now)
-            ):
-                self.forget(map(complement, self._parts(literal)))
-
-    def _parts(self, literal: str) -> Iterable[str]:
-        return [part for group in self._refinement.counterpart(literal) for part in group]
+            changed = (fluent in before) != (fluent in now)
+            if complement(literal) in follows or (changed and literal not in follows):
+                groups = self._refinement.counterpart(literal)
+                self.forget(complement(part) for group in groups for part in group)
