@@ -15,14 +15,13 @@ from gymnasium.utils import seeding
 from testbed.environment.dynamics import Dynamics
 from testbed.environment.errors import IllegalActionError
 from testbed.environment.execution import Exact, Execution
-from testbed.environment.legality import LegalEvents
+from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
 from testbed.environment.news import News, Played
 from testbed.environment.rules import Rules
 from testbed.environment.situation import Ending, Situation, Snapshot
 from testbed.link.messages import Event, Percept
 
-WAIT, FINISH, NONE = "wait", "finish", "none"
-"""The actions that are the environment's own: of the robot, and of the adversary."""
+__all__ = ["FINISH", "NONE", "WAIT", "Core", "Draw", "DrawGoal"]
 
 Draw: TypeAlias = Callable[[np.random.Generator], int]
 """Draws the state in which a game begins."""
@@ -55,6 +54,7 @@ class Core:
         self.draw_goal = draw_goal
         self.execution = execution or Exact(world, world.description.robots[0])
         self.robot = self.execution.robot
+        self._legality = Legality(world, self.execution)
         self._news_desk = News(world, self.execution)
         self.robot_actions = (WAIT, FINISH, *self.execution.actions)
         self.adversary_actions = (NONE, *world.exogenous_actions)
@@ -126,20 +126,11 @@ class Core:
 
     def legal(self, robot_action: str | None, event: str) -> bool:
         """Whether `event` is among `events(robot_action)`."""
-        if event == NONE:
-            return True
-        if robot_action is not None and self._closed(robot_action):
-            return False
-        executable, state = self.world.executable, self.situation.state
-        return all(executable(state, (*way, event)) for way in self._ways(robot_action))
+        return self._legality.allows(self._moment(robot_action), event)
 
     def why_not(self, robot_action: str, event: str) -> str | None:
         """One line that says why the event is impossible beside the robot's action; else None."""
-        if event == NONE:
-            return None
-        why_not, state = self.world.why_not, self.situation.state
-        reasons = (why_not(state, (*way, event)) for way in self._ways(robot_action))
-        return self._closed(robot_action) or next(filter(None, reasons), None)
+        return self._legality.why_not(self._moment(robot_action), event)
 
     def advance(self, robot_action: str, event: str = NONE) -> None:
         """Plays a step: both actions at once. An attempt at the impossible changes nothing.
@@ -195,31 +186,12 @@ class Core:
             step = self.situation.step
             raise IllegalActionError(f"step {step}: {event} beside {robot_action}: {reason}")
 
-    def _closed(self, robot_action: str) -> str | None:
-        """Why nothing exogenous happens beside the robot's action, if so."""
-        if robot_action == FINISH:
-            return "nothing exogenous happens while the robot finishes"
-        if robot_action == WAIT:
-            closed = "nothing exogenous happens while the robot waits (exogenous_while_thinking)"
-            return None if self.rules.exogenous_while_thinking else closed
-        return self.execution.closed_to_events(self.situation.state, robot_action)
-
-    def _ways(self, robot_action: str | None) -> Iterator[tuple[str, ...]]:
-        """The robot's part of the compound action, in each way in which it may come out."""
-        if robot_action is None or not self._possible(robot_action):
-            yield ()
-            return
-        yield self.execution.physical(robot_action)
-        if self.execution.chance(robot_action) < 1:
-            yield ()
-
-    def _possible(self, robot_action: str) -> bool:
-        if robot_action in (WAIT, FINISH):
-            return False
-        return self.execution.possible(self.situation.state, robot_action)
+    def _moment(self, robot_action: str | None) -> Moment:
+        thinking = self.rules.exogenous_while_thinking
+        return Moment(self.situation.state, robot_action, thinking)
 
     def _takes_effect(self, robot_action: str) -> bool:
-        if not self._possible(robot_action):
+        if not self._legality.possible(self._moment(robot_action)):
             return False
         chance = self.execution.chance(robot_action)
         return chance >= 1 or bool(self._generator.random() < chance)
