@@ -22,6 +22,7 @@ from asp.solving import (
     first_model,
     ground,
     is_satisfiable,
+    optimal_model,
     time_limit,
 )
 
@@ -128,3 +129,33 @@ def test_answer_sets_are_counted_once_each_up_to_a_bound() -> None:
     assert (len(answer_sets(control, most=3)[0]), answer_sets(control, most=3)[1]) == (3, True)
     assert answer_sets(control, most=4)[1] is False
     assert first_model(control) is not None
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=1, max_size=5))
+def test_the_optimum_is_the_least_by_priority_and_then_by_weight(
+    costs: list[tuple[int, int]],
+) -> None:
+    rules = [
+        f"#minimize {{ {high}@2 : pick({n}); {low}@1 : pick({n}) }}."
+        for n, (high, low) in enumerate(costs)
+    ]
+    control = ground([f"1 {{ pick(0..{len(costs) - 1}) }} 1.", *rules], {}, ())
+    model = optimal_model(control)
+    assert model is not None
+    assert costs[model[0].arguments[0].number] == min(costs)
+
+
+def test_a_program_without_answer_sets_has_no_optimum() -> None:
+    assert optimal_model(ground(["a. :- a. #minimize { 1 : a }."], {}, ())) is None
+
+
+def test_a_search_for_an_optimum_ends_with_the_time() -> None:
+    """So many pigeons that the least number without a hole of its own takes long to prove."""
+    pigeons = (
+        "1 { in(P,H) : H = 1..11 } 1 :- P = 1..14. #minimize { 1,P,Q : in(P,H), in(Q,H), P<Q }."
+    )
+    control = ground([pigeons], {}, ())
+    with time_limit(0.2), pytest.raises(TimeLimitError):
+        optimal_model(control)
+    with time_limit(60.0):
+        assert is_satisfiable(control)
