@@ -127,7 +127,7 @@ def _(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Refined:
         yield law, KEPT
         return
     renaming = Renaming(law, rewriting.vocabulary)
-    if any(renaming.is_whole(literal.atom) for literal in roles.literals(law.body)):
+    if renaming.is_about_wholes(law):
         for statement in _lifted(law, rewriting):
             yield statement, LIFTED
     else:

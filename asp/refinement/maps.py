@@ -122,62 +122,53 @@ class _Map:
 
     def unreachable(self, finer: Pairs, places: _Places) -> Found:
         """From each component of a whole one gets to each other without leaving the whole."""
+        back = frozenset((other, one) for one, other in finer)
         for whole in self._wholes():
             first, *others = self.vocabulary.components[whole]
-            inside = {first, *others}
-            onward = _reached(first, inside, finer)
-            back = _reached(first, inside, frozenset((b, a) for a, b in finer))
+            there, and_back = (_reached(first, {first, *others}, way) for way in (finer, back))
             for part in others:
-                if part not in onward:
-                    message = f"'{part}' cannot be reached from '{first}' inside '{whole}'"
-                    yield places.of(part), message
-                elif part not in back:
-                    message = f"'{first}' cannot be reached from '{part}' inside '{whole}'"
+                if part not in there & and_back:
+                    one, other = (part, first) if part not in there else (first, part)
+                    message = f"'{one}' cannot be reached from '{other}' inside '{whole}'"
                     yield places.of(part), message
 
     def unconnected(self, finer: Pairs, places: _Places) -> Found:
         """Where the coarse map has a way there is one between components."""
-        owner = self._owner()
-        ways = {(owner[a], owner[b]) for a, b in finer if a in owner and b in owner}
-        lost = self._lost(places)
-        wholes = self._wholes()
-        for one in wholes:
-            for other in wholes:
-                gone = (one, other) in self.coarse and (one, other) not in ways
-                twice = (other, one) in self.coarse - ways and wholes.index(other) < wholes.index(
-                    one
-                )
-                if gone and one != other and not twice and not lost & {one, other}:
-                    yield (
-                        places.of(one),
-                        f"{self.static}({one}, {other}), but no component of '{one}' is "
-                        f"{self._counterpart} to one of '{other}'",
-                    )
+        owner, lost = self._owner(), self._lost(places)
+        ways = {(owner[one], owner[other]) for one, other in finer}
+        missing = {(a, b) for a, b in self.coarse - ways if a != b and not lost & {a, b}}
+        for one, other in _once(missing, self._wholes()):
+            yield (
+                places.of(one),
+                f"{self.static}({one}, {other}), but no component of '{one}' is "
+                f"{self._counterpart} to one of '{other}'",
+            )
 
     def too_many(self, finer: Pairs, places: _Places) -> Found:
         """A way between components of two wholes that have none between them."""
-        owner = self._owner()
-        wrong = {
-            (one, other)
-            for one, other in finer
-            if owner[one] != owner[other] and (owner[one], owner[other]) not in self.coarse
-        }
-        for one, other in sorted(wrong):
-            stated = places.of_fact(self._counterpart, one, other)
-            back = (other, one) in wrong
-            if stated or not (
-                back and (other < one or places.of_fact(self._counterpart, other, one))
-            ):
-                yield (
-                    stated or places.of(one),
-                    f"{self._counterpart}({one}, {other}) leads from '{owner[one]}' to "
-                    f"'{owner[other]}', but {self.static}({owner[one]}, {owner[other]}) "
-                    "does not hold",
-                )
+        owner, static = self._owner(), self._counterpart
+        crossing = {(a, b): (owner[a], owner[b]) for a, b in finer if owner[a] != owner[b]}
+        wrong = {pair for pair, wholes in crossing.items() if wholes not in self.coarse}
+        stated = [pair for pair in sorted(wrong) if places.of_fact(static, *pair)]
+        order = [part for pair in stated for part in pair] + sorted(owner)
+        for one, other in _once(wrong, order):
+            whole, beyond = crossing[one, other]
+            yield (
+                places.of_fact(static, one, other) or places.of(one),
+                f"{static}({one}, {other}) leads from '{whole}' to '{beyond}', "
+                f"but {self.static}({whole}, {beyond}) does not hold",
+            )
 
     def _owner(self) -> Mapping[str, str]:
         components = self.vocabulary.components
         return {part: whole for whole in self._wholes() for part in components[whole]}
+
+
+def _once(pairs: set[tuple[str, str]], order: list[str]) -> list[tuple[str, str]]:
+    """The pairs in this order of their members, one of two that are each other turned round."""
+    rank = {name: number for number, name in reversed(list(enumerate(order)))}
+    ordered = sorted(pairs, key=lambda pair: (rank[pair[0]], rank[pair[1]]))
+    return [(a, b) for a, b in ordered if (b, a) not in pairs or rank[a] < rank[b]]
 
 
 def _reached(start: str, inside: set[str], steps: Pairs) -> set[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -125,15 +126,31 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     text = weak_text(coarse, fine, vocabulary, in_coarse)
     in_coarse.raise_first()
     weak = parse(text, f"{fine_file} (refined)")
-    weak_signature = signature_of(weak, Problems(weak.file))
+    weak_signature = _signature(weak, fine)
     _check_own(fine, weak_signature)
     _check_cycles(weak, weak_signature, fine)
     check_maps(fine, coarse, vocabulary, true_statics(weak, weak_signature), problems)
     tested = tested_fluents(fine, weak_signature, problems)
     problems.raise_first()
     strong = _with(weak, observation_text(fine, vocabulary, tested))
-    strong_signature = signature_of(strong, Problems(strong.file))
+    strong_signature = _signature(strong, fine)
     return Refinement(coarse, signature, vocabulary, weak, weak_signature, strong, strong_signature)
+
+
+def _signature(refined: syntax.Source, fine: syntax.Source) -> Signature:
+    """The signature of a refined description. Raises SourceError for a name that it cannot have.
+
+    The place is that of the first statement in the refinement's text that has the name.
+    """
+    problems = Problems(refined.file)
+    signature = signature_of(refined, problems)
+    for problem in problems:
+        name = next(iter(re.findall(r"'(\w+)'", problem.message)), "")
+        lines = enumerate(fine.text.split("\n"), start=1)
+        places = ((n, m.start() + 1) for n, t in lines for m in re.finditer(rf"\b{name}\b", t))
+        line, column = next(places, (1, 1))
+        raise SourceError(fine.file, line, column, problem.message)
+    return signature
 
 
 def _with(weak: syntax.Source, observation: str) -> syntax.Source:

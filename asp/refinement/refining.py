@@ -178,7 +178,7 @@ def _law_groups(laws: Sequence[Result]) -> Iterator[str]:
 
 
 def _bridges(vocabulary: Vocabulary) -> str:
-    """Bridge axioms (P 3.3, 15): a coarse fluent holds where its counterpart holds of components."""
+    """Bridge axioms, (15): a coarse fluent holds where its counterpart holds of components."""
     lines = [
         f"  {_bridge(name, vocabulary)}  % {name}"
         for name in vocabulary.counterparts

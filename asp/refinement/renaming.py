@@ -55,6 +55,26 @@ class Renaming:
             and any(map(self.is_magnified, atom.args))
         )
 
+    def is_about_wholes(self, law: syntax.ExecutabilityCondition) -> bool:
+        """Whether a condition is about some wholes and not others, which their components share.
+
+        It is where it names an attribute that stays as it is, a part of a magnified sort, or a
+        magnified constant.
+        """
+        sides = (t for c in roles.comparisons(law.body) for t in (c.left, c.right))
+        terms = (t for atom in (*law.actions, *_atoms(law)) for t in atom.args)
+        return any(self.is_whole(atom) or self._is_part(atom) for atom in _atoms(law)) or any(
+            self.is_magnified(t) and not t.is_variable for t in (*sides, *terms)
+        )
+
+    def _is_part(self, atom: syntax.Atom) -> bool:
+        """Whether the atom is a sort that has some of the constants of a magnified one only."""
+        sorts = self._vocabulary.coarse.sorts
+        return atom.name in sorts and any(
+            set(sorts[atom.name]) < set(sorts[magnified])
+            for magnified in self._vocabulary.magnified
+        )
+
     def atom(self, atom: syntax.Atom) -> syntax.Atom:
         """The counterpart of an atom that has one; another atom as it is, about the wholes."""
         if self.is_refined(atom):

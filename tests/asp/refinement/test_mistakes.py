@@ -161,6 +161,34 @@ class TestNames:
         (found,) = mistakes(FINE, coarse)
         assert found.endswith(f"the coarse description has a '{name}'; call it otherwise")
 
+    @pytest.mark.parametrize(
+        ("old", "new", "at", "message"),
+        [
+            ("room   into cell", "room   into step", "step", "means something else in programs"),
+            (
+                "object1_1, object1_2}",
+                "object1_1, not}",
+                "not}",
+                "means something else in programs",
+            ),
+            ("room   into cell", "room   into fine_loc", "fine_loc", "is used twice"),
+            ("room   into cell", "room   into outcome", "outcome", "is used twice"),
+        ],
+    )
+    def test_a_name_that_refined_descriptions_cannot_have(
+        self, old: str, new: str, at: str, message: str
+    ) -> None:
+        fine = changed(old, new)
+        before = fine[: fine.index(at)].split("\n")
+        (found,) = mistakes(fine)
+        assert found.startswith(f"{len(before)}:{len(before[-1]) + 1}: the name '")
+        assert message in found
+
+    def test_a_coarse_name_like_that_of_a_counterpart(self) -> None:
+        coarse = changed("  thing  = object", "  fine_thing = {it}.\n  thing  = object", COARSE)
+        (found,) = mistakes(FINE, coarse)
+        assert "the name 'fine_thing' is used twice" in found
+
     def test_several_mistakes_are_told_at_once_in_order(self) -> None:
         fine = changed("objekt1 = {", "objekt1 = {", FINE.replace("object1 =", "objekt1 ="))
         fine = changed("next_to. loc.", "next_too. loc.", fine)

@@ -171,6 +171,39 @@ class TestLocks:
         assert not any(fluent.startswith(("loc(", "in_hand(", "fine")) for _, fluent in shows)
 
 
+@pytest.mark.parametrize(
+    "condition",
+    [
+        "impossible move(R, L) if secure_room(L)",
+        "impossible move(R, L) if L = library",
+        "impossible move(R, library)",
+        "impossible move(R, L) if L != kitchen",
+        "impossible move(R, library) if loc(R, kitchen)",
+    ],
+)
+def test_a_condition_on_some_rooms_only_does_not_bind_inside_them(condition: str) -> None:
+    """The library cannot be entered; who is in it can go about in it, and leave it."""
+    text, *others = locked_texts()
+    coarse = text.replace("\nlaws\n", f"\nlaws\n  {condition}.\n")
+    world = World(parse_description(load(coarse, *others).weak.text))
+    inside, outside = (
+        world.state([f"fine_loc(rob1,{cell})", "fine_loc(cover,k1)"]) for cell in ("l1", "k2")
+    )
+    assert not world.executable(outside, ["fine_move(rob1,l1)"])
+    assert world.executable(inside, ["fine_move(rob1,l2)"])
+    assert world.executable(inside, ["fine_move(rob1,k2)"])
+
+
+def test_an_effect_that_depends_on_the_room_depends_on_the_cell_s_room() -> None:
+    text, *others = locked_texts()
+    laws = "move(R, L) causes locked(L) if L = library, loc(R, kitchen)."
+    coarse = text.replace("\nlaws\n", f"\nlaws\n  {laws}\n")
+    world = World(parse_description(load(coarse, *others).weak.text))
+    outside = world.state(["fine_loc(rob1,k2)", "fine_loc(cover,k1)"])
+    assert world.holds(world.successor(outside, ["fine_move(rob1,l1)"]), "locked(library)")
+    assert not world.holds(world.successor(outside, ["fine_move(rob1,k1)"]), "locked(library)")
+
+
 class TestEveryRefinement:
     @pytest.mark.parametrize("name", ["L1", "L2", "office", "tabletop"])
     @pytest.mark.parametrize("n", [0, 1, 2])

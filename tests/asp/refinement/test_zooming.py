@@ -22,6 +22,7 @@ from asp.refinement.zooming import (
     zoom_strong,
     zoom_weak,
 )
+from asp.restriction import restrict
 from asp.signature import Problems, Signature, signature_of
 from asp.translation import translate_source
 from testbed.environment.world import World
@@ -226,6 +227,22 @@ class TestZoomedDescriptions:
         for symbol, declaration in whole.symbols.items():
             written = all(zoomed.sorts.get(sort.name) for sort in declaration.sorts)
             assert (symbol in zoomed.symbols) == written
+
+    @given(questions())
+    @settings(max_examples=40, deadline=None)
+    def test_looking_facts_up_finds_those_that_a_restriction_of_all_leaves(
+        self, question: tuple[str, Transition, list[str]]
+    ) -> None:
+        domain, transition, goal = question
+        refinement = of(domain)
+        constants = relevant(refinement.coarse, transition, goal)
+        kept = constants | fine_constants(refinement, constants)
+        for zoom, source in ((zoom_weak, refinement.weak), (zoom_strong, refinement.strong)):
+            expected = restrict(source, refinement.constants - kept)
+            found = zoom(refinement, constants)
+            assert list(found.each(syntax.Fact)) == list(expected.each(syntax.Fact))
+            lines = [statement.place.line for statement in found.statements]
+            assert lines == sorted(lines)
 
     @given(questions())
     @settings(max_examples=30, deadline=None)
