@@ -213,7 +213,7 @@ class Core:
             effective=effective,
             event=None if event == NONE else event,
             after=after,
-            possible=lambda: self.events(robot_action),
+            possible=lambda other: self.legal(robot_action, other),
         )
         return self._news_desk.reports(played, self.rules.observability, self._generator)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from testbed.link.messages import Event
 class Played:
     """A step as it was played: the robot's part of the compound action, and the event, if any.
 
-    `possible` gives the events that might have been instead.
+    `possible` says whether an event might have been instead.
     """
 
     step: int
@@ -26,7 +27,7 @@ class Played:
     effective: tuple[str, ...]
     event: str | None
     after: int
-    possible: Callable[[], Iterable[str]]
+    possible: Callable[[str], bool]
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class News:
     ) -> Iterator[tuple[int, Event]]:
         """Each report with the step at which it reaches the robot."""
         told = [played.event] if self._is_told(played, rules, random) and played.event else []
-        for action in (*told, *_false_reports(played, rules, random)):
+        for action in (*told, *self._false_reports(played, rules, random)):
             late = rules[text.name(action)].delay
             yield played.step + 1 + late, Event(step=played.step, action=action)
 
@@ -62,13 +63,12 @@ class News:
         changed = frozenset(self.world.true_atoms(played.after ^ without))
         return any(self.execution.notices(s, changed) for s in (played.before, played.after))
 
-
-def _false_reports(
-    played: Played, rules: Mapping[str, Observability], random: np.random.Generator
-) -> Iterator[str]:
-    for name, how in rules.items():
-        if how.false_reports > 0.0 and random.random() < how.false_reports:
-            possible = (event for event in played.possible() if text.name(event) == name)
-            others = [other for other in possible if other != played.event]
-            if others:
-                yield others[int(random.integers(len(others)))]
+    def _false_reports(
+        self, played: Played, rules: Mapping[str, Observability], random: np.random.Generator
+    ) -> Iterator[str]:
+        for name, how in rules.items():
+            if how.false_reports > 0.0 and random.random() < how.false_reports:
+                kind = [e for e in self.world.exogenous_actions if text.name(e) == name]
+                others = [event for event in kind if event != played.event]
+                drawn = (others[int(number)] for number in random.permutation(len(others)))
+                yield from islice(filter(played.possible, drawn), 1)
