@@ -7,8 +7,9 @@ observation contradicts it; then the whole history is explained anew.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
+from agents.shared.assuming import assumed_in, events_of, happened_under, without_reported
 from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import PACE, Memory, record_of
@@ -17,7 +18,6 @@ from asp.kept.control import State
 from asp.kept.folding import Pace
 from asp.kept.pasts import Account, Assumed, Past, Record
 from asp.literals import atom, is_positive
-from testbed.link.messages import Event
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Believer:
         if history.late_news > self._late_news:
             self._late_news = history.late_news
             self._belief, self._fewest = None, (0, 0)
-            adopted = _without_reported(history, adopted)
+            adopted = without_reported(history, adopted)
         self._memory.fold(history)
         diagnosis, carried = adopted, self._carry(history, adopted)
         if carried is not None:
@@ -122,7 +122,7 @@ class Believer:
         step = belief.step
         record = record_of(self._knowledge, history.at(step))
         attempt = None if record.attempt is None else record.attempt[0]
-        events = _happened(record, adopted, step)
+        events = happened_under(record, adopted, step)
         if events and step < self._since:
             return None
         after = self._tools.transitions.after(belief.state, attempt, events)
@@ -135,7 +135,7 @@ class Believer:
         explanations, past = self._tools.explanations, self._memory.past(history)
         unknown = self._memory.unknown(history)
         if unknown:
-            account = explanations.keeping(past, _assumed(adopted))
+            account = explanations.keeping(past, assumed_in(adopted))
             if account is not None:
                 return self._adopt(account, history, unknown)
         folding = self._memory.folding
@@ -146,7 +146,7 @@ class Believer:
             self._belief = self._replay(history, diagnosis)
         else:
             diagnosis = self._adopt(account, history, unknown)
-        if _assumed(diagnosis) != _assumed(adopted):
+        if assumed_in(diagnosis) != assumed_in(adopted):
             self._fewest = (diagnosis.size, len(diagnosis.exceptions))
         return diagnosis
 
@@ -155,8 +155,8 @@ class Believer:
         self._belief = Belief(history.step, account.state, account.held)
         assumed = account.assumed
         return Diagnosis(
-            _events(assumed.events),
-            _events(assumed.distrusted),
+            events_of(assumed.events),
+            events_of(assumed.distrusted),
             tuple(sorted(assumed.exceptions)),
             tuple(sorted(f if f in account.initial else f"-{f}" for f in unknown)),
         )
@@ -178,7 +178,7 @@ class Believer:
     def _folded(self, adopted: Diagnosis) -> Belief | None:
         """The belief at the step up to which the history is folded, if that is remembered."""
         folding = self._memory.folding
-        found = folding.along(_assumed(adopted)) if folding else None
+        found = folding.along(assumed_in(adopted)) if folding else None
         return Belief(folding.step, *found) if folding and found else None
 
     def _next(self, belief: Belief, state: State) -> Belief:
@@ -201,29 +201,3 @@ class Believer:
             truth == (self.holds(state) if fluent == GOAL else fluent in state)
             for fluent, truth in moment.observed.items()
         )
-
-
-def _happened(record: Record, diagnosis: Diagnosis, step: int) -> tuple[str, ...]:
-    """The exogenous actions of a step, given an explanation."""
-    false = {report.action for report in diagnosis.distrusted if report.step == step}
-    unobserved = (event.action for event in diagnosis.unobserved if event.step == step)
-    return (*(event for event in record.reported if event not in false), *unobserved)
-
-
-def _without_reported(history: History, adopted: Diagnosis) -> Diagnosis:
-    """What is left to assume of an explanation where some of its events were reported since."""
-    unobserved = (e for e in adopted.unobserved if not history.at(e.step).happened.get(e.action))
-    return replace(adopted, unobserved=tuple(unobserved))
-
-
-def _assumed(diagnosis: Diagnosis) -> Assumed:
-    """An explanation without how it began."""
-    return Assumed(
-        tuple((event.step, event.action) for event in diagnosis.unobserved),
-        tuple((report.step, report.action) for report in diagnosis.distrusted),
-        diagnosis.exceptions,
-    )
-
-
-def _events(pairs: Iterable[tuple[int, str]]) -> tuple[Event, ...]:
-    return tuple(Event(step=step, action=action) for step, action in sorted(pairs))

@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from asp.kept.control import State
-from asp.kept.frontier import Frontier, steps
+from asp.kept.frontier import Frontier
 from asp.kept.pasts import Account, Assumed, Past, Record
+from asp.kept.prefixes import steps
 from asp.kept.transitions import Transitions
 from asp.kept.windows import MOST_ENTRIES, Windows
 

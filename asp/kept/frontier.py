@@ -4,58 +4,22 @@ Whatever is explained later is explained by one of these and by events after it:
 that lead to the same state only the smallest can belong to a smallest one of the whole, and of
 those that are equally small only the first in the order of `order.lp` to the first one. The states
 that take more than `limit` events are left out, so that a frontier knows all explanations of a
-history with at most so many.
+history with at most so many. Where the same events may lead to several states, the order does not
+say to which, and nothing is folded.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 
 from asp.kept.control import State
-from asp.kept.pasts import Assumed, Happening, Record
+from asp.kept.pasts import Record
+from asp.kept.prefixes import Prefix
 from asp.kept.transitions import Branch, Transitions
 from asp.literals import atom, is_positive
 
 REMEMBERED = 4_000
 _WORK_OF_A_STEP, _WORK_OF_A_CALL = 16, 2
-_INFINITE = float("inf")
-
-Steps = tuple[int, "Steps"] | None
-"""Steps as a chain, the last one first."""
-
-
-@dataclass(frozen=True)
-class Prefix:
-    """An explanation up to a step: its events and distrusted reports, the latest first.
-
-    `distrusts` and `assumes` are its place in the order of explanations that are as small, the
-    first part being compared with others before the second; `held` are the steps at which the goal
-    held.
-    """
-
-    events: tuple[Happening, ...] = ()
-    distrusted: tuple[Happening, ...] = ()
-    distrusts: tuple[tuple[float, ...], ...] = ()
-    assumes: tuple[tuple[float, ...], ...] = ((_INFINITE,),)
-    held: Steps = None
-
-    @property
-    def size(self) -> int:
-        """How many events and false reports it assumes (27)."""
-        return len(self.events) + len(self.distrusted)
-
-    @property
-    def order(self) -> tuple[object, ...]:
-        """Its place: reports are believed, the latest first; then events are late (`order.lp`)."""
-        return self.distrusts, self.assumes
-
-    def is_of(self, assumed: Assumed) -> bool:
-        """Whether it assumes these events and distrusts these reports."""
-        return sorted(self.events) == sorted(assumed.events) and (
-            sorted(self.distrusted) == sorted(assumed.distrusted)
-        )
-
 
 Entries = Mapping[State, Sequence[Prefix]]
 """Of each state the smallest explanations that lead there, in their order."""
@@ -188,36 +152,14 @@ class Frontier:
                 continue
             if there and there[0].size > size:
                 there.clear()
-            there += (self._extended(prefix, branch, reached) for prefix in prefixes)
-
-    def _extended(self, prefix: Prefix, branch: Branch, reached: bool) -> Prefix:
-        held = (self.step + 1, prefix.held) if reached else prefix.held
-        if not branch.size:
-            return replace(prefix, held=held) if reached else prefix
-        events, distrusted = (
-            sorted(names, key=self._places.__getitem__)
-            for names in (branch.events, branch.distrusted)
-        )
-        step, places = self.step, self._places
-        return Prefix(
-            (*((step, event) for event in events), *prefix.events),
-            (*((step, event) for event in distrusted), *prefix.distrusted),
-            (*((step, -places[event]) for event in distrusted), *prefix.distrusts),
-            (*((-step, places[event]) for event in events), *prefix.assumes),
-            held,
-        )
+            there += (
+                prefix.extended(branch, self.step, self._places, reached) for prefix in prefixes
+            )
 
     def _first(self, prefixes: list[Prefix]) -> Sequence[Prefix]:
         if len(prefixes) == 1:
             return prefixes
         return sorted(prefixes, key=lambda prefix: prefix.order)[: self._kept + 1]
-
-
-def steps(chain: Steps) -> Iterator[int]:
-    """The steps of a chain."""
-    while chain is not None:
-        step, chain = chain
-        yield step
 
 
 def _agrees(record: Record, state: State, reached: bool) -> bool:

@@ -10,11 +10,10 @@ import clingo
 from clingo import Symbol
 
 from asp.kept.control import KeptControl, State, goal_externals
-from asp.kept.frontier import Frontier, Prefix, steps
+from asp.kept.frontier import Frontier
 from asp.kept.pasts import (
     Account,
     Assumed,
-    Happening,
     Past,
     account,
     assumed,
@@ -22,6 +21,7 @@ from asp.kept.pasts import (
     is_true,
     observations,
 )
+from asp.kept.prefixes import Prefix, steps
 from asp.preferring import preferring
 from asp.solving import answer_sets, fact, theory
 
@@ -84,7 +84,7 @@ class Windows:
             (entry,) = (s.arguments[0].number for s in answer if s.name == "from")
             end = assumed(s for s in answer if s.name != "from")
             prefixes, left_off = frontier.told(question.entries[entry - 1][1])
-            found += (_joined(prefix, end, frontier.step) for prefix in prefixes)
+            found += (prefix.followed_by(end, frontier.step) for prefix in prefixes)
             more = more or left_off
         return found[:most], more or len(found) > most
 
@@ -152,7 +152,7 @@ class Windows:
             if is_true(model, kept.literal("from", number))
         )
         held = frozenset(first + step for step in end.held).union(steps(prefixes[0].held))
-        return Account(_joined(prefixes[0], end.assumed, first), frozenset(), end.state, held)
+        return Account(prefixes[0].followed_by(end.assumed, first), frozenset(), end.state, held)
 
     @property
     def _kept(self) -> KeptControl:
@@ -205,20 +205,6 @@ def _trust(question: _Question, model: clingo.Model, events: Sequence[str]) -> I
             literal = question.kept.literal("distrusted", event, step)
             if literal is not None:
                 yield literal if model.is_true(literal) else -literal
-
-
-def _joined(prefix: Prefix, end: Assumed, first: int) -> Assumed:
-    """An explanation up to a step, and one from there on."""
-    return Assumed(
-        _one_after_another(prefix.events, end.events, first),
-        _one_after_another(prefix.distrusted, end.distrusted, first),
-    )
-
-
-def _one_after_another(
-    before: Sequence[Happening], after: Sequence[Happening], first: int
-) -> tuple[Happening, ...]:
-    return (*sorted(before), *((first + step, event) for step, event in after))
 
 
 def _with_room(rank: Symbol) -> Symbol:
