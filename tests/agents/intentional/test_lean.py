@@ -1,0 +1,112 @@
+"""A robot decides the same without the constants that its goal does not need."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from msgspec import structs
+
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.lean import Leaned, LeanRobot
+from asp.levels import level_text
+from asp.loading import parse_description
+from testbed.environment.world import World
+from testbed.link.messages import Decision, Task
+from tests.agents.intentional.lives import OFFICE, Place, Wish, live
+
+SOURCE = level_text(3, 1, 2, ((4, 1),))[0]
+WORLD = World(parse_description(SOURCE, "level.al"))
+PLACE = Place("level", WORLD, SOURCE)
+STATES = list(WORLD.initial_states())
+GOALS = [
+    literal for fluent in WORLD.fluents if "object" in fluent for literal in (fluent, f"-{fluent}")
+]
+WISHES = st.dictionaries(
+    st.integers(1, 12), st.builds(Wish, st.integers(0, 60), st.booleans()), max_size=2
+)
+
+
+@given(st.sampled_from(STATES), st.lists(st.sampled_from(GOALS), min_size=1, max_size=2), WISHES)
+@settings(max_examples=60, deadline=None)
+def test_decisions_are_those_of_the_whole_task(
+    initial: int, goal: list[str], wishes: dict[int, Wish]
+) -> None:
+    whole = live(IntentionalRobot(), initial, goal, wishes, steps=20, where=PLACE)
+    lean = live(LeanRobot(IntentionalRobot()), initial, goal, wishes, steps=20, where=PLACE)
+    assert [_shown(d) for d in lean.decisions] == [_shown(d) for d in whole.decisions]
+
+
+def _shown(decision: Decision) -> tuple[object, ...]:
+    trace = decision.trace
+    return (
+        decision.action,
+        decision.believes_goal,
+        trace.mental,
+        trace.plan,
+        trace.explanation,
+        trace.futile_at,
+    )
+
+
+def _task(goal: list[str], true: list[str], place: Place = PLACE) -> Task:
+    state = place.world.state(true)
+    return Task(
+        trial="t",
+        robot="r",
+        domain=place.domain,
+        source=place.source,
+        goal=goal,
+        initial=list(place.world.literals(state)),
+        plan_limit=20,
+        seed=0,
+    )
+
+
+AT_HOME = [f"loc({thing},room1)" for thing in ("rob1", "object1", "object2", "object3", "object4")]
+
+
+def test_what_the_goal_does_not_name_is_left_out() -> None:
+    leaned = Leaned(_task(["loc(object3,room2)"], AT_HOME))
+    assert leaned.task.goal == ["loc(object1,room2)"]
+    assert parse_description(leaned.task.source).sorts["object"] == ("object1",)
+    assert leaned.back(["pickup(rob1,object1)"]) == ["pickup(rob1,object3)"]
+
+
+def test_what_the_robot_holds_is_kept() -> None:
+    leaned = Leaned(_task(["loc(object3,room2)"], [*AT_HOME, "in_hand(rob1,object4)"]))
+    assert leaned.seen(["loc(object3,room1)", "loc(object4,room1)", "loc(object1,room1)"]) == [
+        "loc(object1,room1)",
+        "loc(object2,room1)",
+    ]
+
+
+def test_what_may_be_in_the_hand_is_kept() -> None:
+    task = _task(["loc(object3,room2)"], AT_HOME)
+    known = [literal for literal in task.initial if "in_hand(rob1,object2)" not in literal]
+    leaned = Leaned(structs.replace(task, initial=known))
+    assert leaned.is_about("loc(object2,room1)")
+    assert not leaned.is_about("loc(object1,room1)")
+
+
+def test_tasks_that_differ_in_names_are_one() -> None:
+    one = Leaned(_task(["loc(object2,room2)"], AT_HOME)).task
+    other = Leaned(_task(["loc(object4,room2)"], AT_HOME)).task
+    assert one == other
+
+
+def test_nothing_is_left_out_where_others_can_put_it_in_the_way() -> None:
+    source = SOURCE + "\nactions\n  exogenous hand_over(robot, object).\n"
+    source += "laws\n  hand_over(R, O) causes in_hand(R, O).\n"
+    place = replace(PLACE, source=source, world=World(parse_description(source, "more.al")))
+    leaned = Leaned(_task(["loc(object3,room2)"], AT_HOME, place))
+    assert leaned.task.source == source
+
+
+@pytest.mark.parametrize("goal", ["loc(book1,library)", "in_hand(rob1,book2)"])
+def test_scenarios_and_costs_are_no_part_of_what_is_left(goal: str) -> None:
+    task = _task([goal], ["loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,office1)"], OFFICE)
+    assert "scenarios" in task.source
+    assert "scenarios" not in Leaned(task).task.source
