@@ -14,6 +14,7 @@ from functools import singledispatch
 from itertools import product
 
 from asp import roles, syntax
+from asp.refinement.effects import effects_of, key
 from asp.refinement.renaming import Renaming
 from asp.refinement.vocabulary import Vocabulary
 from asp.signature import Problems
@@ -139,7 +140,9 @@ def _refined_condition(
 ) -> syntax.ExecutabilityCondition:
     actions = tuple(map(renaming.atom, law.actions))
     effects = {
-        atom_text(head.atom) for action in law.actions for head, _ in effects_of(action, rewriting)
+        atom_text(head.atom)
+        for action in law.actions
+        for head, _ in effects_of(action, rewriting.coarse)
     }
     acted = {term.name for action in law.actions for term in action.args}
     body: list[syntax.Condition] = []
@@ -179,15 +182,15 @@ def _about_any_component(
 
 def _lifted(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Iterator[syntax.Statement]:
     """The condition as it is, for the fine actions that would bring about the coarse effects."""
-    effects = [effects_of(a, rewriting) for a in law.actions if rewriting.has_counterpart(a)]
-    given = set(map(_key, law.body))
+    effects = [effects_of(a, rewriting.coarse) for a in law.actions if rewriting.has_counterpart(a)]
+    given = set(map(key, law.body))
     for brought in product(*filter(None, effects)):
-        if any(_key(head) in given for head, _ in brought):
+        if any(key(head) in given for head, _ in brought):
             continue
         changes: list[syntax.Condition] = []
         for head, conditions in brought:
             changes += (replace(head, positive=not head.positive), *conditions)
-        body = (*(c for c in changes if _key(c) not in given), *law.body)
+        body = (*(c for c in changes if key(c) not in given), *law.body)
         renaming = Renaming(law, rewriting.vocabulary)
         actions = tuple(
             renaming.atom(action) if rewriting.has_counterpart(action) else action
@@ -197,59 +200,6 @@ def _lifted(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Iterato
             for term in literal.atom.args:
                 renaming.whole(term)
         yield replace(law, actions=actions, body=(*renaming.links(), *body))
-
-
-Effect = tuple[syntax.Literal, syntax.Body]
-
-
-def effects_of(action: syntax.Atom, rewriting: Rewriting) -> list[Effect]:
-    """What the coarse action causes and under which conditions, in the terms of this atom."""
-    found = []
-    for law in rewriting.coarse.each(syntax.CausalLaw):
-        terms = _matched(law.action, action)
-        if terms is not None:
-            head = replace(law.head, atom=_substituted(law.head.atom, terms))
-            found.append((head, tuple(_condition(part, terms) for part in law.body)))
-    return found
-
-
-def _matched(of_law: syntax.Atom, action: syntax.Atom) -> dict[str, syntax.Term] | None:
-    """The terms for the variables of a causal law's action that make it the given one."""
-    if of_law.name != action.name:
-        return None
-    terms: dict[str, syntax.Term] = {}
-    for variable, term in zip(of_law.args, action.args, strict=True):
-        if not variable.is_variable:
-            if not term.is_variable and term.name != variable.name:
-                return None
-        elif terms.setdefault(variable.name, term).name != term.name:
-            return None
-    return terms
-
-
-def _condition(part: syntax.Condition, terms: dict[str, syntax.Term]) -> syntax.Condition:
-    if isinstance(part, syntax.Literal):
-        return replace(part, atom=_substituted(part.atom, terms))
-    left, right = (_term(side, terms) for side in (part.left, part.right))
-    return replace(part, left=left, right=right)
-
-
-def _substituted(atom: syntax.Atom, terms: dict[str, syntax.Term]) -> syntax.Atom:
-    return replace(atom, args=tuple(_term(term, terms) for term in atom.args))
-
-
-def _term(term: syntax.Term, terms: dict[str, syntax.Term]) -> syntax.Term:
-    """The term for a variable of the action; another variable gets a name of the effect's own."""
-    if not term.is_variable:
-        return term
-    return terms.get(term.name, replace(term, name=f"{term.name}_"))
-
-
-def _key(part: syntax.Condition) -> str:
-    """The text of a condition: equal conditions stand at different places."""
-    if isinstance(part, syntax.Literal):
-        return ("" if part.positive else "-") + atom_text(part.atom)
-    return f"{part.left.name}{part.equal}{part.right.name}"
 
 
 @refined.register
