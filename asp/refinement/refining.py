@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from asp import roles, syntax
 from asp.refinement.declarations import declarations, section
-from asp.refinement.laws import KEPT, LIFTED, REFINED, Result, Rewriting
+from asp.refinement.laws import KEPT, LIFTED, REFINED, Result, refine
+from asp.refinement.rewriting import Rewriting
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 from asp.signature import Problems
 from asp.writing import text_of
@@ -26,7 +27,7 @@ def weak_text(
     Reports, with the place in the coarse text, each law that cannot be refined.
     """
     rewriting = Rewriting(vocabulary, coarse, shared_places(fine), problems)
-    results = [result for s in coarse.statements for result in rewriting.refine(s)]
+    results = [result for s in coarse.statements for result in refine(s, rewriting)]
     laws = [result for result in results if isinstance(result.statement, _LAWS)]
     sections = [
         _head(coarse, fine),
