@@ -1,0 +1,89 @@
+"""Trials in the fine world with the published statistics, and events at random."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from agents.adversary.base import AdversaryView
+from agents.adversary.random import Random
+from agents.intentional.refined import EitherRobot
+from asp.levels import LEVELS, level_text
+from asp.literals import complement
+from asp.refinement import load
+from testbed.environment.fine import RandomStart, fine_core, fine_world
+from testbed.environment.rules import Observability, Rules
+from testbed.environment.situation import Ending
+from testbed.link.messages import FineTrace, Task
+
+STATISTICS = {"fine_move": 0.85, "test_fine_loc": 0.9}
+TOLD = {"fine_exo_move": Observability("always")}
+
+
+def trial(name: str, seed: int, zooms: bool = True, told: bool = False) -> list[FineTrace]:
+    """Plays a trial to its end, which has to be an achieved goal."""
+    size = LEVELS[name]
+    coarse, fine = level_text(size.rooms, size.rows, size.columns, size.objects)
+    refinement = load(coarse, "level.al", fine, "level.fine")
+    world = fine_world(refinement)
+    random = np.random.default_rng(seed)
+    state = RandomStart(world, "rob1")(random)
+    true = frozenset(world.true_atoms(state))
+    sorts = refinement.coarse_signature.sorts
+    thing = str(random.choice(sorts["object"]))
+    rooms = [room for room in sorts["room"] if f"loc({thing},{room})" not in true]
+    goal = [f"loc({thing},{random.choice(rooms)})"]
+    rules = Rules(tuple(goal), steps=1500, observability=TOLD if told else {})
+    core = fine_core(refinement, rules, STATISTICS, initial=[state])
+    core.reset(seed=seed, trial="trial")
+    adversary = Random(world.exogenous_actions, 0.05)
+    adversary.reset(seed)
+    robot = EitherRobot(zooms=zooms)
+    robot.begin(
+        Task(
+            trial="trial",
+            robot="intentional",
+            domain="level",
+            source=coarse,
+            goal=goal,
+            initial=[f if f in true else complement(f) for f in refinement.description.fluents],
+            plan_limit=20,
+            seed=seed,
+            refinement=fine,
+            initial_fine=[f for f in sorted(true) if f.startswith("fine_") and "rob1" in f],
+        )
+    )
+    traces = []
+    while core.situation.ending is None:
+        decision = robot.act(core.percept)
+        assert decision.trace.fine is not None
+        traces.append(decision.trace.fine)
+        view = AdversaryView(
+            step=core.situation.step,
+            state=frozenset(world.true_atoms(core.situation.state)),
+            robot_action=decision.action,
+            legal=core.legal_events(decision.action),
+        )
+        core.advance(decision.action, adversary.act(view))
+    assert core.situation.ending is Ending.ACHIEVED
+    return traces
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("name", ["L1", "L2", "L3", "L4"])
+def test_the_goal_is_achieved(name: str, seed: int) -> None:
+    traces = trial(name, seed)
+    last = traces[-1]
+    assert last.plans <= last.actions <= len(traces)
+    assert last.actions + last.tests <= len(traces)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("name", ["L2", "L3"])
+def test_also_without_zooming(name: str, seed: int) -> None:
+    trial(name, seed, zooms=False)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_also_where_events_are_told(seed: int) -> None:
+    trial("L2", seed, told=True)
