@@ -22,6 +22,8 @@ class RandomStart:
         self._holding = holding
         groups = world.description.initially
         self._groups = sorted(groups, key=lambda some: robot not in text.arguments(some[0]))
+        bits = {fluent: 1 << number for number, fluent in enumerate(world.fluents)}
+        self._masks = [sum(bits[fluent] for fluent in some) for some in self._groups]
         placed = {fluent for some in groups for fluent in some}
         things = {text.arguments(some[0])[0] for some in groups if text.arguments(some[0])}
         self._relations = [
@@ -35,8 +37,8 @@ class RandomStart:
         state = self._world.bare()
         if self._relations and random.random() < self._holding:
             state = self._with(state, [self._relations[int(random.integers(len(self._relations)))]])
-        for some in self._groups:
-            if not any(self._world.holds(state, fluent) for fluent in some):
+        for some, mask in zip(self._groups, self._masks, strict=True):
+            if not state & mask:
                 order = random.permutation(len(some))
                 state = self._with(state, [some[int(number)] for number in order])
         return state
