@@ -64,12 +64,15 @@ def _tested(
     name: str, statements: list[TestsStatement], weak: Signature, problems: Problems
 ) -> Tested:
     sorts = tuple(sort.name for sort in weak.symbols[name].sorts)
-    forms = {(_robot_sort(s, weak), _own(s)): s for s in reversed(statements)}
-    (robot, own), _ = next(reversed(forms.items()))
-    for statement in list(forms.values())[:-1]:
-        problems.report(
-            statement.place, f"'{name}' is tested above by another kind of robot, or of another"
-        )
+    first, *others = statements
+    robot, own = _robot_sort(first, weak), _own(first)
+    for statement in others:
+        if (_robot_sort(statement, weak), _own(statement)) != (robot, own):
+            problems.report(
+                statement.place,
+                f"'{name}' is tested by another sort of robot, or another robot is meant, in line "
+                f"{first.place.line}; one fluent has one kind of test",
+            )
     return Tested(name, sorts, robot, own, tuple(statements))
 
 

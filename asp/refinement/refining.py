@@ -57,22 +57,17 @@ def shared_places(fine: syntax.Source) -> frozenset[tuple[str, int]]:
 
 
 def _shared_place(law: syntax.StateConstraint) -> tuple[str, int] | None:
-    body = list(roles.literals(law.body))
-    same = [part for part in body if part.atom.name == law.head.atom.name]
-    wholes = {
-        part.atom.args[0].name: part.atom.args[1].name
-        for part in body
-        if part.atom.name == COMPONENT
-    }
-    if len(same) != 1 or len(wholes) != 2 or len(law.body) != 3:
+    head, body = law.head.atom, list(roles.literals(law.body))
+    same = [part.atom for part in body if part.atom.name == head.name and part.positive]
+    wholes = {p.atom.args[0].name: p.atom.args[1].name for p in body if p.atom.name == COMPONENT}
+    if len(same) != 1 or len(wholes) != 2 or len(body) != 3 or not law.head.positive:
         return None
-    pairs = zip(law.head.atom.args, same[0].atom.args, strict=False)
-    differ = [(place, a.name, b.name) for place, (a, b) in enumerate(pairs) if a.name != b.name]
-    if len(differ) != 1 or not law.head.positive or not same[0].positive:
+    pairs = enumerate(zip(head.args, same[0].args, strict=True))
+    differ = [(place, {a.name, b.name}) for place, (a, b) in pairs if a.name != b.name]
+    if len(differ) != 1 or differ[0][1] != set(wholes) or len(set(wholes.values())) != 1:
         return None
-    ((place, one, other),) = differ
-    known = one in wholes and other in wholes and wholes[one] == wholes[other]
-    return (law.head.atom.name, place) if known else None
+    compared = ({c.left.name, c.right.name} for c in roles.comparisons(law.body))
+    return (head.name, differ[0][0]) if all(names == set(wholes) for names in compared) else None
 
 
 def _head(coarse: syntax.Source, fine: syntax.Source) -> str:

@@ -10,9 +10,11 @@ from pathlib import Path
 import pytest
 
 from asp import parse_description
-from asp.levels import LevelSize
+from asp.levels import LevelSize, level_text
 from asp.loading import analyse
 from asp.refinement import Refinement, load, load_refinement
+from asp.refinement.language import parse_fine
+from asp.refinement.refining import shared_places
 from asp.translation import translate_source
 from testbed.environment.world import World
 from tests.asp.diagrams import warnings_of
@@ -237,6 +239,48 @@ def of(name: str) -> Refinement:
     if name.startswith("L"):
         return level(name)
     return load_refinement("office.fine" if name == "office" else str(HERE / f"{name}.fine"))
+
+
+@pytest.mark.parametrize(
+    ("law", "shared"),
+    [
+        ("fine_loc(P1, C) if fine_loc(P2, C), component(P1, O), component(P2, O)", True),
+        ("fine_loc(P1, C) if component(P2, O), P1 != P2, component(P1, O), fine_loc(P2, C)", True),
+        (
+            "fine_loc(P1, C) if fine_loc(P2, C), component(P1, O), component(P2, O), room(room1)",
+            False,
+        ),
+        (
+            "fine_loc(P1, C1) if fine_loc(P2, C2), component(P1, O), component(P2, O), C1 = C2",
+            False,
+        ),
+        ("fine_loc(P1, C) if fine_loc(P2, C), component(P1, O1), component(P2, O2)", False),
+        (
+            "-fine_loc(P1, C) if fine_loc(P2, C), component(P1, O), component(P2, O), P1 != P2",
+            False,
+        ),
+        ("fine_loc(P1, C) if -fine_loc(P2, C), component(P1, O), component(P2, O)", False),
+        (
+            "fine_loc(P1, C) if fine_loc(P2, C), component(P1, O), component(P2, O), C = room1_1",
+            False,
+        ),
+    ],
+)
+def test_which_laws_say_that_components_share_a_fluent(law: str, shared: bool) -> None:
+    found = shared_places(parse_fine(f"laws\n  {law}.\n"))
+    assert found == (frozenset({("fine_loc", 0)}) if shared else frozenset())
+
+
+def test_where_parts_need_not_stay_together_any_of_them_counts() -> None:
+    text = level_text(2, 1, 2, ((1, 2),))
+    fine = re.sub(r"^  fine_loc\(P1.*\n", "", text[1], flags=re.MULTILINE)
+    refined = load(text[0], "c.al", fine, "x.fine")
+    law = (
+        "impossible fine_pickup(R, P) if fine_loc(R, C1), fine_loc(P1, C2), C1 != C2, "
+        "component(P, O), component(P1, O)."
+    )
+    assert law in refined.weak.text
+    assert "Y_1" not in refined.strong.text
 
 
 def test_a_fine_literal_says_what_follows_at_the_coarse_resolution() -> None:
