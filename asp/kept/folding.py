@@ -26,7 +26,7 @@ class Pace:
     lag: int = 12
     margin: int = 2
     most: int = MOST_ENTRIES
-    kept: int = 6
+    kept: int = 3
     work: int = 48
 
 

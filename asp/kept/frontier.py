@@ -140,11 +140,15 @@ class Frontier:
         following: Record,
     ) -> None:
         """Adds what the explanations of a state lead to with each of its branches."""
+        true = frozenset(filter(is_positive, following.observed))
+        false = frozenset(map(atom, following.observed)) - true
         for branch in branches:
             if record.attempt is not None and record.attempt[1] != branch.took_effect:
                 continue
+            if not (true <= branch.state and false.isdisjoint(branch.state)):
+                continue
             reached = self._holds(branch.state)
-            if not _agrees(following, branch.state, reached):
+            if following.goal not in (None, reached):
                 continue
             size = prefixes[0].size + branch.size
             there = found.setdefault(branch.state, [])
@@ -160,13 +164,6 @@ class Frontier:
         if len(prefixes) == 1:
             return prefixes
         return sorted(prefixes, key=lambda prefix: prefix.order)[: self._kept + 1]
-
-
-def _agrees(record: Record, state: State, reached: bool) -> bool:
-    """Whether what was observed at a step is so in a state."""
-    return record.goal in (None, reached) and all(
-        (atom(literal) in state) == is_positive(literal) for literal in record.observed
-    )
 
 
 def _is_deterministic(branches: Sequence[Branch]) -> bool:

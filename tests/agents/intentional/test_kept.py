@@ -13,6 +13,8 @@ from agents.intentional.logician import Logician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
+from agents.shared.memory import PACE
+from asp.kept.folding import Pace
 from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
@@ -26,8 +28,10 @@ from tests.agents.intentional.lives import (
 class Both:
     """Reasons in both ways, and insists that they agree."""
 
+    pace = PACE
+
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        self._kept = KeptLogician(knowledge, goal, plan_limit)
+        self._kept = KeptLogician(knowledge, goal, plan_limit, self.pace)
         self._plain = Logician(knowledge, goal, plan_limit)
 
     def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
@@ -43,6 +47,12 @@ class Both:
         return kept
 
 
+class BothFolded(Both):
+    """The kept way folds its past after a few steps already."""
+
+    pace = Pace(after=4, lag=3, margin=1, work=400)
+
+
 wishes = st.dictionaries(
     st.integers(1, 25),
     st.builds(Wish, st.integers(0, 8), st.booleans(), st.booleans(), st.integers(0, 3)),
@@ -54,6 +64,12 @@ wishes = st.dictionaries(
 @given(initial=st.sampled_from(STATES), wishes=wishes)
 def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wish]) -> None:
     live(IntentionalRobot(Both), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
+
+
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(initial=st.sampled_from(STATES), wishes=wishes)
+def test_whatever_is_folded(initial: int, wishes: dict[int, Wish]) -> None:
+    live(IntentionalRobot(BothFolded), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
 
 
 @settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
