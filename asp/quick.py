@@ -34,6 +34,7 @@ class Quick:
         remembering = lru_cache(_REMEMBERED)
         self._alike = remembering(self._find_alike)
         self._parts = remembering(self._find_parts)
+        self.groups = remembering(self._find_groups)
         self._variables = remembering(self._find_variables)
         self._values = lru_cache(1)(self._find_values)
 
@@ -59,7 +60,7 @@ class Quick:
 
     def is_false(self, known: Known, fluent: str) -> bool:
         """Whether an inertial fluent is known to be false."""
-        if any(place in known.false for place in self._alike(fluent)):
+        if not known.false.isdisjoint(self._alike(fluent)):
             return True
         values = self._values(known.true)
         return any(values.get(key, own) != own for key, own in self._variables(fluent))
@@ -77,11 +78,17 @@ class Quick:
             if fluent in true or all(self.is_false(known, part) for part in self._parts(fluent))
         )
 
-    def variable(self, fluent: str) -> tuple[str, ...]:
-        """What the fluent is a value of: itself without the places that have one value at most."""
-        places = self._laws.single.get(name(fluent), ())
-        args = arguments(fluent)
-        return (name(fluent), *(arg for place, arg in enumerate(args) if place not in places))
+    def _find_groups(self, coarse: str) -> tuple[tuple[str, ...], ...]:
+        """The fluents that make a coarse one true, by what they are values of.
+
+        That is a fluent without the places in which it has one value at most.
+        """
+        groups: dict[tuple[str, ...], list[str]] = {}
+        for (fluent,) in self._refinement.counterpart(coarse):
+            places = self._laws.single.get(name(fluent), ())
+            rest = (arg for place, arg in enumerate(arguments(fluent)) if place not in places)
+            groups.setdefault(tuple(rest), []).append(fluent)
+        return tuple(map(tuple, groups.values()))
 
     def _find_alike(self, fluent: str) -> tuple[str, ...]:
         """The fluents that are true exactly if this one is: those of other components."""

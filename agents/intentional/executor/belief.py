@@ -68,20 +68,15 @@ class FineBelief:
         inferred = self._theory.infer(self.known, [], about).coarse
         return frozenset(literal for literal in inferred if atom(literal) in fluents)
 
-    def candidates(self, literal: str) -> tuple[tuple[str, ...], ...]:
-        """Groups of fluents one of each of which is true, nobody knows which, if the literal is.
+    def candidates(self, fluent: str) -> tuple[tuple[str, ...], ...]:
+        """Groups of fluents one of each of which is true, nobody knows which, if a coarse one is.
 
         One group for each component that has a fluent of its own; none where one is known.
         """
-        fluents = [group[0] for group in self._refinement.counterpart(literal) if len(group) == 1]
-        if not self.known.true.isdisjoint(fluents):
+        groups = self._quick.groups(fluent)
+        if any(not self.known.true.isdisjoint(group) for group in groups):
             return ()
-        groups: dict[tuple[str, ...], list[str]] = {}
-        for fluent in fluents:
-            group = groups.setdefault(self._quick.variable(fluent), [])
-            if not self.is_false(fluent):
-                group.append(fluent)
-        return tuple(map(tuple, groups.values()))
+        return tuple(tuple(f for f in group if not self.is_false(f)) for group in groups)
 
     def adapt(
         self, before: Collection[str], now: Collection[str], fluents: Collection[str]

@@ -48,10 +48,14 @@ class Tests:
             for law in refinement.strong.each(syntax.CausalLaw)
             if law.action.name.startswith(_TEST) and law.head.atom.args[-1].name == TRUE
         }
-        self._abilities = [
-            (law, self._tests[law.head.atom.name.removeprefix(_CAN_TEST)])
+        abilities = (
+            law
             for law in refinement.strong.each(syntax.StateConstraint)
             if law.head.atom.name.startswith(_CAN_TEST)
+        )
+        self._abilities = [
+            (law, variable_domains(law, self._signature), self._tests[_tested(law)])
+            for law in abilities
         ]
 
     def of(self, fluent: str) -> str | None:
@@ -68,8 +72,8 @@ class Tests:
 
         What is about the robot itself is left out: that it knows by its own actions.
         """
-        for ability, test in self._abilities:
-            for can_test in self._instances(ability, true, things):
+        for ability, domains, test in self._abilities:
+            for can_test in self._instances(ability, domains, true, things):
                 names = [term.name for term in test.action.args]
                 fluent = _instance(
                     _fluent(test), dict(zip(names, arguments(can_test), strict=True))
@@ -78,10 +82,13 @@ class Tests:
                     yield fluent
 
     def _instances(
-        self, law: syntax.StateConstraint, true: Collection[str], things: Collection[str]
+        self,
+        law: syntax.StateConstraint,
+        domains: Mapping[str, tuple[str, ...]],
+        true: Collection[str],
+        things: Collection[str],
     ) -> Iterator[str]:
         """The instances of what a law says can be tested; what nothing binds is a thing."""
-        domains = variable_domains(law, self._signature)
         robot = law.head.atom.args[0]
         given = {robot.name: self._robot} if robot.is_variable else {}
         for binding in _matches(law.body, given, true, self._signature):
@@ -89,6 +96,10 @@ class Tests:
             choices = ([m for m in domains[v] if m in things] for v in free)
             for values in product(*choices):
                 yield _instance(law.head.atom, {**binding, **dict(zip(free, values, strict=True))})
+
+
+def _tested(law: syntax.StateConstraint) -> str:
+    return law.head.atom.name.removeprefix(_CAN_TEST)
 
 
 def _fluent(law: syntax.CausalLaw) -> syntax.Atom:
