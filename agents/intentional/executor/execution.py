@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
+from functools import cache
 
 from agents.intentional.executor.mind import Mind
 from asp.literals import arguments, atom, complement, is_positive
+from asp.refinement import Refinement
 from asp.refinement.zooming import Transition, fine_goal, relevant
 from asp.solving import OUT_OF_TIME, TimeLimitError
 from testbed.link.messages import Percept
@@ -180,13 +182,19 @@ class Execution:
         return plan
 
     def _candidates(self) -> tuple[tuple[str, ...], ...]:
-        """Where the things that the action is about may be, by the coarse belief."""
+        """Where the things that the action is about may be, by the coarse belief.
+
+        A fluent that is known to be false by now stands in the way of an action that depends on it,
+        and of no other: to go to a room a robot need not find there what it expected.
+        """
         about = frozenset(arguments(self.action))
+        needed = _conditions(self._mind.refinement).get(self.action, frozenset())
         return tuple(
             group
             for fluent in sorted(self._before)
             if self._mind.is_magnified(fluent) and not about.isdisjoint(arguments(fluent))
             for group in self._mind.belief.candidates(fluent)
+            if group or fluent in needed
         )
 
     def _is_done(self) -> bool:
@@ -243,3 +251,13 @@ class Execution:
         wholes = self._mind.refinement.wholes
         named = {wholes.get(c, c) for literal in literals for c in arguments(literal)}
         return named - {self._mind.coarse.robot}
+
+
+@cache
+def _conditions(refinement: Refinement) -> Mapping[str, frozenset[str]]:
+    """The fluents on which it depends whether a coarse action is possible."""
+    found: dict[str, frozenset[str]] = {}
+    for law in refinement.description.executability:
+        for action in law.actions:
+            found[action] = found.get(action, frozenset()).union(map(atom, law.body))
+    return found
