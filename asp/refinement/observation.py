@@ -65,13 +65,14 @@ def _tested(
 ) -> Tested:
     sorts = tuple(sort.name for sort in weak.symbols[name].sorts)
     first, *others = statements
-    robot, own = _robot_sort(first, weak), _own(first)
+    robot = _robot_sort(first, weak)
+    own = frozenset.intersection(*map(_own, statements))
     for statement in others:
-        if (_robot_sort(statement, weak), _own(statement)) != (robot, own):
+        if _robot_sort(statement, weak) != robot:
             problems.report(
                 statement.place,
-                f"'{name}' is tested by another sort of robot, or another robot is meant, in line "
-                f"{first.place.line}; one fluent has one kind of test",
+                f"'{name}' is tested by another sort of robot than in line {first.place.line}, "
+                f"which is '{robot}'",
             )
     return Tested(name, sorts, robot, own, tuple(statements))
 

@@ -141,10 +141,12 @@ class TestNames:
         found = mistakes(fine)
         assert f"{place(at, fine)}: {message}" in found
 
-    def test_one_fluent_tested_in_two_ways(self) -> None:
-        fine = FINE + "  R1 tests fine_in_hand(R2, P) if robot(R1).\n"
-        (found,) = mistakes(fine)
-        assert found.startswith(f"{place('R1 tests', fine)}: 'fine_in_hand' is tested by another")
+    def test_one_fluent_tested_by_two_sorts_of_robots(self) -> None:
+        fine = FINE + "  O tests fine_in_hand(R, P) if object(O).\n"
+        assert mistakes(fine) == [
+            f"{place('O tests', fine)}: 'fine_in_hand' is tested by another sort of robot than in "
+            "line 32, which is 'robot'"
+        ]
 
     def test_a_magnified_sort_without_components(self) -> None:
         fine = changed("  object1 = {object1_1, object1_2}.\n", "")

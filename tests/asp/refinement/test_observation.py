@@ -8,7 +8,7 @@ from functools import cache
 import pytest
 
 from asp import parse_description
-from asp.levels import LevelSize
+from asp.levels import LevelSize, level_text
 from asp.refinement import load
 from asp.translation import translate
 from testbed.environment.world import World
@@ -185,6 +185,18 @@ def test_without_one_of_the_axioms_a_claim_fails(head: str, broken: int) -> None
     lines = STRONG.split("\n")
     (removed,) = [line for line in lines if line.strip().startswith(head)]
     assert not CLAIMS[broken]("\n".join(line for line in lines if line != removed))
+
+
+def test_one_fluent_may_be_testable_for_several_reasons() -> None:
+    """Here a robot can also test where it is itself, in whatever cell it is."""
+    coarse, fine = level_text(2, 1, 2, ((1, 2),))
+    text = load(
+        coarse, "c.al", f"{fine}  R tests fine_loc(R, C) if robot(R).\n", "x.fine"
+    ).strong.text
+    own = "test_fine_loc(rob1,rob1,room2_1)"
+    assert outcome(STRONG, AT_HOME, own) is None
+    assert "observed_fine_loc(rob1,rob1,room2_1,false)" in knows(text, AT_HOME, own)
+    assert all(claim(text) for claim in CLAIMS)
 
 
 class TestConditionsOnCoarseAttributes:
