@@ -3,9 +3,11 @@
 Of a state that is closed under the constraints nothing changes but what the new literals reach.
 `touched` is a superset of that: it is closed under every constraint that fires when the new
 literals, everything they may derive, and everything that was true are all taken for possible, and
-under the loss of whatever a defined fluent may have been derived from. All other atoms keep their
-value in every outcome, so that they can be evaluated away, and the outcomes are the models of a
-problem over the touched atoms alone, which the closure of ground rules finds as in a small world.
+under the loss of whatever a defined fluent may have been derived from. A defined fluent that may
+fall by its own falling alone (`Laws.wavering`) is taken for possibly false from the start. All other
+atoms keep their value in every outcome, so that they can be evaluated away, and the outcomes are the
+models of a problem over the touched atoms alone, which the closure of ground rules finds as in a small
+world.
 """
 
 from __future__ import annotations
@@ -42,7 +44,8 @@ class Change:
         self._laws, self._defined, self._facts = laws, defined, facts
         self._given = tuple(literals)
         self._possible = Possibilities(facts)
-        self._spread([*self._given, *seeds])
+        falling = ((atom, False) for name in laws.wavering for atom in facts.named(name))
+        self._spread([*self._given, *seeds, *falling])
         self.touched = self._possible.touched
         self._numbers = {atom: number for number, atom in enumerate(self.touched)}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from asp import syntax
@@ -51,6 +51,7 @@ class Pattern:
             self._unify.append(scope.unifier(template, bound))
             bound |= template.slots
         self._head = head
+        self.head_name = "" if head is None else head.atom.name
         self._fluents = [c for c in body if isinstance(c, Membership) and not c.static]
         wanted = frozenset().union(*(c.slots for c in [*body, *([head] if head else [])]))
         self._search = scope.join(conditions, bound, wanted)
@@ -127,6 +128,8 @@ class Laws:
         for constraint in source.each(syntax.StateConstraint):
             if signature.symbols[constraint.head.atom.name].kind != "static":
                 self._add_constraint(constraint)
+        self.wavering = self._wavering()
+        """The defined fluents that may fall by nothing but their own falling."""
 
     def _add_effect(self, law: syntax.CausalLaw) -> None:
         read = Reader(law, self._signature, self._statics)
@@ -165,6 +168,37 @@ class Laws:
         self.constraints.append(anywhere)
         if not any(c.positive for c in fluents):
             self.groundless.append(anywhere)
+
+    def _wavering(self) -> frozenset[str]:
+        """Those whose negation derives, by their names, what takes their derivation away.
+
+        With `d if f` and `-f if -d` both values of d and f are outcomes of doing nothing.
+        """
+        after: dict[tuple[str, bool], set[tuple[str, bool]]] = defaultdict(set)
+        for literal, patterns in self.consequences.items():
+            after[literal] |= {(pattern.head_name, sign) for sign, pattern in patterns}
+        first = {literal: frozenset(heads) for literal, heads in after.items()}
+        for (name, positive), defining in self.grounds.items():
+            after[name, not positive] |= {(pattern.head_name, False) for pattern in defining}
+        defined = (n for n, symbol in self._signature.symbols.items() if symbol.kind == "defined")
+        return frozenset(
+            name
+            for name in defined
+            if (name, False) in _reached(first.get((name, False), ()), after)
+        )
+
+
+def _reached(
+    starts: Iterable[tuple[str, bool]], after: Mapping[tuple[str, bool], set[tuple[str, bool]]]
+) -> set[tuple[str, bool]]:
+    found: set[tuple[str, bool]] = set()
+    stack = list(starts)
+    while stack:
+        literal = stack.pop()
+        if literal not in found:
+            found.add(literal)
+            stack += after.get(literal, ())
+    return found
 
 
 class Reader:

@@ -84,6 +84,11 @@ PLACES = [
 EVERYWHERE = ["e(X) causes at(Y, Z) if -near(Y, Z).", "on(X) if -lit(X), -at(Y, X)."]
 
 
+# Nothing has to happen for lit and on to fall together.
+WAVERING = ["lit(X) if on(X).", "-on(X) if -lit(X).", "e(X) causes on(X)."]
+
+
+@example(WAVERING)
 @example(PLACES)
 @example(EVERYWHERE)
 @settings(max_examples=60, deadline=None)
@@ -92,6 +97,8 @@ def test_laws_with_variables(drawn: list[str]) -> None:
     agree(HEADER + "\n".join(f"  {law}" for law in drawn) + "\n" + FOOTER)
 
 
+@example(["q if f.", "-f if -q."])
+@example(["p if f.", "q if p.", "k if -q.", "-f if k.", "a causes g."])
 @example(UNDETERMINED)
 @example(CLOSED_WORLD)
 @example(TOGETHER)
