@@ -50,13 +50,12 @@ class Leaned:
     """
 
     def __init__(self, task: Task) -> None:
-        with standing_still():
-            classes = _independence(task.source, task.domain).classes
-            kept = _needed(task)
-            self._there = _names(classes, kept)
-            left = frozenset(self._there.values())
-            members = frozenset(constant for each in classes for constant in each)
-            source = _without(task.source, task.domain, members - left)
+        classes = _independence(task.source, task.domain).classes
+        kept = _needed(task)
+        self._there = _names(classes, kept)
+        left = frozenset(self._there.values())
+        members = frozenset(constant for each in classes for constant in each)
+        source = _without(task.source, task.domain, members - left)
         self._gone = members - kept
         self._back = {new: old for old, new in self._there.items()}
         self.task = structs.replace(
@@ -116,7 +115,8 @@ class LeanRobot:
 @lru_cache(maxsize=16)
 def _independence(source: str, domain: str) -> Independence:
     file = f"{domain}.al"
-    return Independence(parse_description(source, file), *analyse(source, file))
+    with standing_still():
+        return Independence(parse_description(source, file), *analyse(source, file))
 
 
 def _needed(task: Task) -> frozenset[str]:
@@ -124,7 +124,7 @@ def _needed(task: Task) -> frozenset[str]:
     independence = _independence(task.source, task.domain)
     description = parse_description(task.source, f"{task.domain}.al")
     members = frozenset(constant for each in independence.classes for constant in each)
-    if description.defaults or _may_hinder(description, independence.candidates):
+    if not _may_leave_out(task.source, task.domain):
         return members
     known = frozenset(map(atom, task.initial))
     possible = {literal for literal in task.initial if is_positive(literal)}
@@ -133,6 +133,15 @@ def _needed(task: Task) -> frozenset[str]:
     spare -= {constant for literal in task.goal for constant in arguments(literal)}
     firsts = (each[0] for each in independence.classes if spare.issuperset(each))
     return (members - spare) | frozenset(firsts)
+
+
+@lru_cache(maxsize=16)
+def _may_leave_out(source: str, domain: str) -> bool:
+    """Whether anything of a domain may be left out."""
+    with standing_still():
+        description = parse_description(source, f"{domain}.al")
+        candidates = _independence(source, domain).candidates
+        return not description.defaults and not _may_hinder(description, candidates)
 
 
 def _may_hinder(description: Description, candidates: Collection[str]) -> bool:
@@ -164,9 +173,10 @@ def _without(text: str, domain: str, dropped: frozenset[str]) -> str:
     """The AL_d text without some constants, and without what says nothing of the diagram."""
     if not dropped:
         return text
-    source = restrict(analyse(text, f"{domain}.al")[0], dropped)
-    spoken = (s for s in source.statements if not isinstance(s, _SILENT))
-    return "".join(f"{_section(s)}\n  {text_of(s)}\n" for s in spoken)
+    with standing_still():
+        source = restrict(analyse(text, f"{domain}.al")[0], dropped)
+        spoken = (s for s in source.statements if not isinstance(s, _SILENT))
+        return "".join(f"{_section(s)}\n  {text_of(s)}\n" for s in spoken)
 
 
 def _section(statement: syntax.Statement) -> str:

@@ -13,7 +13,7 @@ from agents.intentional.executor.execution import Execution, Steps
 from agents.intentional.executor.mind import Mind
 from agents.intentional.executor.report import Outcome, Reporter
 from agents.intentional.lean import LeanRobot
-from asp.kept.clock import standing_still
+from asp.kept.clock import reasoning_clock, standing_still
 from asp.literals import is_positive
 from asp.refinement import load
 from asp.solving import time_limit
@@ -36,6 +36,7 @@ class RefinedRobot:
 
     def begin(self, task: Task) -> None:
         """Takes the task on. Raises SourceError for its texts."""
+        began = reasoning_clock()
         with standing_still():
             file = f"{task.domain}.al"
             refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
@@ -51,6 +52,7 @@ class RefinedRobot:
         self._execution: Execution | None = None
         self._steps: Steps | None = None
         self._outcome: Outcome | None = None
+        self._mind.tally.prepared(reasoning_clock() - began)
 
     def act(self, percept: Percept) -> Decision:
         """The next concrete action. Raises InconsistentHistoryError."""

@@ -20,10 +20,11 @@ def reasoning_clock() -> float:
 
 @contextmanager
 def standing_still() -> Iterator[None]:
-    """The clock stands still inside."""
+    """The clock stands still inside, however often this is nested."""
     global _stood_still
-    began = time.perf_counter()
+    began, before = time.perf_counter(), _stood_still
     try:
         yield
     finally:
-        _stood_still += time.perf_counter() - began
+        # What was spent inside another one is part of it.
+        _stood_still = before + time.perf_counter() - began

@@ -13,3 +13,10 @@ def test_the_clock_goes_with_the_time_and_stands_still_inside() -> None:
     passed = time.perf_counter() - began
     counted = reasoning_clock() - clock
     assert 0.02 <= counted <= passed - 0.05
+
+
+def test_nested_it_stands_still_once() -> None:
+    before = reasoning_clock()
+    with standing_still(), standing_still():
+        time.sleep(0.02)
+    assert reasoning_clock() >= before

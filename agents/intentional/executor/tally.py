@@ -60,6 +60,11 @@ class Tally:
     def failed(self, what: str) -> None:
         self._now = structs.replace(self._now, failed=what)
 
+    def prepared(self, seconds: float) -> None:
+        """So long it took to begin with the trial; it counts as planning."""
+        total = self._now.planning_time_s + seconds
+        self._now = structs.replace(self._now, planning_time_s=total)
+
     @contextmanager
     def planning(self) -> Iterator[None]:
         """The time inside is one of planning."""
@@ -67,9 +72,7 @@ class Tally:
         try:
             yield
         finally:
-            spent = reasoning_clock() - began
-            total = self._now.planning_time_s + spent
-            self._now = structs.replace(self._now, planning_time_s=total)
+            self.prepared(reasoning_clock() - began)
 
     @contextmanager
     def inferring(self) -> Iterator[None]:
