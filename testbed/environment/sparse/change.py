@@ -4,10 +4,10 @@ Of a state that is closed under the constraints nothing changes but what the new
 `touched` is a superset of that: it is closed under every constraint that fires when the new
 literals, everything they may derive, and everything that was true are all taken for possible, and
 under the loss of whatever a defined fluent may have been derived from. A defined fluent that may
-fall by its own falling alone (`Laws.wavering`) is taken for possibly false from the start. All other
-atoms keep their value in every outcome, so that they can be evaluated away, and the outcomes are the
-models of a problem over the touched atoms alone, which the closure of ground rules finds as in a small
-world.
+fall by its own falling alone (`Laws.wavering`) is taken for possibly false from the start. All
+other atoms keep their value in every outcome, so that they can be evaluated away, and the
+outcomes are the models of a problem over the touched atoms alone, which the closure of ground
+rules finds as in a small world.
 """
 
 from __future__ import annotations
