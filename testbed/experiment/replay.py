@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from asp.spelling import suggestion
+from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import TrialRecord, logical
@@ -27,13 +28,24 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
         StoreError: for a folder without a run, or an id that is not one of its trials.
         ConfigError: where the stored configuration is not valid any more.
     """
-    spec = find_trial(plan_trials(read_config(folder)), trial)
+    spec = find_trial(plan_trials(_at_its_level(folder, trial)), trial)
     listed = of_place(spec.scenario, spec.level)
     say(f"trial {spec.trial}: {listed}, {spec.robot}, seed {spec.seed}")
     say(f"goal: {' '.join(spec.setting.goal)}")
     result = play_trial(spec, InProcessRobot(make_robot), teller_of(spec.setting, say).tell)
     _tell_end(result, say)
     return _compare(_recorded(folder, spec), result.record, say)
+
+
+def _at_its_level(folder: Path, trial: str) -> ExperimentConfig:
+    """The configuration of a run, of its levels only that of a trial which is on record.
+
+    No trial depends on other levels, and where there are hundreds a level drawing all takes long.
+    """
+    config = read_config(folder)
+    played = {record.level for record in read_records(folder) if record.trial.startswith(trial)}
+    levels = tuple(level for level in config.levels if level in played)
+    return config.model_copy(update={"levels": levels}) if levels and trial else config
 
 
 def list_trials(folder: Path, say: Say) -> None:

@@ -8,10 +8,14 @@ from typer.testing import CliRunner
 
 from testbed.cli import app
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import logical
+from testbed.experiment.registry import make_robot
 from testbed.experiment.report import write_report
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import read_records, write_config
+from testbed.experiment.trial import play_trial
+from testbed.link.inprocess import InProcessRobot
 
 
 def _config(*overrides: str) -> ExperimentConfig:
@@ -99,3 +103,25 @@ def test_a_replay_is_as_recorded(here: Path) -> None:
     assert told.output.rstrip().endswith("as recorded")
     for word in ("abstract", "relevant", "refined to", "observed", "inferred"):
         assert f"\n  {word}" in told.output
+
+
+def test_what_is_found_on_the_way_does_not_end_the_way() -> None:
+    """The robot believes the object in the last room, and sees it in the one that it crosses."""
+    row = "level_sizes={row: {rooms: 3, rows: 1, columns: 2, objects: [[1, 1]]}}"
+    config = load_config(
+        "levels",
+        [
+            row,
+            "levels=[row]",
+            "limit=12",
+            "robots=[intentional]",
+            "initial=[fine_loc(rob1,room1_1), fine_loc(object1_1,room3_2)]",
+            "goal=[loc(object1,room1)]",
+            "statistics={fine_move: 0.5}",
+            "adversary.rate=0.0",
+            "script=[{step: 2, action: 'fine_exo_move(object1_1,room2_2)'}]",
+        ],
+    )
+    robot = InProcessRobot(make_robot)
+    outcomes = [play_trial(spec, robot).record.outcome for spec in plan_trials(config)]
+    assert outcomes == ["achieved"] * 12
