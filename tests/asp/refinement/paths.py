@@ -12,9 +12,10 @@ from asp import syntax
 from asp.literals import arguments, atom, complement, is_positive
 from asp.refinement import Refinement
 from asp.signature import Problems, signature_of
-from asp.solving import first_model, ground, symbol
+from asp.solving import first_model, ground, solving, symbol
 from asp.translation import translate_source
 
+_TRUE = 1  # the literal that every program of clingo has for what is true
 _ONE_ACTION = """
 {{ occurs(A,I) : {kind}_action(A) }} 1 :- step(I), I < n.
 #show.
@@ -33,6 +34,7 @@ class Paths:
         program = translate_source(source, signature).replace("#const n = 1.", "")
         self.steps = steps
         self.constants = signature.constants
+        self._literals: dict[str, int] = {}
         self._control = ground([program, _ONE_ACTION.format(kind=kind)], {"n": steps}, [])
 
     def find(self, start: Iterable[str], end: Iterable[str]) -> list[str] | None:
@@ -41,11 +43,19 @@ class Paths:
         None: there is no path.
         """
         assumed = [*self._told(start, 0), *self._told(end, self.steps)]
-        model = first_model(self._control, [(symbol(atom), True) for atom in assumed])
-        if model is None:
-            return None
-        done = [(s.arguments[1].number, str(s.arguments[0])) for s in model if s.positive]
+        with solving(self._control, [self._literal(told) for told in assumed]) as model:
+            if model is None:
+                return None
+            shown = [s for s in model.symbols(shown=True) if s.positive]
+        done = [(s.arguments[1].number, str(s.arguments[0])) for s in shown]
         return [action for _, action in sorted(done)]
+
+    def _literal(self, told: str) -> int:
+        """The program's literal of an atom; one that no rule derives is false."""
+        if told not in self._literals:
+            atom = self._control.symbolic_atoms[symbol(told)]
+            self._literals[told] = -_TRUE if atom is None else atom.literal
+        return self._literals[told]
 
     def _told(self, literals: Iterable[str], step: int) -> list[str]:
         return [
