@@ -47,41 +47,57 @@ class FineStart:
         return FineStart(frozenset(true), tuple(group for group in groups if group))
 
 
+class PlainProblem:
+    """A planning problem in the literal translation of the strong refinement.
+
+    Every concrete action is followed by a test of its outcome, and what is not certain is found by
+    a test before anything is done with it. In the weak refinement, which has no tests, plans have
+    none either.
+    """
+
+    def __init__(
+        self, source: syntax.Source, signature: Signature, start: FineStart, goal: Iterable[str]
+    ) -> None:
+        self._texts = (
+            translate_source(source, signature),
+            "\n".join([*_tests(signature), *_changes(source)]),
+            theory("fine_planning"),
+        )
+        actions = _concrete_actions(signature)
+        self._facts = [fact("ranks", len(actions))]
+        self._facts += (fact("rank", action, number) for number, action in enumerate(actions))
+        self._facts += _start(start)
+        if any(symbol.startswith(_TEST) for symbol in signature.symbols):
+            self._facts += _dealing(start, actions, functions(source, signature))
+        self._facts += (
+            fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
+            for literal in goal
+        )
+
+    def plan(self, length: int) -> FinePlan | None:
+        """The first plan of exactly so many actions and tests, or None. Raises TimeLimitError."""
+        model = first_model(ground(self._texts, {"n": length}, self._facts))
+        if model is None:
+            return None
+        steps = sorted(select(model, "occurs", 2), key=lambda pair: pair[1])
+        return tuple(str(action) for action, _ in steps)
+
+
 def plain_plan(
-    strong: syntax.Source,
+    source: syntax.Source,
     signature: Signature,
     start: FineStart,
     goal: Sequence[str],
     limit: int,
 ) -> FinePlan | NoPlan:
-    """The first shortest plan of at most `limit` actions and tests in the strong refinement.
-
-    Every concrete action is followed by a test of its outcome, and what is not certain is found by
-    a test before anything is done with it. In the weak refinement, which has no tests, the plan has
-    none either. Raises TimeLimitError.
-    """
+    """The first shortest plan of at most `limit` actions and tests. Raises TimeLimitError."""
     if not all(start.candidates):
         return NoPlan.OUT_OF_REACH
-    texts = (
-        translate_source(strong, signature),
-        "\n".join([*_tests(signature), *_changes(strong)]),
-        theory("fine_planning"),
-    )
-    actions = _concrete_actions(signature)
-    facts = [fact("ranks", len(actions))]
-    facts += (fact("rank", action, number) for number, action in enumerate(actions))
-    facts += _start(start)
-    if any(symbol.startswith(_TEST) for symbol in signature.symbols):
-        facts += _dealing(start, actions, functions(strong, signature))
-    facts += (
-        fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
-        for literal in goal
-    )
+    problem = PlainProblem(source, signature, start, goal)
     for length in range(limit + 1):
-        model = first_model(ground(texts, {"n": length}, facts))
-        if model is not None:
-            steps = sorted(select(model, "occurs", 2), key=lambda pair: pair[1])
-            return tuple(str(action) for action, _ in steps)
+        plan = problem.plan(length)
+        if plan is not None:
+            return plan
     return NoPlan.BEYOND_LIMIT
 
 

@@ -5,7 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from benchmarks import decisions, figures, growth, joint_growth, memory, mutation, peers, worlds
+from benchmarks import (
+    decisions,
+    figures,
+    growth,
+    joint_growth,
+    memory,
+    mutation,
+    peers,
+    worlds,
+    zooming,
+)
 from benchmarks.sheets import Sheet
 
 SIZES = ("small", "full")
@@ -17,6 +27,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "memory": memory.main,
     "mutation": mutation.main,
     "joint_growth": joint_growth.main,
+    "zooming": zooming.main,
     "worlds": worlds.main,
 }
 

@@ -18,8 +18,8 @@ _MOST_LEVELS = 32_767  # of decisions, that clasp tells apart
 class Horizon:
     """The transitions of so many steps; the start and the goal are assumed.
 
-    Of shortest plans the first in the order of declaration is found, as far as clasp tells levels of
-    decisions apart: actions beyond step 32,767 / (number of actions) come in any order.
+    Of shortest plans the first in the order of declaration is found, as far as clasp tells levels
+    of decisions apart: actions beyond step 32,767 / (number of actions) come in any order.
     """
 
     def __init__(self, program: str, actions: Sequence[str], length: int) -> None:
