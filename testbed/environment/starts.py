@@ -20,8 +20,7 @@ class RandomStart:
     def __init__(self, world: SparseWorld, robot: str, holding: float = 0.2) -> None:
         self._world = world
         self._holding = holding
-        groups = world.description.initially
-        self._groups = sorted(groups, key=lambda some: robot not in text.arguments(some[0]))
+        self._groups = groups = world.description.initially
         bits = {fluent: 1 << number for number, fluent in enumerate(world.fluents)}
         self._masks = [sum(bits[fluent] for fluent in some) for some in self._groups]
         placed = {fluent for some in groups for fluent in some}

@@ -9,6 +9,7 @@ from asp import Description, load_description, parse_description
 from testbed.environment.closure import UnknownFluentError
 from testbed.environment.core import FINISH, NONE, WAIT, Core
 from testbed.environment.errors import IllegalActionError, StateError
+from testbed.environment.execution import Exact
 from testbed.environment.rules import Mode, Observability, Rules
 from testbed.environment.situation import Ending
 from testbed.environment.world import World
@@ -292,3 +293,38 @@ def test_an_unknown_goal_is_refused() -> None:
 def _with_a_third_book() -> Description:
     source = load_description("office").source
     return parse_description(source.replace("{book1, book2}", "{book1, book2, book3}"))
+
+
+# What the robot does makes room for what others do; by itself the event contradicts the constraint.
+MAKES_ROOM = """
+sorts
+  robot = {r}.
+fluents
+  inertial f.  inertial g.
+actions
+  agent a(robot).  exogenous e.
+laws
+  a(R) causes g.
+  e causes f.
+  -f if -g.
+"""
+
+
+class Slippery(Exact):
+    """An action may come to nothing."""
+
+    def chance(self, _action: str, /) -> float:
+        return 0.5
+
+
+def test_an_event_is_legal_only_if_it_is_however_the_action_comes_out() -> None:
+    world = World(parse_description(MAKES_ROOM))
+    sure, slippery = (
+        Core(world, Rules(goal=()), (0,), execution(world, "r")) for execution in (Exact, Slippery)
+    )
+    sure.reset(0)
+    slippery.reset(0)
+    assert sure.events("a(r)") == (NONE, "e")
+    assert slippery.events("a(r)") == (NONE,)
+    with pytest.raises(IllegalActionError, match="the effects of e contradict"):
+        slippery.advance("a(r)", "e")

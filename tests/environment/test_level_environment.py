@@ -84,6 +84,9 @@ def test_each_game_has_a_goal_of_its_own_that_does_not_hold_yet() -> None:
         env.reset(seed=seed)
         goals.append(env.infos[ROBOT]["goal"])
         assert not env.core.achieved
+        env.step(0)
+        env.step(0)
+        assert env.infos[ROBOT]["goal"] == goals[-1] == list(env.core.situation.goal)
     assert len({tuple(goal) for goal in goals}) > 3
     given = office_v0.raw_env(level="L2", goal=["loc(object1,room3)"])
     given.reset(seed=1)
