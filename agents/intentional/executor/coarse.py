@@ -40,9 +40,13 @@ class CoarseDiagram:
         An event that undoes an earlier one takes its place; one that changes nothing is no event.
         """
         found: list[str] = []
-        for event in events:
-            if self._leaned.is_about(event):
+        for event in self.about(events):
+            if self.after(state, action, [event]) is not None:
                 found.append(event)
-                while found and self.after(state, action, found) is None:
+                while self.after(state, action, found) is None:
                     found.pop(0)
         return found
+
+    def about(self, events: Iterable[str]) -> list[str]:
+        """Those of the events that are about what is left of the task."""
+        return list(filter(self._leaned.is_about, events))

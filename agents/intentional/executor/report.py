@@ -27,6 +27,7 @@ class Reporter:
     def __init__(self, mind: Mind, calendar: Calendar) -> None:
         self._mind = mind
         self._calendar = calendar
+        self._later: list[str] = []
 
     def percept(
         self, percept: Percept, believed: State, outcome: Outcome | None
@@ -40,8 +41,10 @@ class Reporter:
         action = outcome.action if outcome is not None and outcome.happened else None
         events = self._events(believed, action, outcome)
         at_last = [event.action for event in events if event.step >= self._latest(outcome)]
-        expected = self._mind.coarse.after(believed, action, at_last) or believed
-        told = list(self._contrary(expected))
+        coarse = self._mind.coarse
+        expected = coarse.after(believed, action, at_last) or believed
+        soon = coarse.news(expected, None, self._later)
+        told = list(self._contrary(coarse.after(expected, None, soon) or expected))
         return Percept(
             trial=percept.trial,
             step=self._calendar.step + 1,
@@ -92,8 +95,27 @@ class Reporter:
             for coarse in mind.refinement.coarse_of(event)
         ]
         mind.news.clear()
-        now = self._calendar.step
-        recent = [event for step, event in heard if step >= min(latest, now)]
+        recent = [*self._later, *(event for step, event in heard if step == latest)]
         possible = mind.coarse.news(believed, action, recent)
+        self._later = self._after(believed, action, recent, possible)
         earlier = [Event(step=step, action=event) for step, event in heard if step < latest]
         return [*earlier, *(Event(step=latest, action=event) for event in possible)]
+
+    def _after(
+        self, believed: State, action: str | None, recent: list[str], possible: list[str]
+    ) -> list[str]:
+        """The events that can only have happened when the action was done: news of the next step.
+
+        So it is with an object that is taken away as soon as it is put down.
+        """
+        coarse = self._mind.coarse
+        done = None if action is None else coarse.after(believed, action, possible)
+        if done is None:
+            return []
+        return [
+            event
+            for event in coarse.about(recent)
+            if event not in possible
+            and coarse.after(believed, action, [event]) is None
+            and coarse.after(done, None, [event]) is not None
+        ]

@@ -230,3 +230,13 @@ def test_no_cell_is_searched_twice_unless_something_changed(
         absent = [c for c in decision.trace.fine.committed if c.startswith("-fine_loc(object1")]
         assert searched.isdisjoint(absent)
         searched.update(absent)
+
+
+@pytest.mark.parametrize("reported", [True, False])
+def test_what_is_put_down_may_be_taken_away_at_once(reported: bool) -> None:
+    start = ["fine_loc(rob1,room2_1)", "fine_loc(object1_1,room2_1)"]
+    start += ["fine_in_hand(rob1,object1_2)", "fine_loc(object2_1,room3_4)"]
+    taken = {("test_fine_in_hand(rob1,object1_2)", 1): "fine_exo_move(object1_1,room3_2)"}
+    went = play(RefinedRobot(), ROW, start, GOAL, Faults(events=taken, reported=reported))
+    assert went.achieved
+    assert "fine_pickup(rob1,object1_1)" in went.actions
