@@ -32,15 +32,23 @@ class Search:
         self._goal = space.states(goal)
         self._reached: list[StateSet] = [start]
         self._new: StateSet = start
+        self._distance: int | None = None
 
-    @property
-    def distance(self) -> int | None:
-        """No plan is shorter; None where nothing more can be reached and the goal was not."""
-        return len(self._reached) - 1 if self._new else None
+    def distance(self, limit: int | None, check: Callable[[], None]) -> int | None:
+        """No plan is shorter; None if there is no plan of at most `limit`.
 
-    def found(self) -> bool:
-        """Whether some state at the present distance satisfies the goal."""
-        return _meets(self._new, self._goal)
+        Once it is found it stays, however far `steps` has looked since.
+        """
+        while self._distance is None:
+            layer = len(self._reached) - 1
+            if _meets(self._new, self._goal):
+                self._distance = layer
+            elif not self._new or layer == limit:
+                return None
+            else:
+                check()
+                self.advance()
+        return self._distance
 
     def advance(self) -> None:
         """One layer more: the states that take one action more than all that were reached."""
@@ -103,13 +111,13 @@ class Bounds:
 
         `check` is called now and then and may raise; the next call goes on from there.
         """
+        least = 0
         for _, search in self._searches:
-            while not search.found():
-                if search.distance is None or search.distance == limit:
-                    return None
-                check()
-                search.advance()
-        return max(search.distance or 0 for _, search in self._searches)
+            distance = search.distance(limit, check)
+            if distance is None:
+                return None
+            least = max(least, distance)
+        return least
 
     def steps(self, length: int, check: Callable[[], None]) -> Steps:
         """Of each step the actions that a shortest plan may take there if it has this length."""

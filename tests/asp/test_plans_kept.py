@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
 
 import pytest
 
 from asp.description import Description
 from asp.kept.independence import Independence, symmetric_pairs
-from asp.kept.narrow import MOST_LEVELS, candidates
+from asp.kept.narrow import MOST_LEVELS, NarrowPrograms, candidates
 from asp.kept.operators import Encoding, NotEncodableError
 from asp.kept.plans import Plans
 from asp.kept.search import Spaces
@@ -195,6 +197,36 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
     assert len(asked) == 1
     assert plans.shortest(state, goal, 20) == plan
     assert len(asked) == 2  # no answer is remembered
+
+
+def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", 0)
+    monkeypatch.setattr("asp.kept.planner.MOST_STATES", 30)
+    state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
+    goal = ("loc(book1,library)", "loc(book2,library)")
+    whole = Plans(OFFICE, "office.al").shortest(state, goal, 20)
+    first_plan, interrupted = NarrowPrograms.first_plan, set[int]()
+
+    def at_second_attempt(
+        self: NarrowPrograms,
+        state: frozenset[str],
+        goal: tuple[str, ...],
+        steps: Sequence[Sequence[str]],
+        symmetric: Iterable[tuple[str, str]],
+    ) -> tuple[str, ...] | None:
+        if len(steps) not in interrupted:
+            interrupted.add(len(steps))
+            raise TimeLimitError
+        return first_plan(self, state, goal, steps, symmetric)
+
+    monkeypatch.setattr(NarrowPrograms, "first_plan", at_second_attempt)
+    plans, found = Plans(OFFICE, "office.al"), None
+    for _ in range(20):
+        with suppress(TimeLimitError):
+            found = plans.shortest(state, goal, 20)
+            break
+    assert len(interrupted) > 1
+    assert found == whole
 
 
 def test_a_goal_is_out_of_reach_where_all_states_were_looked_at() -> None:

@@ -141,6 +141,18 @@ def test_a_search_that_was_stopped_goes_on_where_it_was() -> None:
     assert stopped.steps(found, _nothing) == whole.steps(found, _nothing)
 
 
+@pytest.mark.parametrize("most_states", [10, 90])
+def test_having_looked_further_changes_no_bound(most_states: int) -> None:
+    spaces = Spaces(Encoding(parse_description(SOURCES[2], "office.al")), most_states)
+    for _, state, goal in _questions(SOURCES[2], 25):
+        bounds = spaces.bounds(state, goal)
+        assert bounds is not None
+        least = bounds.least(LIMIT, _nothing)
+        if least is not None:
+            bounds.steps(least + 3, _nothing)
+            assert bounds.least(LIMIT, _nothing) == least
+
+
 def test_a_limit_is_no_proof_and_can_be_raised() -> None:
     spaces = Spaces(Encoding(parse_description(SOURCES[0], "office.al")), EVERYTHING)
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
