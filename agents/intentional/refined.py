@@ -16,7 +16,6 @@ from agents.intentional.lean import LeanRobot
 from asp.kept.clock import reasoning_clock, standing_still
 from asp.literals import is_positive
 from asp.refinement import load
-from asp.solving import time_limit
 from testbed.link.messages import Decision, Percept, Task, Trace
 from testbed.link.robot import Robot
 
@@ -40,10 +39,9 @@ class RefinedRobot:
         with standing_still():
             file = f"{task.domain}.al"
             refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
-        self._task = task
         self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
         diagram = CoarseDiagram(self._coarse.leaned)
-        self._mind = Mind(refinement, diagram, tuple(task.goal), self._zooms)
+        self._mind = Mind(refinement, diagram, task, self._zooms)
         known = [literal for literal in task.initial if self._coarse.leaned.is_about(literal)]
         self._mind.know(task.initial_fine, known)
         self._calendar = Calendar()
@@ -59,8 +57,7 @@ class RefinedRobot:
         if self._steps is None:
             self._mind.hear(percept)
             return self._decide(percept)
-        with time_limit(self._task.decision_s):
-            action = self._advance(percept)
+        action = self._advance(percept)
         return self._decide(percept) if action is None else self._concrete(percept, action)
 
     def _advance(self, percept: Percept | None) -> str | None:
@@ -120,8 +117,7 @@ class RefinedRobot:
         assert after is not None, "a robot attempts what it believes to be possible"
         execution = Execution(self._mind, decision.action, self._believed, after, percept.step)
         self._execution, self._steps = execution, execution.run()
-        with time_limit(self._task.decision_s):
-            action = self._advance(None)
+        action = self._advance(None)
         return self._with_trace(structs.replace(decision, action=action or _WAIT))
 
     def _concrete(self, percept: Percept, action: str) -> Decision:

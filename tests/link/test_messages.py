@@ -11,6 +11,7 @@ from testbed.link.messages import (
     Decision,
     Event,
     Explanation,
+    FineTrace,
     Message,
     Percept,
     Question,
@@ -51,8 +52,18 @@ PERCEPTS = st.builds(
 )
 QUESTIONS = st.builds(Question, percept=PERCEPTS, task=st.none() | TASKS)
 EXPLANATIONS = st.builds(Explanation, step=WHOLE, unobserved=st.lists(EVENTS), exceptions=TEXTS)
+FINE = st.builds(
+    FineTrace,
+    abstract=TEXT,
+    begun=st.none() | WHOLE,
+    plan=TEXTS,
+    plans=WHOLE,
+    happened=MAYBE,
+    planning_time_s=SECONDS,
+)
 TRACES = st.builds(
     Trace,
+    fine=st.none() | FINE,
     mental=st.none() | TEXT,
     intention=TEXT,
     activity=st.none() | WHOLE,

@@ -9,7 +9,7 @@ from agents.intentional.executor.mind import Mind
 from asp.literals import arguments, atom, complement, is_positive
 from asp.refinement import Refinement
 from asp.refinement.zooming import Transition, fine_goal, relevant
-from asp.solving import OUT_OF_TIME, TimeLimitError
+from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Percept
 
 Steps = Generator[str, Percept, bool]
@@ -166,7 +166,8 @@ class Execution:
         """A plan; where the time for a decision runs out the robot waits, and goes on after."""
         while True:
             try:
-                return self._plan()
+                with time_limit(self._mind.decision_s):
+                    return self._plan()
             except TimeLimitError:
                 self._mind.tally.failed(OUT_OF_TIME)
                 self._hear((yield _WAIT))

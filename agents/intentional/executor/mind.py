@@ -16,7 +16,7 @@ from asp.literals import arguments, atom, is_positive, name
 from asp.refinement import Refinement
 from asp.refinement.refining import shared_places
 from asp.refinement.zooming import fine_constants
-from testbed.link.messages import Percept
+from testbed.link.messages import Percept, Task
 
 
 class Mind:
@@ -26,12 +26,13 @@ class Mind:
     """
 
     def __init__(
-        self, refinement: Refinement, coarse: CoarseDiagram, goal: tuple[str, ...], zooms: bool
+        self, refinement: Refinement, coarse: CoarseDiagram, task: Task, zooms: bool
     ) -> None:
         """`zooms` if plans are made in the relevant part of the description only."""
         self.refinement = refinement
         self.coarse = coarse
-        self.goal = goal
+        self.goal = tuple(task.goal)
+        self.decision_s = task.decision_s
         self.zooms = zooms
         self.tally = Tally()
         self.tests = _tests(refinement, coarse.robot)

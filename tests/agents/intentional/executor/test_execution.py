@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from importlib.resources import files
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from agents.intentional.executor.mind import Mind
 from agents.intentional.refined import RefinedRobot
 from asp.levels import level_text
 from asp.loading import read_domain
 from asp.refinement import Refinement, load
+from asp.solving import OUT_OF_TIME, TimeLimitError
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
 
 GOAL = ["loc(object1,room2)", "-in_hand(rob1,object1)"]
@@ -240,3 +243,20 @@ def test_what_is_put_down_may_be_taken_away_at_once(reported: bool) -> None:
     went = play(RefinedRobot(), ROW, start, GOAL, Faults(events=taken, reported=reported))
     assert went.achieved
     assert "fine_pickup(rob1,object1_1)" in went.actions
+
+
+def test_where_the_time_runs_out_it_waits_and_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    planned = Mind.plan
+    calls: list[int] = []
+
+    def slow(self: Mind, *given: Any) -> tuple[str, ...] | None:
+        calls.append(len(calls))
+        if len(calls) == 2:
+            raise TimeLimitError(OUT_OF_TIME)
+        return planned(self, *given)
+
+    monkeypatch.setattr(Mind, "plan", slow)
+    went = carried_out()
+    assert went.achieved
+    assert went.actions == FOUND
+    assert [trace.failed for trace in went.fine].count(OUT_OF_TIME) == 1
