@@ -56,6 +56,8 @@ def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
     for key in ("level_sizes", "statistics"):
         if getattr(config, key):
             yield (key,), "goes with levels, or with a refinement, and there are none"
+    if config.protocol == "levels":
+        yield ("protocol",), "levels are not played here; for scenarios it is: protocol: table1"
     if config.adversary.strategy == "random":
         yield (
             ("adversary", "strategy"),

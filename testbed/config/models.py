@@ -17,6 +17,7 @@ LinkKind = Literal["zenoh", "inprocess"]
 KnowledgeKind = Literal["complete", "seen"]
 Strategy = Literal["triggers", "random"]
 Pace = Literal["concrete", "abstract"]
+Protocol = Literal["table1", "levels"]
 FINE_STEPS = 5000
 """Environment steps of a trial at the fine resolution, unless given."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
@@ -139,6 +140,7 @@ class ScenarioSettings(Section):
     script: tuple[ScriptEntry, ...] | None = None
     exogenous_while_thinking: Flag | None = None
     goal_feedback: Flag | None = None
+    repeats: Count | None = None
 
 
 class ExperimentConfig(Section):
@@ -147,13 +149,16 @@ class ExperimentConfig(Section):
     `scenarios` absent, which nothing that was loaded has, means those of the domain.
     `initial` absent means every state that the domain's `initially` allows. A `script` replaces
     the scenario's triggers; an empty one means that nothing exogenous happens. `knowledge` is what
-    robots know of the initial state: all of it, or only what they see.
+    robots know of the initial state: all of it, or only what they see. `repeats`: so many pairs of
+    trials from each initial state, in scenarios in which something is drawn. `protocol` is the
+    published experiment that the trials are made to be compared with.
 
     With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
     resolution. They are drawn: each has its initial state and its goal unless these are given.
     """
 
     name: Annotated[Name, Field(pattern=r"^[A-Za-z0-9][\w.-]*$", examples=["name: quickstart"])]
+    protocol: Protocol | None = None
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
     domain: Name = "office"
     refinement: Name | None = None
@@ -169,6 +174,7 @@ class ExperimentConfig(Section):
     )
     draw: Drawing = Drawing()
     robots: Annotated[tuple[Name, ...], Field(min_length=1)] = ("intentional", "traditional")
+    repeats: Count = 1
     limit: Count | None = None
     link: LinkKind = "zenoh"
     knowledge: KnowledgeKind = "complete"
@@ -206,7 +212,8 @@ class ExperimentConfig(Section):
     def settings(self, scenario: str) -> ScenarioSettings:
         """The settings that hold in a scenario: its own where it has them, else the common ones.
 
-        `goal`, `exogenous_while_thinking` and `goal_feedback` are never None in the answer.
+        `goal`, `exogenous_while_thinking`, `goal_feedback` and `repeats` are never None in the
+        answer.
         """
         own = self.scenario_settings.get(scenario, ScenarioSettings())
         common = {key: getattr(self, key) for key in ScenarioSettings.model_fields}

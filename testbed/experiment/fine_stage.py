@@ -63,6 +63,10 @@ class FineStage:
         """The least number of abstract actions, by search over the coarse world."""
         return self._oracle.minimal_actions(self._coarse_atoms(state), goal)
 
+    def minimal_units(self, state: int, goal: Iterable[str]) -> int | None:
+        """The least units of abstract actions, by search over the coarse world."""
+        return self._oracle.minimal_units(self._coarse_atoms(state), goal, self.costs)
+
     def _own(self, state: int) -> list[str]:
         """The inertial literals about the robot: where it is and is not, what it holds and not."""
         true = frozenset(self._world.true_atoms(state))

@@ -1,12 +1,14 @@
-"""The least number of actions that achieves a goal, with complete knowledge and nothing unforeseen.
+"""The fewest actions, and the fewest units, that achieve a goal: complete knowledge, no surprises.
 
-Breadth-first search over the compiled world: it shares no line with the robots' planners.
+Breadth-first search, and Dijkstra's, over the compiled world: neither shares a line with the
+robots' planners.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import lru_cache
+from heapq import heappop, heappush
 
 from asp.description import Description
 from asp.grounding import ground_description
@@ -35,6 +37,29 @@ def minimal_actions(world: World, initial: int, goal: Iterable[str]) -> int | No
     """Length of a shortest plan, or None where the goal cannot be reached."""
     plan = shortest_plan(world, initial, goal)
     return None if plan is None else len(plan)
+
+
+def minimal_units(
+    world: World, initial: int, goal: Iterable[str], costs: Mapping[str, int]
+) -> int | None:
+    """Execution units of a cheapest plan, or None where the goal cannot be reached.
+
+    What has no cost costs 0.
+    """
+    wanted = tuple(goal)
+    frontier, done = [(0, initial)], set[int]()
+    while frontier:
+        spent, state = heappop(frontier)
+        if world.satisfies(state, wanted):
+            return spent
+        if state in done:
+            continue
+        done.add(state)
+        for action in world.agent_actions:
+            if world.executable(state, (action,)):
+                for reached in world.successors(state, (action,)):
+                    heappush(frontier, (spent + costs.get(action, 0), reached))
+    return None
 
 
 def _expand(
@@ -68,12 +93,23 @@ class Oracle:
 
     def minimal_actions(self, state: Collection[str], goal: Iterable[str]) -> int | None:
         """As `minimal_actions`, from the state with these true atoms."""
+        return minimal_actions(*self._narrowed(state, goal))
+
+    def minimal_units(
+        self, state: Collection[str], goal: Iterable[str], costs: Mapping[str, int]
+    ) -> int | None:
+        """As `minimal_units`, from the state with these true atoms."""
+        return minimal_units(*self._narrowed(state, goal), costs)
+
+    def _narrowed(
+        self, state: Collection[str], goal: Iterable[str]
+    ) -> tuple[World, int, list[str]]:
         wanted = tuple(goal)
         dropped = self._independence.droppable(state, wanted)
         world = self._world(dropped)
         known = frozenset(world.fluents)
         left = [literal for literal in wanted if atom(literal) in known]
-        return minimal_actions(world, world.state(a for a in state if a in known), left)
+        return world, world.state(a for a in state if a in known), left
 
     def _without(self, dropped: frozenset[str]) -> World:
         source, signature = restrict(self._source, dropped), narrowed(self._signature, dropped)

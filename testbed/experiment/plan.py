@@ -21,6 +21,7 @@ from testbed.environment.world import World
 from testbed.experiment.domains import load_world
 from testbed.experiment.drawing import Drawing
 from testbed.experiment.record import COARSE
+from testbed.experiment.repeating import repeats_of
 
 PROTOCOL = "levels"
 """The protocol of trials at the fine resolution, in place of a scenario."""
@@ -84,8 +85,8 @@ def _in_scenarios(config: ExperimentConfig) -> list[TrialSpec]:
     return [
         spec
         for scenario in config.scenarios
-        for initial in _initial_states(config, scenario, world)
-        for spec in _pair(config, scenario, initial, world.description.name)
+        for initial, repeat in _starts(config, scenario, world)
+        for spec in _pair(config, scenario, initial, repeat, world.description.name)
     ]
 
 
@@ -118,17 +119,20 @@ def generator_of(root: int, path: object) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence(root, spawn_key=_words(["draw", path])))
 
 
-def _initial_states(
+def _starts(
     config: ExperimentConfig, scenario: str, world: World
-) -> Iterator[tuple[str, ...]]:
+) -> Iterator[tuple[tuple[str, ...], int]]:
+    """Initial states, and which of the pairs from there this is, from 0 on."""
     given = config.settings(scenario).initial
     states = world.initial_states() if given is None else [world.state(given)]
     atoms = [tuple(sorted(world.true_atoms(state))) for state in states]
-    return (atoms[index] for index in _drawn(len(atoms), config, scenario))
+    repeats = repeats_of(config, scenario, world.description)
+    drawn = _drawn(len(atoms) * repeats, config, scenario)
+    return ((atoms[index // repeats], index % repeats) for index in drawn)
 
 
 def _drawn(count: int, config: ExperimentConfig, scenario: str) -> Sequence[int]:
-    """Which of `count` states to play: a smaller limit draws a part of what a larger one does."""
+    """Which of `count` pairs to play: a smaller limit draws a part of what a larger one does."""
     if config.limit is None or config.limit >= count:
         return range(count)
     sequence = np.random.SeedSequence(config.seed, spawn_key=_words(["limit", scenario]))
@@ -137,10 +141,17 @@ def _drawn(count: int, config: ExperimentConfig, scenario: str) -> Sequence[int]
 
 
 def _pair(
-    config: ExperimentConfig, scenario: str, initial: tuple[str, ...], domain: str
+    config: ExperimentConfig, scenario: str, initial: tuple[str, ...], repeat: int, domain: str
 ) -> Iterator[TrialSpec]:
     setting = setting_of(config, scenario)
-    path = [domain, COARSE, scenario, list(initial), sorted(setting.goal)]
+    path = [
+        domain,
+        COARSE,
+        scenario,
+        list(initial),
+        sorted(setting.goal),
+        *([repeat] * (repeat > 0)),
+    ]
     return _specs(config, scenario, COARSE, path, initial, setting, domain)
 
 

@@ -114,8 +114,9 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     abstract ones, each at the step at which it began. `in_reach` says of a trial that does not
     achieve its goal whether that could still be achieved from where the trial ended.
     `reason` is one line that says why a trial was lost, given up, or ended in error, or that it was
-    over before its script. `minimal_actions` is the oracle's, from the initial state with nothing
-    exogenous; None where no plan exists.
+    over before its script. `minimal_actions` and `minimal_units` are the oracle's, from the initial
+    state with nothing exogenous; None where no plan exists. The plan with the fewest actions need
+    not be the one that costs least.
     `mental` holds `start(N)`, `stop(N)` and `finish`; times are seconds.
     """
 
@@ -132,6 +133,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     finished: bool = False
     correct: bool = False
     minimal_actions: int | None = None
+    minimal_units: int | None = None
     outcome: Outcome = "error"
     reason: str | None = None
     steps: int = 0

@@ -29,9 +29,9 @@ class Recorder:
         self._believes_goal = False
         self._last_reason: str | None = None
 
-    def minimal_actions(self, number: int | None) -> None:
-        """The oracle's answer for the initial state."""
-        self.record.minimal_actions = number
+    def minimal(self, actions: int | None, units: int | None) -> None:
+        """The oracle's answers for the initial state."""
+        self.record.minimal_actions, self.record.minimal_units = actions, units
 
     def step(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
         """What the robot decided; `happened` is None unless it attempted a physical action."""

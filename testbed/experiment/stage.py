@@ -14,7 +14,7 @@ from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.conditions import known, rules_of
 from testbed.experiment.domains import load_world
 from testbed.experiment.fine_stage import FineStage, fine_part
-from testbed.experiment.oracle import minimal_actions
+from testbed.experiment.oracle import minimal_actions, minimal_units
 from testbed.experiment.plan import Setting, TrialSpec
 from testbed.link.messages import Task
 
@@ -37,6 +37,9 @@ class Stage(Protocol):
 
     def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
         """The least number of recorded actions that achieves the goal; None: out of reach."""
+
+    def minimal_units(self, state: int, goal: Iterable[str]) -> int | None:
+        """The least units of recorded actions that achieve the goal; None: out of reach."""
 
 
 class CoarseStage:
@@ -71,6 +74,10 @@ class CoarseStage:
     def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
         """By search over the world itself."""
         return minimal_actions(self._world, state, goal)
+
+    def minimal_units(self, state: int, goal: Iterable[str]) -> int | None:
+        """By search over the world itself."""
+        return minimal_units(self._world, state, goal, self.costs)
 
 
 def load_stage(setting: Setting) -> Stage:

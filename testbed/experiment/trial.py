@@ -106,7 +106,8 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     for_world, for_adversary, for_robot = _seeds(spec.seed)
     core = stage.core(spec.setting)
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
-    recorder.minimal_actions(stage.minimal_actions(core.situation.state, goal))
+    start = core.situation.state
+    recorder.minimal(stage.minimal_actions(start, goal), stage.minimal_units(start, goal))
     adversary = stage.adversary(spec)
     adversary.reset(for_adversary)
     try:

@@ -99,7 +99,7 @@ def test_literals_need_no_quotes_and_no_exact_spacing(tmp_path: Path) -> None:
     assert config.settings("1").goal == ("loc(book2,kitchen)",)
 
 
-@pytest.mark.parametrize("name", ["quickstart", "office"])
+@pytest.mark.parametrize("name", ["quickstart", "office", "table1"])
 def test_packaged_configurations_are_found_by_name(name: str) -> None:
     assert load_config(name, robots=lambda _: ["intentional", "traditional"]).name == name
 

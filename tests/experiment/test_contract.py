@@ -24,6 +24,7 @@ RECORD: dict[str, tuple[type, ...]] = {
     "finished": (bool,),
     "correct": (bool,),
     "minimal_actions": (int, type(None)),
+    "minimal_units": (int, type(None)),
     "outcome": (str,),
     "actions": (list,),
     "exogenous": (list,),

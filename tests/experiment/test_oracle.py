@@ -11,7 +11,7 @@ from asp.loading import analyse
 from testbed.environment.goals import RandomGoal
 from testbed.environment.world import World
 from testbed.experiment.domains import load_world
-from testbed.experiment.oracle import Oracle, minimal_actions, shortest_plan
+from testbed.experiment.oracle import Oracle, minimal_actions, minimal_units, shortest_plan
 
 DELIVERED = (
     "loc(book1,library)",
@@ -49,6 +49,34 @@ def test_out_of_the_locked_library_for_both_books_takes_seventeen(office: World)
         ["loc(rob1,library)", "locked(library)", "loc(book1,office1)", "loc(book2,office1)"]
     )
     assert minimal_actions(office, start, DELIVERED) == 17
+
+
+def test_the_cheapest_plan_is_where_no_step_can_make_it_cheaper(office: World) -> None:
+    costs = office.description.costs
+    units = {
+        state: minimal_units(office, state, DELIVERED, costs) for state in office.initial_states()
+    }
+    for state, least in units.items():
+        plan = shortest_plan(office, state, DELIVERED)
+        assert plan is not None
+        assert least is not None
+        assert least <= sum(costs[action] for action in plan)
+        ways = [
+            costs[action] + further
+            for action in office.agent_actions
+            for after in office.successors(state, (action,))
+            if (further := minimal_units(office, after, DELIVERED, costs)) is not None
+        ]
+        assert least == (0 if office.satisfies(state, DELIVERED) else min(ways))
+
+
+def test_what_costs_nothing_counts_nothing(office: World) -> None:
+    start = office.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
+    goal = ("loc(rob1,library)",)
+    free = {action: 0 if action.startswith("pickup") else 5 for action in office.agent_actions}
+    assert minimal_units(office, start, goal, free) == 5
+    assert minimal_units(office, start, ("loc(book1,kitchen)", "loc(book1,library)"), free) is None
+    assert minimal_units(office, start, ("loc(rob1,kitchen)",), free) == 0
 
 
 def test_nothing_to_do_and_nothing_to_be_done(office: World) -> None:
@@ -100,6 +128,9 @@ def test_the_oracle_of_many_constants_finds_what_the_plain_one_finds(patterns: l
         goal = draw(state, random)
         found = oracle.minimal_actions(world.true_atoms(state), goal)
         assert found == minimal_actions(world, state, goal)
+        costs = {action: 1 + len(action) % 7 for action in world.agent_actions}
+        units = oracle.minimal_units(world.true_atoms(state), goal, costs)
+        assert units == minimal_units(world, state, goal, costs)
 
 
 def test_the_oracle_of_many_constants_says_what_is_out_of_reach() -> None:

@@ -1,5 +1,6 @@
 """The plan of a configuration: which trials, under which ids and seeds."""
 
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -30,6 +31,55 @@ def test_both_robots_of_a_pair_share_all_but_the_robot() -> None:
 def test_every_initial_state_is_there_where_no_limit_is() -> None:
     specs = plan_trials(load_config("office", ["scenarios=[1]", "robots=[intentional]"]))
     assert len({spec.initial for spec in specs}) == len(specs) == 192
+
+
+def test_what_is_drawn_is_drawn_again_for_each_repeat() -> None:
+    once = plan_trials(load_config("office", ["scenarios=[1,3]"]))
+    thrice = plan_trials(load_config("office", ["scenarios=[1,3]", "repeats=3"]))
+    played = Counter(spec.scenario for spec in thrice)
+    assert (played["1"], played["3"]) == (2 * 192, 2 * 3 * 192)
+    assert {spec.trial for spec in once} < {spec.trial for spec in thrice}
+    assert len({spec.trial for spec in thrice}) == len(thrice)
+    assert len({spec.seed for spec in thrice if spec.scenario == "3"}) == 3 * 192
+    assert len({spec.initial for spec in thrice if spec.scenario == "3"}) == 192
+
+
+@pytest.mark.parametrize(
+    ("override", "pairs"),
+    [
+        ("scenarios=[2]", 192),
+        ("adversary.rate=0.5", 3 * 192),
+        ("adversary.rate=1.0", 192),
+        ("observability.exo_move={mode: always, probability: 0.5}", 3 * 192),
+        ("observability.exo_move={mode: always, false_reports: 0.1}", 3 * 192),
+        ("scenario_settings={2: {repeats: 5}}", 192),
+        ("scenario_settings={2: {repeats: 5}} adversary.rate=0.5", 5 * 192),
+        ("limit=7 adversary.rate=0.5", 7),
+    ],
+)
+def test_repeats_are_played_where_a_seed_makes_a_difference(override: str, pairs: int) -> None:
+    parts = override.replace("} ", "}\n").replace("=7 ", "=7\n").split("\n")
+    overrides = ["scenarios=[2]", "robots=[intentional]", "repeats=3", *parts]
+    assert len(plan_trials(load_config("office", overrides))) == pairs
+
+
+def test_a_script_is_played_once_from_each_state() -> None:
+    script = 'script=[{step: 2, action: "exo_lock(library)"}]'
+    specs = plan_trials(load_config("office", ["scenarios=[3]", "repeats=3", script, "limit=600"]))
+    assert len({spec.pair for spec in specs}) == 192
+
+
+def test_a_smaller_limit_draws_a_part_of_the_repeats() -> None:
+    few = _ids("scenarios=[3]", "repeats=4", "limit=10")
+    many = _ids("scenarios=[3]", "repeats=4", "limit=300")
+    assert set(few) < set(many)
+    assert len(many) == 2 * 300
+
+
+def test_the_published_comparison_has_about_four_thousand_pairs() -> None:
+    specs = plan_trials(load_config("table1"))
+    pairs = Counter(spec.scenario for spec in specs if spec.robot == "intentional")
+    assert pairs == {"1": 192, "2": 192, "3": 768, "4": 768, "5": 192, "random": 1920}
 
 
 def test_the_same_configuration_gives_the_same_plan() -> None:

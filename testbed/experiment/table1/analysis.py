@@ -1,0 +1,201 @@
+"""From pairs to Table 1: a row a scenario, all of them, and those in which nobody failed."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from testbed.experiment.table1.pairing import Meeting, Pair
+from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
+from testbed.experiment.table1.statistics import (
+    Estimate,
+    Strata,
+    Test,
+    holm,
+    mcnemar,
+    mean,
+    median,
+    proportion,
+    signed_rank,
+)
+
+RANDOM = "random"
+NO_EVENT = "no event"
+ONE = "1"
+"""The scenario in which nothing happens."""
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """A measure of the traditional robot, divided by the intentional one\'s.
+
+    `pairs` have a ratio: the intentional robot\'s measure is not 0. The test compares the measures
+    themselves; its effect is above 0 where the traditional robot needed more.
+    """
+
+    pairs: int
+    mean: Estimate | None
+    median: Estimate | None
+    test: Test | None
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of the table; `pairs` are those counted, `failed` and `unsolvable` those left out.
+
+    The test of the accuracies has its effect above 0 where the intentional robot was right more
+    often. `out_of_reach` are goals that could not be achieved any more where a trial ended.
+    """
+
+    name: str
+    pairs: int
+    failed: int
+    unsolvable: int
+    out_of_reach: int
+    meetings: Mapping[Meeting, int]
+    intentional: Estimate | None
+    baseline: Estimate | None
+    accuracy: Test | None
+    ratios: Mapping[str, Ratio]
+
+
+@dataclass(frozen=True)
+class Table:
+    """One way of assigning pairs to scenarios; `apart` counts the pairs that are in no row."""
+
+    rows: tuple[Row, ...]
+    apart: Mapping[str, int]
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """What the pairs of two robots come to.
+
+    `triggered`: by the scenario that was played; `random`: by the scenario that a random event came
+    to be. `became` counts the pairs by both: which scenario was played, and what it came to be.
+    """
+
+    mind: str
+    base: str
+    triggered: Table | None
+    random: Table | None
+    became: Mapping[str, Mapping[str, int]]
+
+
+def analyse(pairs: Iterable[Pair], mind: str, base: str) -> Analysis:
+    """Both tables of the pairs of two robots; a table without pairs is None."""
+    known = list(pairs)
+    drawn = [pair for pair in known if pair.intended == RANDOM]
+    played = [pair for pair in known if pair.intended != RANDOM]
+    became: dict[str, Counter[str]] = {}
+    for pair in known:
+        became.setdefault(pair.intended, Counter())[pair.happened] += 1
+    return Analysis(
+        mind=mind,
+        base=base,
+        triggered=_table(played, _as_triggered) if played else None,
+        random=_table(drawn, lambda pair: pair.happened) if drawn else None,
+        became={name: dict(sorted(counts.items())) for name, counts in became.items()},
+    )
+
+
+def _as_triggered(pair: Pair) -> str:
+    """The scenario played; but a pair in which its event never fired is in none."""
+    return pair.intended if pair.intended == ONE or pair.mind.event is not None else NO_EVENT
+
+
+def _table(pairs: Sequence[Pair], scenario_of: Callable[[Pair], str]) -> Table:
+    groups: dict[str, list[Pair]] = {}
+    for pair in pairs:
+        groups.setdefault(scenario_of(pair), []).append(pair)
+    scenarios = {name: groups[name] for name in sorted(groups) if name.isdigit()}
+    played = Counter(pair.intended for pair in pairs)
+    times = {name: max(played.values()) // count for name, count in played.items()}
+    rows = _corrected([_row(*named, times) for named in _rows(scenarios)])
+    apart = {name: len(own) for name, own in sorted(groups.items()) if not name.isdigit()}
+    return Table(tuple(rows), apart)
+
+
+def _rows(scenarios: Mapping[str, list[Pair]]) -> Iterator[tuple[str, list[Pair]]]:
+    yield from scenarios.items()
+    everything = [pair for name, own in scenarios.items() if name in SCENARIOS for pair in own]
+    yield ALL, everything
+    for name, own in ((name, scenarios.get(name, [])) for name in ("3", "4")):
+        yield name + NO_FAILURES, _without_failures(own)
+    yield ALL + NO_FAILURES, _without_failures(everything)
+
+
+def _without_failures(pairs: Iterable[Pair]) -> list[Pair]:
+    """Without the pairs in which the traditional robot does not achieve the goal."""
+    return [pair for pair in pairs if pair.base.correct or pair.base.failed]
+
+
+def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int]) -> Row:
+    counted = [pair for pair in pairs if pair.played]
+    minds = np.array([pair.mind.correct for pair in counted], dtype=bool)
+    bases = np.array([pair.base.correct for pair in counted], dtype=bool)
+    return Row(
+        name=name,
+        pairs=len(counted),
+        failed=sum(pair.mind.failed or pair.base.failed for pair in pairs),
+        unsolvable=sum(not pair.solvable for pair in pairs),
+        out_of_reach=sum(p.mind.out_of_reach or p.base.out_of_reach for p in counted),
+        meetings=dict(sorted(Counter(pair.meeting for pair in counted).items())),
+        intentional=proportion(_strata(counted, times, lambda pair: pair.mind.correct)),
+        baseline=proportion(_strata(counted, times, lambda pair: pair.base.correct)),
+        accuracy=mcnemar(minds, bases) if counted else None,
+        ratios={measure: _ratio(counted, measure, times) for measure in MEASURES},
+    )
+
+
+def _ratio(pairs: Sequence[Pair], measure: str, times: Mapping[str, int]) -> Ratio:
+    with_ratio = [pair for pair in pairs if pair.mind.measures[measure]]
+    own = _strata(with_ratio, times, lambda p: p.base.measures[measure] / p.mind.measures[measure])
+    differences = [pair.base.measures[measure] - pair.mind.measures[measure] for pair in pairs]
+    return Ratio(
+        pairs=len(with_ratio),
+        mean=mean(own),
+        median=median(own),
+        test=signed_rank(np.array(differences, dtype=float)),
+    )
+
+
+def _strata(
+    pairs: Iterable[Pair], times: Mapping[str, int], value: Callable[[Pair], float]
+) -> Strata:
+    """By the scenario that was played: each counts as if it had been repeated like the others."""
+    strata: dict[str, list[float]] = {}
+    for pair in pairs:
+        strata.setdefault(pair.intended, []).append(value(pair))
+    return [(np.array(own, dtype=float), times[name]) for name, own in strata.items()]
+
+
+def _corrected(rows: Sequence[Row]) -> list[Row]:
+    """The rows with Holm\'s correction over all tests of the table."""
+    tests = [test for row in rows for test in _tests(row)]
+    corrected = iter(holm([test.p for test in tests]))
+
+    def with_holm(test: Test | None) -> Test | None:
+        return None if test is None else dataclasses.replace(test, holm=next(corrected))
+
+    return [
+        dataclasses.replace(
+            row,
+            accuracy=with_holm(row.accuracy),
+            ratios={
+                name: dataclasses.replace(ratio, test=with_holm(ratio.test))
+                for name, ratio in row.ratios.items()
+            },
+        )
+        for row in rows
+    ]
+
+
+def _tests(row: Row) -> list[Test]:
+    """In the order in which they are corrected."""
+    tests = [row.accuracy, *(ratio.test for ratio in row.ratios.values())]
+    return [test for test in tests if test is not None]

@@ -1,0 +1,101 @@
+"""Pairs of trials: what is kept of each, and whether both robots met the same event."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from testbed.environment.world import World
+from testbed.experiment.record import FAILURES, TrialRecord
+from testbed.experiment.summary import MEASURES, Outline
+from testbed.experiment.table1.classify import classify
+
+Meeting = Literal["nothing", "same", "same later", "other", "other at once"]
+MEETINGS: Mapping[Meeting, str] = {
+    "nothing": "nothing exogenous happened to either",
+    "same": "same event beside the same action, after the same actions",
+    "same later": "same event beside the same action; before it the robots had acted differently",
+    "other": "not the same event and action: before it the robots had acted differently",
+    "other at once": "not the same event and action, although the robots had acted alike",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """What is kept of one robot's trial in a pair.
+
+    `before` are its actions up to the one that `event` goes with, or all where there is no event.
+    """
+
+    trial: str
+    failed: bool
+    achieved: bool
+    correct: bool
+    out_of_reach: bool
+    outcome: str
+    event: str | None
+    before: tuple[str, ...]
+    measures: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Both robots\' trials; `happened` is the scenario read off the intentional robot\'s trial."""
+
+    intended: str
+    happened: str
+    solvable: bool
+    mind: Side
+    base: Side
+
+    @property
+    def played(self) -> bool:
+        """Whether both trials ended by themselves, and the goal could be achieved at all."""
+        return self.solvable and not (self.mind.failed or self.base.failed)
+
+    @property
+    def meeting(self) -> Meeting:
+        """Whether the robots met the same event."""
+        mind, base = self.mind, self.base
+        if mind.event is None and base.event is None:
+            return "nothing"
+        if mind.event == base.event and mind.before[-1:] == base.before[-1:]:
+            return "same" if mind.before == base.before else "same later"
+        common = min(len(side.before) for side in (mind, base) if side.event is not None)
+        alike = mind.before[:common] == base.before[:common]
+        return "other at once" if alike else "other"
+
+
+def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str) -> Iterator[Pair]:
+    """The pairs of two robots, as they become complete; others\' records are passed over."""
+    waiting: dict[str, tuple[str, str, Side]] = {}
+    for record in records:
+        if record.robot not in (mind, base):
+            continue
+        side = _side(record)
+        happened = classify(record, world) if record.robot == mind else ""
+        if record.pair not in waiting:
+            waiting[record.pair] = (record.robot, happened, side)
+            continue
+        robot, earlier, other = waiting.pop(record.pair)
+        minds, bases = (other, side) if robot == mind else (side, other)
+        solvable = record.minimal_actions is not None
+        yield Pair(record.scenario, happened or earlier, solvable, minds, bases)
+
+
+def _side(record: TrialRecord) -> Side:
+    event = record.exogenous[0] if record.exogenous else None
+    until = record.steps if event is None else event.step
+    row = Outline(record)
+    return Side(
+        trial=record.trial,
+        failed=record.outcome in FAILURES,
+        achieved=record.achieved,
+        correct=record.correct,
+        out_of_reach=record.in_reach is False,
+        outcome=record.outcome,
+        event=None if event is None else event.action,
+        before=tuple(a.action for a in record.actions if a.step <= until),
+        measures={name: measure(row) for name, measure in MEASURES.items()},
+    )

@@ -1,0 +1,97 @@
+"""Table 1 as cells of text: ours with its interval, the published value, and whether they agree."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import rich.table
+
+from testbed.experiment.table1.analysis import Row, Table
+from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.experiment.table1.statistics import Estimate
+
+COLUMNS = (
+    "scenario",
+    "pairs",
+    *(name.replace("_", " ").replace("execution units", "exec. time") for name in MEASURES),
+    "TP acc.",
+    "ATI acc.",
+)
+HALF_CENT, HALF_PERCENT = 0.005, 0.005
+"""Published ratios have two decimals, accuracies whole percents."""
+Cells = tuple[str, ...]
+
+
+def rows_of(table: Table) -> Iterator[Cells]:
+    """For each row: our means with intervals; the published values, those outside marked `*`."""
+    for row in table.rows:
+        if not row.pairs:
+            continue
+        yield (
+            row.name,
+            str(row.pairs),
+            *(_ratio(row.ratios[m].mean) for m in MEASURES),
+            *_shares(row),
+        )
+        yield ("  median", "", *(_ratio(row.ratios[m].median) for m in MEASURES), "", "")
+        if row.name in PUBLISHED:
+            yield ("  published", "", *_published(row))
+
+
+def tests_of(table: Table) -> Iterator[Cells]:
+    """For each row the effect sizes, with the p-values after Holm\'s correction."""
+    for row in table.rows:
+        if row.pairs:
+            tests = [*(row.ratios[m].test for m in MEASURES), row.accuracy]
+            yield (
+                row.name,
+                *("-" if t is None else f"{t.effect:+.2f} ({chance(t.holm)})" for t in tests),
+            )
+
+
+def chance(p: float | None) -> str:
+    """A p-value as text."""
+    if p is None:
+        return "-"
+    return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
+
+
+def _ratio(estimate: Estimate | None) -> str:
+    if estimate is None:
+        return "-"
+    return f"{estimate.value:.2f} [{estimate.low:.2f}, {estimate.high:.2f}]"
+
+
+def _shares(row: Row) -> Iterator[str]:
+    for share in (row.baseline, row.intentional):
+        yield "-" if share is None else percent(share)
+
+
+def percent(share: Estimate) -> str:
+    """A proportion with its interval."""
+    return f"{100 * share.value:.1f}% [{100 * share.low:.1f}, {100 * share.high:.1f}]"
+
+
+def _published(row: Row) -> Iterator[str]:
+    paper = PUBLISHED[row.name]
+    for measure in MEASURES:
+        value = paper.ratios[measure]
+        yield f"{value:.2f}{_mark(row.ratios[measure].mean, value, HALF_CENT)}"
+    for share, value in ((row.baseline, paper.baseline), (row.intentional, paper.intentional)):
+        yield f"{100 * value:.0f}%{_mark(share, value, HALF_PERCENT)}"
+
+
+def _mark(ours: Estimate | None, published: float, half_digit: float) -> str:
+    return "" if ours is not None and ours.covers(published, half_digit) else " *"
+
+
+def rich_table1(table: Table, title: str) -> rich.table.Table:
+    """The table for a terminal."""
+    shown = rich.table.Table(
+        *COLUMNS, title=title, title_justify="left", box=None, padding=(0, 1, 0, 0)
+    )
+    for column in shown.columns[1:]:
+        column.justify = "right"
+    for cells in rows_of(table):
+        shown.add_row(*cells)
+    return shown
