@@ -82,7 +82,8 @@ class Believer:
         if history.late_news > self._late_news:
             self._late_news = history.late_news
             self._belief, self._fewest = None, (0, 0)
-            adopted = without_reported(history, adopted)
+        # Where the time ran out after late news, the caller holds what it held before the news.
+        adopted = without_reported(history, adopted)
         self._memory.fold(history)
         diagnosis, carried = adopted, self._carry(history, adopted)
         if carried is not None:

@@ -12,6 +12,7 @@ from agents.intentional.kept import KeptLogician
 from agents.intentional.logician import Logician
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
+from asp.solving import TimeLimitError, time_limit
 
 SOURCE = (Path(__file__).parents[2] / "asp" / "cart.al").read_text(encoding="utf-8")
 CART = knowledge("cart", SOURCE)
@@ -122,6 +123,18 @@ def test_late_news_replaces_what_was_assumed(reasoner: Make) -> None:
     mind.next(news=[(1, "shut_gate")])
     assert mind.assumed == ([(2, "push(right)")], [])
     assert mind.kept
+
+
+@both
+def test_late_news_is_not_forgotten_where_the_time_for_it_ran_out(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.next(seen=["shut"])
+    mind.next(seen=["at(right)"])
+    with pytest.raises(TimeLimitError), time_limit(0):
+        mind.next(news=[(1, "shut_gate")])
+    mind.next()
+    assert mind.assumed == ([(2, "push(right)")], [])
 
 
 @both
