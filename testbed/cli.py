@@ -1,4 +1,4 @@
-"""The command line: run, check, robot, report, replay, translate.
+"""The command line: run, check, robot, report, export, replay, translate.
 
 Exit codes: 0 done; 1 trials ended in error; 2 bad input; 130 interrupted.
 """
@@ -145,6 +145,19 @@ def report(
     with _input_errors():
         for folder in folders:
             report_again(folder)
+
+
+@app.command(epilog=_examples("testbed export runs/quickstart"))
+def export(
+    folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
+) -> None:
+    """Write the stored trials of a run as trials.parquet and trials.csv into its folder."""
+    from testbed.experiment.export import export as write
+
+    with _input_errors():
+        for folder in folders:
+            for path in write(folder):
+                typer.echo(path)
 
 
 @app.command(

@@ -1,0 +1,70 @@
+"""Trials as Parquet and CSV: nothing is lost on the way, whatever a run holds."""
+
+import json
+from pathlib import Path
+
+import msgspec
+import polars as pl
+import pytest
+
+from testbed.config import ConfigError
+from testbed.experiment.errors import StoreError
+from testbed.experiment.export import export
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.runner import run_trials
+from testbed.experiment.store import TrialWriter, read_records, write_config
+from tests.experiment.samples import Configure, a_record
+
+
+@pytest.fixture
+def run(tmp_path: Path, configure: Configure) -> Path:
+    """A run with explanations and events in some trials and none in others."""
+    config = configure("scenarios=[1,4]")
+    write_config(tmp_path, config)
+    run_trials(config, tmp_path, 1, lambda _: None)
+    return tmp_path
+
+
+def test_parquet_gives_the_records_back(run: Path) -> None:
+    rows = pl.read_parquet(export(run)[0]).to_dicts()
+    stored = list(read_records(run))
+    assert [msgspec.convert(row, TrialRecord) for row in rows] == stored
+    assert any(record.explanations for record in stored)
+
+
+def test_csv_gives_the_records_back(run: Path) -> None:
+    columns = pl.read_csv(export(run)[1], infer_schema=False).to_dicts()
+    for row, record in zip(columns, read_records(run), strict=True):
+        for name, value in msgspec.to_builtins(record).items():
+            if isinstance(value, list | dict):
+                assert json.loads(row[name]) == value
+            elif isinstance(value, bool):
+                assert row[name] == str(value).lower()
+            elif value is None:
+                assert row[name] is None
+            else:
+                assert type(value)(row[name]) == value
+
+
+def test_columns_keep_their_types_where_all_are_empty(tmp_path: Path, configure: Configure) -> None:
+    write_config(tmp_path, configure())
+    with TrialWriter(tmp_path) as writer:
+        writer.append(a_record("a"))
+    parquet, csv = export(tmp_path)
+    found = pl.read_parquet(parquet)
+    assert found.schema["exogenous"] == pl.List(
+        pl.Struct({"step": pl.Int64, "action": pl.String, "observed": pl.Boolean})
+    )
+    assert found.columns == list(TrialRecord.__struct_fields__)
+    assert pl.read_csv(csv)["exogenous"].to_list() == ["[]"]
+
+
+def test_what_cannot_be_exported_is_said(tmp_path: Path, configure: Configure) -> None:
+    with pytest.raises(StoreError, match="not a run folder"):
+        export(tmp_path)
+    write_config(tmp_path, configure())
+    with pytest.raises(StoreError, match="no trials to export yet"):
+        export(tmp_path)
+    (tmp_path / "config.yaml").write_text("name: x\n", encoding="utf-8")
+    with pytest.raises(ConfigError):
+        export(tmp_path)
