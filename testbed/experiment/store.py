@@ -94,10 +94,10 @@ def _yaml(keys: dict[str, object]) -> str:
 def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
     """Raise StoreError, showing the difference, unless `config` is the one stored in `folder`."""
     try:
-        stored = _flat(read_config(folder))
+        stored = flat_config(read_config(folder))
     except ConfigError as error:
         raise StoreError(str(error)) from None
-    given = _flat(config)
+    given = flat_config(config)
     changes = [
         f"  {key}: {stored.get(key, 'absent')} -> {given.get(key, 'absent')}"
         for key in [*stored, *(key for key in given if key not in stored)]
@@ -108,7 +108,8 @@ def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
         raise StoreError("\n".join([head, *changes]))
 
 
-def _flat(config: ExperimentConfig) -> dict[str, object]:
+def flat_config(config: ExperimentConfig) -> dict[str, object]:
+    """The keys that are set, nested ones with dots, and the texts of its own files."""
     flat: dict[str, object] = {}
 
     def walk(prefix: str, value: object) -> None:

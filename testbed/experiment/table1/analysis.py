@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from testbed.experiment.table1.classify import NOTHING_TO_DO
 from testbed.experiment.table1.pairing import Meeting, Pair
 from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
 from testbed.experiment.table1.statistics import (
@@ -105,6 +106,8 @@ def analyse(pairs: Iterable[Pair], mind: str, base: str) -> Analysis:
 
 def _as_triggered(pair: Pair) -> str:
     """The scenario played; but a pair in which its event never fired is in none."""
+    if pair.happened == NOTHING_TO_DO:
+        return NOTHING_TO_DO
     return pair.intended if pair.intended == ONE or pair.mind.event is not None else NO_EVENT
 
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from testbed.environment.world import World
-from testbed.experiment.record import FAILURES, TrialRecord
+from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
 from testbed.experiment.summary import MEASURES, Outline
-from testbed.experiment.table1.classify import classify
+from testbed.experiment.table1.classify import classify, state_at
 
 Meeting = Literal["nothing", "same", "same later", "other", "other at once"]
 MEETINGS: Mapping[Meeting, str] = {
@@ -25,7 +25,8 @@ MEETINGS: Mapping[Meeting, str] = {
 class Side:
     """What is kept of one robot's trial in a pair.
 
-    `before` are its actions up to the one that `event` goes with, or all where there is no event.
+    `before` are its actions up to the one that `event` goes with, or all where there is no event;
+    `undone`: whether the event took away a part of the goal that would have been true.
     """
 
     trial: str
@@ -35,6 +36,7 @@ class Side:
     out_of_reach: bool
     outcome: str
     event: str | None
+    undone: bool
     before: tuple[str, ...]
     measures: Mapping[str, float]
 
@@ -73,7 +75,7 @@ def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str)
     for record in records:
         if record.robot not in (mind, base):
             continue
-        side = _side(record)
+        side = _side(record, world)
         happened = classify(record, world) if record.robot == mind else ""
         if record.pair not in waiting:
             waiting[record.pair] = (record.robot, happened, side)
@@ -84,7 +86,7 @@ def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str)
         yield Pair(record.scenario, happened or earlier, solvable, minds, bases)
 
 
-def _side(record: TrialRecord) -> Side:
+def _side(record: TrialRecord, world: World) -> Side:
     event = record.exogenous[0] if record.exogenous else None
     until = record.steps if event is None else event.step
     row = Outline(record)
@@ -96,6 +98,18 @@ def _side(record: TrialRecord) -> Side:
         out_of_reach=record.in_reach is False,
         outcome=record.outcome,
         event=None if event is None else event.action,
+        undone=event is not None and undone(record, event, world),
         before=tuple(a.action for a in record.actions if a.step <= until),
         measures={name: measure(row) for name, measure in MEASURES.items()},
+    )
+
+
+def undone(record: TrialRecord, event: Occurrence, world: World) -> bool:
+    """Whether a literal of the goal is false after an event that would else be true there."""
+    before, after = state_at(record, world, event.step), state_at(record, world, event.step + 1)
+    own = [a.action for a in record.actions if a.step == event.step and a.happened]
+    return any(
+        world.holds(without, literal) and not world.holds(after, literal)
+        for without in world.successors(before, own)
+        for literal in record.goal
     )

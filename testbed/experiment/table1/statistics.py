@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
 CONFIDENCE = 0.95
-RESAMPLES = 2000
+RESAMPLES = 1000
 SEED = 1
 
 Values: TypeAlias = NDArray[np.float64]

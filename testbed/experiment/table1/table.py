@@ -10,13 +10,10 @@ from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
 from testbed.experiment.table1.statistics import Estimate
 
-COLUMNS = (
-    "scenario",
-    "pairs",
-    *(name.replace("_", " ").replace("execution units", "exec. time") for name in MEASURES),
-    "TP acc.",
-    "ATI acc.",
-)
+HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
+"""The published names of the measures."""
+
+COLUMNS = ("scenario", "pairs", *HEADINGS, "TP acc.", "ATI acc.")
 HALF_CENT, HALF_PERCENT = 0.005, 0.005
 """Published ratios have two decimals, accuracies whole percents."""
 Cells = tuple[str, ...]
@@ -56,6 +53,11 @@ def chance(p: float | None) -> str:
     return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
 
 
+def number(value: float | None) -> str:
+    """A ratio with two decimals."""
+    return "-" if value is None else f"{value:.2f}"
+
+
 def _ratio(estimate: Estimate | None) -> str:
     if estimate is None:
         return "-"
@@ -64,10 +66,10 @@ def _ratio(estimate: Estimate | None) -> str:
 
 def _shares(row: Row) -> Iterator[str]:
     for share in (row.baseline, row.intentional):
-        yield "-" if share is None else percent(share)
+        yield "-" if share is None else interval(share)
 
 
-def percent(share: Estimate) -> str:
+def interval(share: Estimate) -> str:
     """A proportion with its interval."""
     return f"{100 * share.value:.1f}% [{100 * share.low:.1f}, {100 * share.high:.1f}]"
 

@@ -1,0 +1,39 @@
+"""Print the page of published and measured, made from run folders."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from testbed.config import ConfigError
+from testbed.experiment.errors import StoreError
+from testbed.experiment.table1.page.document import Sources, document
+from testbed.experiment.table1.runs import Run, read_run
+
+BAD_INPUT = 2
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The exit code: 0, or 2 with one line about what cannot be read."""
+    parser = argparse.ArgumentParser("python -m testbed.experiment.table1", description=__doc__)
+    parser.add_argument("folder", type=Path, metavar="DIR", help="run folder of the protocol")
+    parser.add_argument("--unaided", type=Path, help="one of a run without goal feedback")
+    parser.add_argument("--later", type=Path, help="one of a run whose random events come later")
+    given = parser.parse_args(arguments)
+    try:
+        sources = Sources(read_run(given.folder), _run(given.unaided), _run(given.later))
+    except (StoreError, ConfigError, OSError) as error:
+        print(error, file=sys.stderr)
+        return BAD_INPUT
+    print(document(sources), end="")
+    return 0
+
+
+def _run(folder: Path | None) -> Run | None:
+    return None if folder is None else read_run(folder)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

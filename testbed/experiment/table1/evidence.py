@@ -1,0 +1,133 @@
+"""What explains a difference from the published table: our pairs, and its own rows."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from math import log
+from statistics import fmean
+
+import numpy as np
+from scipy.optimize import nnls  # type: ignore[import-untyped]  # scipy ships no types
+
+from testbed.experiment.table1.analysis import Table
+from testbed.experiment.table1.pairing import Pair
+from testbed.experiment.table1.published import (
+    ALL,
+    MEASURES,
+    NO_FAILURES,
+    PUBLISHED,
+    SCENARIOS,
+    Published,
+)
+
+WITHOUT_SECONDS = ("plans", "execution_units", "actions")
+"""The measures that do not depend on how fast a machine or a solver is."""
+
+
+@dataclass(frozen=True)
+class Blindness:
+    """The traditional robot in pairs whose event undid a part of the goal, and in the others."""
+
+    undone: int
+    undone_right: int
+    others: int
+    others_right: int
+
+
+def blindness(pairs: Iterable[Pair]) -> Blindness:
+    """How often the traditional robot is right, with and without a part of the goal undone."""
+    counts = Counter((pair.base.undone, pair.base.correct) for pair in pairs if pair.played)
+    return Blindness(
+        undone=counts[True, True] + counts[True, False],
+        undone_right=counts[True, True],
+        others=counts[False, True] + counts[False, False],
+        others_right=counts[False, True],
+    )
+
+
+def published_weights() -> tuple[dict[str, float], float]:
+    """How the published rows 1 to 5 must be weighted to give the row of all; the largest misfit.
+
+    By least squares with weights that are not negative and come to 1, of the columns that are
+    means over pairs.
+    """
+    rows = [_columns(PUBLISHED[name]) for name in SCENARIOS]
+    sum_to_one = 10.0
+    matrix = np.array([[*row, sum_to_one] for row in rows]).T
+    wanted = np.array([*_columns(PUBLISHED[ALL]), sum_to_one])
+    weights, _ = nnls(matrix, wanted)
+    misfit = float(np.abs(matrix @ weights - wanted)[:-1].max())
+    return dict(zip(SCENARIOS, map(float, weights / weights.sum()), strict=True)), misfit
+
+
+def _columns(row: Published) -> list[float]:
+    return [*(row.ratios[measure] for measure in MEASURES), row.baseline]
+
+
+def shares(table: Table) -> dict[str, float]:
+    """Which part of a table\'s pairs is in each scenario from 1 to 5."""
+    counts = {row.name: row.pairs for row in table.rows if row.name in SCENARIOS}
+    return {name: counts.get(name, 0) / sum(counts.values()) for name in SCENARIOS}
+
+
+def published_failures(scenario: str) -> dict[str, float]:
+    """The mean ratios of the published pairs in which the traditional robot fails.
+
+    They follow from a row, its accuracy, and the row without failures.
+    """
+    row, rest = PUBLISHED[scenario], PUBLISHED[scenario + NO_FAILURES]
+    return {
+        name: (row.ratios[name] - row.baseline * rest.ratios[name]) / (1 - row.baseline)
+        for name in MEASURES
+    }
+
+
+def mean_ratios(pairs: Sequence[Pair]) -> dict[str, float | None]:
+    """The mean ratios of some pairs; None where none has a ratio."""
+    return {name: _mean_ratio(pairs, name) for name in MEASURES}
+
+
+def _mean_ratio(pairs: Sequence[Pair], name: str) -> float | None:
+    own = [
+        pair.base.measures[name] / pair.mind.measures[name]
+        for pair in pairs
+        if pair.mind.measures[name]
+    ]
+    return fmean(own) if own else None
+
+
+@dataclass(frozen=True)
+class Closeness:
+    """How near a table comes to the published one.
+
+    `inside` of `values` published values lie in our intervals; `distance` is the mean of
+    |ln(ours / published)| over the ratios that do not depend on seconds.
+    """
+
+    inside: int
+    values: int
+    distance: float
+
+
+def closeness(table: Table, rows: Iterable[str] = SCENARIOS) -> Closeness:
+    """Of these rows, plans, execution units, actions and the traditional robot\'s accuracy."""
+    inside, distances = [], []
+    for row in table.rows:
+        if row.name not in rows:
+            continue
+        paper = PUBLISHED[row.name]
+        if row.baseline is not None:
+            inside.append(row.baseline.covers(paper.baseline, 0.005))
+        for name in WITHOUT_SECONDS:
+            ours = row.ratios[name].mean
+            if ours is not None:
+                inside.append(ours.covers(paper.ratios[name], 0.005))
+                distances.append(abs(log(ours.value / paper.ratios[name])))
+    return Closeness(sum(inside), len(inside), fmean(distances) if distances else 0.0)
+
+
+def plans_made(pairs: Iterable[Pair]) -> Mapping[int, int]:
+    """How many pairs have how many plans of the traditional robot."""
+    return dict(sorted(Counter(int(pair.base.measures["plans"]) for pair in pairs).items()))

@@ -1,0 +1,115 @@
+"""`docs/published-and-measured.md`: both tables beside the published one, and what explains it."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from testbed.experiment.table1.analysis import Analysis, Table
+from testbed.experiment.table1.markdown import markdown
+from testbed.experiment.table1.page.drawing import drawing
+from testbed.experiment.table1.page.failing import blindness, failures, meetings
+from testbed.experiment.table1.page.others import arguments, later, unaided
+from testbed.experiment.table1.page.rows import row_by_row
+from testbed.experiment.table1.runs import Run
+from testbed.experiment.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
+
+INTRODUCTION = """\
+# Published and measured
+
+Generated from stored trials by the commands below; [the protocol](table1.md) says what is counted
+and how. Nothing in the robots or in the triggers was chosen to come near the published figures.
+
+```console
+{commands}
+```
+
+In each table: our mean with its 95% interval, our median, and the published value, with `*` where
+it does not lie in the interval of our mean. TP is `traditional`, ATI `intentional`; ratios are
+TP / ATI.
+"""
+
+TESTS = """\
+## Tests
+
+Effect sizes (of measures rank-biserial, above 0 where TP needed more; of the accuracy the
+difference of the proportions, above 0 where ATI was right more often), with p-values after Holm's
+correction over the table. There is none where no pair differs.
+
+"""
+
+
+@dataclass(frozen=True)
+class Sources:
+    """The runs of a page: the main one; others, where there are any, for single questions."""
+
+    main: Run
+    unaided: Run | None = None
+    later: Run | None = None
+
+
+def document(sources: Sources) -> str:
+    """The page as Markdown: the tables, then a section a question, the tests last."""
+    mind = sources.main.minds[0]
+    analysis, pairs = sources.main.analyses[mind], sources.main.pairs[mind]
+    parts = [
+        INTRODUCTION.format(commands=_commands(sources)),
+        *_tables(analysis),
+        drawing(analysis),
+        blindness(pairs),
+        row_by_row(pairs),
+        *([] if sources.later is None else [later(sources.later)]),
+        failures(sources.main, mind),
+        meetings(pairs),
+        *([] if sources.unaided is None else [unaided(sources.unaided)]),
+        _tests(analysis),
+    ]
+    return "\n".join(parts)
+
+
+def _commands(sources: Sources) -> str:
+    runs = [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
+    lines = [f"$ testbed run {shlex.join(arguments(run.config))} --workers 2" for run in runs]
+    options = [
+        f"--{option} runs/{run.config.name}"
+        for option, run in (("unaided", sources.unaided), ("later", sources.later))
+        if run is not None
+    ]
+    page = " ".join([f"runs/{sources.main.config.name}", *options])
+    lines.append(f"$ python -m testbed.experiment.table1 {page} > docs/published-and-measured.md")
+    return "\n".join(lines)
+
+
+def _tables(analysis: Analysis) -> Iterator[str]:
+    if analysis.triggered is not None:
+        yield "## Triggered scenarios\n"
+        yield markdown(COLUMNS, rows_of(analysis.triggered)) + "\n"
+        yield _apart(analysis.triggered)
+    if analysis.random is not None:
+        yield "## Random exogenous actions, classified afterwards\n"
+        yield markdown(COLUMNS, rows_of(analysis.random)) + "\n"
+        yield _apart(analysis.random)
+
+
+def _tests(analysis: Analysis) -> str:
+    """Effect sizes and corrected p-values of both tables."""
+    columns = ("scenario", *HEADINGS, "accuracy")
+    parts = [
+        f"**{name}**\n\n{markdown(columns, tests_of(table))}\n"
+        for name, table in (("Triggered", analysis.triggered), ("Random", analysis.random))
+        if table is not None
+    ]
+    return TESTS + "\n".join(parts)
+
+
+def _apart(table: Table) -> str:
+    apart = [f"{count} pairs: {name}" for name, count in table.apart.items()]
+    everything = [row for row in table.rows if row.name.isdigit()]
+    counts = (
+        ("trials in error or without a robot", sum(row.failed for row in everything)),
+        ("goal out of reach from the start", sum(row.unsolvable for row in everything)),
+        ("goal out of reach at the end", sum(row.out_of_reach for row in everything)),
+    )
+    counted = [f"{name}: {count}" for name, count in counts]
+    return f"Counted apart: {'; '.join([*apart, *counted])}.\n"

@@ -1,0 +1,72 @@
+"""When the robots of a pair fail, and whether they met the same."""
+
+from __future__ import annotations
+
+import shlex
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+
+from testbed.experiment.table1 import evidence
+from testbed.experiment.table1.analysis import RANDOM
+from testbed.experiment.table1.markdown import markdown
+from testbed.experiment.table1.pairing import MEETINGS, Pair
+from testbed.experiment.table1.runs import Run
+
+COLUMNS = ("scenario", "goal undone", "TP right", "other pairs", "TP right")
+
+
+def blindness(pairs: Sequence[Pair]) -> str:
+    """When the traditional robot fails."""
+    return f"""\
+## When TP fails
+
+TP looks at nothing but the outcome of its own action. A book that it still has to fetch and does
+not find makes an action fail; TP explains that and plans again. A book that was taken away from
+where the goal wants it is part of no action of its plan any more. The pairs by whether the
+exogenous action undid a part of the goal (a literal of the goal is false after it that would else
+have been true):
+
+{markdown(COLUMNS, _undone(pairs))}
+
+TP's accuracy in a row is thus decided by the share of its pairs in which a part of the goal was
+undone, whatever else happens in them; of the published pairs 28% in row 3 and 27% in row 4, if it
+was so there, too.
+"""
+
+
+def _undone(pairs: Sequence[Pair]) -> Iterator[tuple[str, ...]]:
+    for name, own in _by_row(pairs).items():
+        seen = evidence.blindness(own)
+        first = (str(seen.undone), f"{seen.undone_right} of {seen.undone}")
+        yield (name, *first, str(seen.others), f"{seen.others_right} of {seen.others}")
+
+
+def _by_row(pairs: Sequence[Pair]) -> Mapping[str, list[Pair]]:
+    groups: dict[str, list[Pair]] = {}
+    for pair in pairs:
+        drawn = pair.intended == RANDOM
+        if drawn and pair.happened.isdigit():
+            groups.setdefault(f"random, {pair.happened}", []).append(pair)
+        elif not drawn and pair.mind.event is not None:
+            groups.setdefault(f"triggered, {pair.intended}", []).append(pair)
+    return dict(sorted(groups.items()))
+
+
+def failures(run: Run, mind: str) -> str:
+    """The trials that the intentional robot did not get right, each with its replay."""
+    wrong = [pair.mind for pair in run.pairs[mind] if not pair.mind.correct]
+    where = shlex.quote(f"runs/{run.config.name}")
+    lines = [f"$ testbed replay {where} --trial {side.trial}  # {side.outcome}" for side in wrong]
+    told = "\n".join(["", "```console", *lines, "```", ""]) if lines else ""
+    return f"""\
+## ATI's failures, with goal feedback
+
+ATI was not correct in {len(wrong)} of {len(run.pairs[mind])} trials.
+{told}"""
+
+
+def meetings(pairs: Sequence[Pair]) -> str:
+    """Whether the robots of a pair met the same event."""
+    counts = Counter(pair.meeting for pair in pairs)
+    rows = [(text, str(counts[name])) for name, text in MEETINGS.items()]
+    return f"## Did both robots meet the same?\n\n{markdown(('pairs in which', 'number'), rows)}\n"

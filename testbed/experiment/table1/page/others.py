@@ -1,0 +1,109 @@
+"""Runs under other rules: without goal feedback, and with events that come later."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.store import flat_config
+from testbed.experiment.table1 import evidence
+from testbed.experiment.table1.analysis import RANDOM, Row
+from testbed.experiment.table1.markdown import markdown
+from testbed.experiment.table1.page.drawing import percent
+from testbed.experiment.table1.pairing import Pair
+from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.experiment.table1.runs import PROTOCOL, Run
+from testbed.experiment.table1.table import HEADINGS, interval, number
+
+
+def arguments(config: ExperimentConfig) -> list[str]:
+    """What to give `testbed run` for a configuration: the packaged one, and what differs."""
+    packaged, own = flat_config(load_config(PROTOCOL)), flat_config(config)
+    changed = [key for key in own if own[key] != packaged.get(key)]
+    return [PROTOCOL, *(f"{key}={_value(own[key])}" for key in changed)]
+
+
+def _value(value: object) -> str:
+    if isinstance(value, list | tuple):
+        return "[" + ",".join(map(str, value)) + "]"
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def later(run: Run) -> str:
+    """The same random pairs with events that come later."""
+    table = run.analyses[run.minds[0]].random
+    if table is None:
+        return ""
+    columns = ("scenario", "pairs", "TP acc.", "published", *HEADINGS)
+    rows = [_accuracy(row) for row in table.rows if row.name in PUBLISHED and row.pairs]
+    shares = ", ".join(f"{name}: {percent(s)}" for name, s in evidence.shares(table).items())
+    return f"""\
+## If random events came later
+
+In the released simulator a random event is tried with probability 0.92 at each action, so that it
+mostly comes beside the first, when nothing that the robot delivered can be undone yet. How much
+depends on that is seen with {run.config.adversary.rate} in its place, all else being equal (this is
+no attempt at agreement; the tables above stand):
+
+{markdown(columns, rows)}
+
+Shares of the scenarios 1 to 5: {shares}.
+"""
+
+
+def _accuracy(row: Row) -> tuple[str, ...]:
+    ours = "-" if row.baseline is None else interval(row.baseline)
+    ratios = [row.ratios[name].mean for name in MEASURES]
+    values = (number(None if ratio is None else ratio.value) for ratio in ratios)
+    return (row.name, str(row.pairs), ours, percent(PUBLISHED[row.name].baseline), *values)
+
+
+def unaided(run: Run) -> str:
+    """Accuracies without goal feedback, by robot."""
+    columns = ("scenario", "pairs", *run.minds, "traditional")
+    return f"""\
+## Without goal feedback
+
+A robot that finishes is not told that the goal does not hold. ATI believes that its goal holds as
+long as nothing that it has seen says otherwise, which is wrong where something delivered was taken
+away behind its back; `intentional-checking` goes to look before it finishes. The trials whose goal
+is achieved:
+
+{markdown(columns, _achieved(run))}
+
+The scenario is the one that was played, or, of a random event, what it came to be for the first of
+these robots. Where that one ends wrongly after all of its one activity, it is scenario 1 by the
+rule.
+
+{_costs(run)}"""
+
+
+def _achieved(run: Run) -> Iterator[tuple[str, ...]]:
+    """By the scenario of the first robot, for its pairs and those of the others beside them."""
+    first = run.minds[0]
+    places = {pair.base.trial: _place(pair) for pair in run.pairs[first]}
+    for name in sorted(set(places.values())):
+        own = {m: [p for p in run.pairs[m] if places[p.base.trial] == name] for m in run.minds}
+        minds = (_share([pair.mind.achieved for pair in own[m]]) for m in run.minds)
+        base = _share([pair.base.achieved for pair in own[first]])
+        yield (name, str(len(own[first])), *minds, base)
+
+
+def _place(pair: Pair) -> str:
+    return f"random, {pair.happened}" if pair.intended == RANDOM else f"triggered, {pair.intended}"
+
+
+def _share(right: Sequence[bool]) -> str:
+    return f"{100 * sum(right) / len(right):.1f}% ({sum(right)})" if right else "-"
+
+
+def _costs(run: Run) -> str:
+    """How many times the units of the first robot the others needed, over all pairs."""
+    first, *others = run.minds
+    units = {m: sum(p.mind.measures["execution_units"] for p in run.pairs[m]) for m in run.minds}
+    return "".join(
+        f"Over all pairs `{name}` needed {units[name] / units[first]:.2f} times the execution "
+        f"units of `{first}`.\n"
+        for name in others
+        if units[first]
+    )
