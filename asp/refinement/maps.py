@@ -33,6 +33,7 @@ def check_maps(
         for place, message in (
             *fitting.missing(places),
             *fitting.unreachable(finer, places),
+            *fitting.cut_off(places),
             *fitting.unconnected(finer, places),
             *fitting.too_many(finer, places),
         ):
@@ -131,6 +132,17 @@ class _Map:
                     one, other = (part, first) if part not in there else (first, part)
                     message = f"'{one}' cannot be reached from '{other}' inside '{whole}'"
                     yield places.of(part), message
+
+    def cut_off(self, places: _Places) -> Found:
+        """From each whole one gets to each other, so that nobody is caught in one."""
+        first, *others = self._wholes()
+        back = frozenset((other, one) for one, other in self.coarse)
+        there, and_back = (_reached(first, {first, *others}, way) for way in (self.coarse, back))
+        for whole in others:
+            if whole not in there & and_back and whole not in self._lost(places):
+                one, other = (whole, first) if whole not in there else (first, whole)
+                message = f"'{one}' cannot be reached from '{other}' by {self.static}"
+                yield places.of(whole), message
 
     def unconnected(self, finer: Pairs, places: _Places) -> Found:
         """Where the coarse map has a way there is one between components."""

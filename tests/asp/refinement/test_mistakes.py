@@ -13,6 +13,7 @@ from asp.refinement.reading import read_refinement
 
 COARSE = read_domain("level")[1]
 FINE = read_refinement("level.fine")[1]
+ROOMS = ("room1", "room2", "room3")
 
 
 def mistakes(fine: str, coarse: str = COARSE) -> list[str]:
@@ -253,9 +254,37 @@ class TestMaps:
     def test_a_cell_that_cannot_be_left_again(self) -> None:
         """Where ways lead one way: a coarse map without the law that turns them round."""
         coarse = changed("  next_to(L1, L2) if next_to(L2, L1).\n", "", COARSE)
-        assert mistakes(FINE, coarse) == [
+        inside = [
             f"{place(f'{r}_2}}', FINE)}: '{r}_1' cannot be reached from '{r}_2' inside '{r}'"
-            for r in ("room1", "room2", "room3")
+            for r in ROOMS
+        ]
+        between = [
+            f"{place(f'{r} =', FINE)}: 'room1' cannot be reached from '{r}' by next_to"
+            for r in ("room2", "room3")
+        ]
+        assert sorted(mistakes(FINE, coarse)) == sorted(inside + between)
+
+    def test_a_room_that_no_doorway_leads_to(self) -> None:
+        coarse = changed("  next_to(room2, room3).\n", "", COARSE)
+        fine = changed("  fine_next_to(room2_2, room3_1).\n", "")
+        assert mistakes(fine, coarse) == [
+            f"{place('room3 =', fine)}: 'room3' cannot be reached from 'room1' by next_to"
+        ]
+
+    def test_a_room_with_a_door_that_leads_in_only(self) -> None:
+        """All other ways lead both ways."""
+        coarse = changed("  next_to(L1, L2) if next_to(L2, L1).\n", "", COARSE)
+        coarse = changed(
+            "  next_to(room1, room2).\n",
+            "  next_to(room1, room2).\n  next_to(room2, room1).\n",
+            coarse,
+        )
+        fine = FINE
+        for one, other in (("room1_2", "room2_1"), *((f"{r}_1", f"{r}_2") for r in ROOMS)):
+            way = f"  fine_next_to({one}, {other}).\n"
+            fine = changed(way, f"{way}  fine_next_to({other}, {one}).\n", fine)
+        assert mistakes(fine, coarse) == [
+            f"{place('room3 =', fine)}: 'room1' cannot be reached from 'room3' by next_to"
         ]
 
     def test_two_doorways_between_neighbours_are_fine(self) -> None:
