@@ -1,25 +1,14 @@
-"""`report.html`: one file without network, made again from the stored records at any time."""
+"""Trials told step by step: of a large run some, those that went wrong first."""
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
-from markupsafe import Markup
-
-from asp.commentary import scenario_notes
-from asp.loading import read_domain
-from testbed.config import ExperimentConfig
-from testbed.experiment.comparison import comparisons
-from testbed.experiment.level_table import LEVEL_COLUMNS, Cells, level_rows
 from testbed.experiment.record import COARSE, FAILURES, TrialRecord
-from testbed.experiment.store import REPORT, read_records, replace_text
-from testbed.experiment.summary import write_summary
-from testbed.experiment.tables import Row, headings, rows_of
-from testbed.experiment.wording import counted, explanation, in_words, of_place
+from testbed.experiment.store import read_records
+from testbed.experiment.wording import explanation, of_place
 
 SHOWN = 60  # trials told step by step; of a larger run those that failed come first
 
@@ -52,37 +41,8 @@ class Chapter:
     stories: tuple[Story, ...]
 
 
-@dataclass(frozen=True)
-class Tables:
-    """What a run comes to: a row a scenario (or level) and robot, and the table of the levels."""
-
-    rows: list[Row]
-    levels: list[Cells]
-
-
-def write_report(folder: Path, config: ExperimentConfig) -> Tables:
-    """Write `summary.json` and `report.html` from the records of a run; its tables."""
-    summary = write_summary(folder)
-    rows, levels = rows_of(read_records(folder)), level_rows(summary)
-    chapters = list(_chapters(folder, scenario_notes(*reversed(read_domain(config.domain)))))
-    page = _template().render(
-        config=config,
-        domain=Path(config.domain).stem,
-        columns=headings(rows),
-        level_columns=LEVEL_COLUMNS,
-        levels=levels,
-        rows=rows,
-        comparisons=comparisons(summary),
-        trials=sum(row.trials for row in rows),
-        told=sum(len(chapter.stories) for chapter in chapters),
-        chapters=chapters,
-        folder=shlex.quote(str(folder)),
-    )
-    replace_text(folder / REPORT, page)
-    return Tables(rows, levels)
-
-
-def _chapters(folder: Path, notes: Mapping[str, str]) -> Iterator[Chapter]:
+def chapters(folder: Path, notes: Mapping[str, str]) -> Iterator[Chapter]:
+    """The told trials of a run by scenario or level; `notes` are the domain's, by scenario."""
     stories: dict[tuple[str, str], list[Story]] = {}
     for record in _worth_telling(folder):
         story = Story(record, tuple(timeline(record)))
@@ -131,16 +91,3 @@ def _some(records: Iterable[TrialRecord]) -> list[TrialRecord]:
 
 def _went_wrong(record: TrialRecord) -> bool:
     return record.outcome in FAILURES or not record.achieved
-
-
-def _atoms(text: str) -> Markup:
-    """Text that breaks at its spaces alone, and not inside of an atom."""
-    return Markup(" ").join(Markup('<span class="atom">{}</span>').format(a) for a in text.split())
-
-
-def _template() -> Template:
-    loader = PackageLoader("testbed.experiment", "templates")
-    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"atoms": _atoms, "counted": counted, "in_words": in_words}
-    environment.trim_blocks = environment.lstrip_blocks = True
-    return environment.get_template("report.html.j2")

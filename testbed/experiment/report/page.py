@@ -1,0 +1,127 @@
+"""`report.html`: one file without network, made again from the stored records at any time."""
+
+# Figures and the statistics of a published table take a second to import, and few runs have them.
+# ruff: noqa: PLC0415
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from asp.commentary import scenario_notes
+from asp.loading import read_domain
+from testbed.config import ExperimentConfig
+from testbed.experiment.comparison import comparisons
+from testbed.experiment.level_table import Cells, level_rows
+from testbed.experiment.report.accounts import accounts_of
+from testbed.experiment.report.endings import command_of, failures, slowest
+from testbed.experiment.report.stories import chapters
+from testbed.experiment.store import REPORT, read_records, replace_text
+from testbed.experiment.summary import write_summary
+from testbed.experiment.tables import Row, headings, rows_of
+from testbed.experiment.wording import counted, in_words
+
+if TYPE_CHECKING:
+    from testbed.experiment.table1.analysis import Analysis
+
+PROTOCOL = "table1"
+
+
+@dataclass(frozen=True)
+class Tables:
+    """What a run comes to: a row a scenario (or level) and robot, and the published tables."""
+
+    rows: list[Row]
+    levels: list[Cells]
+    table1: list[Analysis] = field(default_factory=list)
+
+
+def write_report(folder: Path, config: ExperimentConfig) -> Tables:
+    """Write `summary.json` and `report.html` from the records of a run; its tables."""
+    summary = write_summary(folder)
+    table1 = _table1(folder, config)
+    tables = Tables(rows_of(read_records(folder)), level_rows(summary), table1)
+    parts = {
+        **_heading(config, tables),
+        **_tables(tables, summary),
+        **_trials(folder, config),
+        "replay": lambda trial: command_of(folder, trial),
+    }
+    replace_text(folder / REPORT, _environment().get_template("page.html.j2").render(parts))
+    return tables
+
+
+def _table1(folder: Path, config: ExperimentConfig) -> list[Analysis]:
+    if config.protocol != PROTOCOL:
+        return []
+    from testbed.experiment.report.table1 import analyses
+
+    return analyses(folder, config)
+
+
+def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
+    return {
+        "config": config,
+        "domain": Path(config.domain).stem,
+        "trials": sum(row.trials for row in tables.rows),
+        "achieved": sum(row.achieved for row in tables.rows),
+        "failed": sum(row.failed for row in tables.rows),
+    }
+
+
+def _tables(tables: Tables, summary: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        "columns": headings(tables.rows),
+        "rows": tables.rows,
+        "comparisons": [] if tables.table1 else comparisons(summary),
+        **(_levels(summary) if tables.levels else {"levels": []}),
+        "published": [_published(analysis) for analysis in tables.table1],
+    }
+
+
+def _levels(summary: Mapping[str, Any]) -> dict[str, Any]:
+    from testbed.experiment.report.levels import COLUMNS, lines, panels
+
+    return {"level_columns": COLUMNS, "levels": lines(summary), "level_panels": panels(summary)}
+
+
+def _published(analysis: Analysis) -> dict[str, Any]:
+    from testbed.experiment.report import table1
+
+    return {
+        "robot": analysis.mind,
+        "columns": table1.COLUMNS,
+        "tests": table1.TESTS,
+        "views": table1.views(analysis),
+        "panels": table1.panels(analysis),
+        "became": analysis.became,
+    }
+
+
+def _trials(folder: Path, config: ExperimentConfig) -> dict[str, Any]:
+    told = list(chapters(folder, scenario_notes(*reversed(read_domain(config.domain)))))
+    return {
+        "accounts": accounts_of(read_records(folder)),
+        "slowest": slowest(read_records(folder), folder),
+        "failures": failures(read_records(folder), folder),
+        "told": sum(len(chapter.stories) for chapter in told),
+        "chapters": told,
+    }
+
+
+def _atoms(text: str) -> Markup:
+    """Text that breaks at its spaces alone, and not inside of an atom."""
+    return Markup(" ").join(Markup('<span class="atom">{}</span>').format(a) for a in text.split())
+
+
+def _environment() -> Environment:
+    loader = PackageLoader("testbed.experiment.report", "templates")
+    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+    environment.filters |= {"atoms": _atoms, "counted": counted, "in_words": in_words}
+    environment.trim_blocks = environment.lstrip_blocks = True
+    return environment

@@ -1,0 +1,186 @@
+"""Table 1 as the report shows it: each value with its interval, above the published one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from testbed.config import ExperimentConfig
+from testbed.experiment.domains import load_world
+from testbed.experiment.report.figures import Panel, Point, Series, forest
+from testbed.experiment.report.svg import FIRST, PAPER, SECOND
+from testbed.experiment.store import read_records
+from testbed.experiment.summary import BASELINE
+from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
+from testbed.experiment.table1.pairing import MEETINGS, pairs_of
+from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.experiment.table1.statistics import Estimate
+from testbed.experiment.table1.table import HALF_CENT, HALF_PERCENT, tests_of
+from testbed.experiment.wording import counted, in_words
+
+NAME = "table1"
+NAMES = {"total_time": "total time", "execution_units": "exec. time"}
+ACCURACIES = ("TP correct", "ATI correct")
+COLUMNS = ("scenario", "pairs", *(NAMES.get(m, in_words(m)) for m in MEASURES), *ACCURACIES)
+TESTS = ("scenario", *COLUMNS[2:-2], "correct")
+TRIGGERED, RANDOM = "triggered", "drawn at random, classified"
+
+
+@dataclass(frozen=True)
+class Value:
+    """A cell: ours, its interval, the published value, and whether the interval holds that."""
+
+    ours: str
+    interval: str = ""
+    published: str = ""
+    inside: bool | None = None
+
+
+@dataclass(frozen=True)
+class Line:
+    """A row of the table."""
+
+    name: str
+    pairs: int
+    values: tuple[Value, ...]
+
+
+@dataclass(frozen=True)
+class View:
+    """One way of assigning pairs to scenarios; `notes` say what is in no row, and how pairs met."""
+
+    title: str
+    lines: tuple[Line, ...]
+    tests: tuple[tuple[str, ...], ...]
+    notes: tuple[str, ...]
+
+
+def analyses(folder: Path, config: ExperimentConfig) -> list[Analysis]:
+    """Each robot with activities against the traditional one; nothing for another protocol."""
+    if config.protocol != NAME or BASELINE not in config.robots:
+        return []
+    world = load_world(config.domain)
+    minds = [robot for robot in config.robots if robot != BASELINE]
+    return [
+        analyse(pairs_of(read_records(folder), world, mind, BASELINE), mind, BASELINE)
+        for mind in minds
+    ]
+
+
+def views(analysis: Analysis) -> list[View]:
+    """The tables of two robots, those without pairs left out."""
+    both = ((TRIGGERED, analysis.triggered), (RANDOM, analysis.random))
+    return [
+        View(title, tuple(_lines(table)), tuple(tests_of(table)), tuple(_notes(table)))
+        for title, table in both
+        if table is not None
+    ]
+
+
+def _lines(table: Table) -> Iterator[Line]:
+    for row in table.rows:
+        if row.pairs:
+            yield Line(row.name, row.pairs, tuple(_values(row)))
+
+
+def _values(row: Row) -> Iterator[Value]:
+    paper = PUBLISHED.get(row.name)
+    for measure in MEASURES:
+        published = None if paper is None else paper.ratios[measure]
+        yield _value(row.ratios[measure].mean, published, "{:.2f}", HALF_CENT)
+    shares = (row.baseline, row.intentional)
+    theirs = (None, None) if paper is None else (paper.baseline, paper.intentional)
+    for share, published in zip(shares, theirs, strict=True):
+        yield _value(share, published, "{:.0%}", HALF_PERCENT, "{:.1%}")
+
+
+def _value(
+    ours: Estimate | None, published: float | None, form: str, half_digit: float, finer: str = ""
+) -> Value:
+    """Ours in the form of the published one, unless with another decimal."""
+    theirs = "" if published is None else form.format(published)
+    form = finer or form
+    if ours is None:
+        return Value("-", "", theirs)
+    low, high = form.format(ours.low), form.format(ours.high)
+    inside = None if published is None else ours.covers(published, half_digit)
+    return Value(form.format(ours.value), f"{low} to {high}", theirs, inside)
+
+
+def _notes(table: Table) -> Iterator[str]:
+    everything = [row for row in table.rows if row.name.isdigit()]
+    apart = [f"{counted(number, 'pair')} of {name}" for name, number in table.apart.items()]
+    failed, never = (sum(getattr(r, key) for r in everything) for key in ("failed", "unsolvable"))
+    apart += [f"{counted(failed, 'pair')} with an error or a lost robot"] * (failed > 0)
+    apart += [f"{counted(never, 'pair')} whose goal no plan achieves"] * (never > 0)
+    if apart:
+        yield f"In no row: {', '.join(apart)}"
+    for meeting, words in MEETINGS.items():
+        number = sum(row.meetings.get(meeting, 0) for row in everything)
+        if number:
+            yield f"{counted(number, 'pair')}: {words}"
+
+
+def panels(analysis: Analysis) -> list[Panel]:
+    """Accuracies and ratios with intervals by scenario, both tables and the published one."""
+    rows = [name for name in PUBLISHED if any(_row(t, name) for t in _tables(analysis))]
+    name = analysis.mind
+    shares = (("baseline", ACCURACIES[0]), ("intentional", ACCURACIES[1]))
+    found = [
+        forest(f"{name}-{who}", title, rows, _share_series(analysis, rows, who), share=True)
+        for who, title in shares
+    ]
+    return found + [
+        forest(f"{name}-{m}", f"{title}, TP / ATI", rows, _ratio_series(analysis, rows, m))
+        for m, title in zip(MEASURES, COLUMNS[2:], strict=False)
+    ]
+
+
+def _tables(analysis: Analysis) -> list[Table]:
+    return [table for table in (analysis.triggered, analysis.random) if table is not None]
+
+
+def _row(table: Table | None, name: str) -> Row | None:
+    rows = () if table is None else table.rows
+    return next((row for row in rows if row.name == name and row.pairs), None)
+
+
+def _ratio_series(analysis: Analysis, rows: Sequence[str], measure: str) -> list[Series]:
+    def ours(row: Row) -> Estimate | None:
+        return row.ratios[measure].mean
+
+    paper = tuple(Point(name, PUBLISHED[name].ratios[measure]) for name in rows)
+    return _series(analysis, rows, ours, paper)
+
+
+def _share_series(analysis: Analysis, rows: Sequence[str], who: str) -> list[Series]:
+    def ours(row: Row) -> Estimate | None:
+        share: Estimate | None = getattr(row, who)
+        return share
+
+    paper = tuple(Point(name, getattr(PUBLISHED[name], who)) for name in rows)
+    return _series(analysis, rows, ours, paper)
+
+
+def _series(
+    analysis: Analysis,
+    rows: Sequence[str],
+    ours: Callable[[Row], Estimate | None],
+    paper: tuple[Point, ...],
+) -> list[Series]:
+    triggered = _points(analysis.triggered, rows, ours)
+    random = _points(analysis.random, rows, ours)
+    return [
+        Series(TRIGGERED, FIRST, triggered),
+        Series(RANDOM, SECOND, random, marker="s"),
+        Series("published", PAPER, paper, marker="D", published=True),
+    ]
+
+
+def _points(
+    table: Table | None, rows: Sequence[str], ours: Callable[[Row], Estimate | None]
+) -> tuple[Point, ...]:
+    known = ((name, _row(table, name)) for name in rows)
+    estimates = ((name, ours(row)) for name, row in known if row is not None)
+    return tuple(Point(name, e.value, e.low, e.high) for name, e in estimates if e is not None)
