@@ -12,7 +12,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from asp.description import Description
-from asp.kept.outcomes import Law, Laws
+from asp.kept.outcomes import Laws
+from asp.kept.values import Law
 from asp.literals import atom, complement, is_positive
 
 NONE, FALSE, TRUE = "none", "false", "true"
@@ -87,11 +88,13 @@ class Encoding:
 
     def _excludes(self, head: str, body: Collection[str]) -> bool:
         """Whether a constraint says that two values of one variable exclude each other."""
+        if is_positive(head) or len(body) != 1:
+            return False
+        (condition,) = body
         return (
-            not is_positive(head)
-            and len(body) == 1
-            and all(map(is_positive, body))
-            and self._entries[atom(head)][0] == self._entries[next(iter(body))][0]
+            is_positive(condition)
+            and condition != atom(head)
+            and self._entries[condition][0] == self._entries[atom(head)][0]
         )
 
     def _operators(self, description: Description) -> Iterator[Operator]:

@@ -11,22 +11,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-Literal = tuple[int, int, bool]
-"""A variable, a value, and whether the variable has it."""
+from asp.kept.values import (
+    UNDECIDED,
+    Body,
+    Law,
+    Literal,
+    by_value,
+    pairs,
+    says,
+    truth_of,
+    unknown_in,
+)
 
-Body = tuple[Literal, ...]
 Case = tuple[tuple[tuple[int, int], ...], tuple[tuple[int, int], ...] | None]
 """What is true before and what is changed; None where there may be several outcomes."""
-
-_UNDECIDED = -1
-
-
-@dataclass(frozen=True)
-class Law:
-    """`head if body`."""
-
-    head: Literal
-    body: Body
 
 
 @dataclass(frozen=True)
@@ -65,13 +63,13 @@ class Laws:
     def hold(self, state: Sequence[int]) -> bool:
         """Whether a complete state is closed under the constraints."""
         return all(
-            _truth(law.head, state) or _unknown(law.body, state) is not None
+            truth_of(law.head, state) or unknown_in(law.body, state) is not None
             for law in self._constraints
         )
 
     def cases(self, effects: Sequence[Law], hindrances: Sequence[Body]) -> Iterator[Case]:
         """The cases in which an action has a successor state."""
-        branches = [_Branch([_UNDECIDED] * len(self._sizes), hindrances)]
+        branches = [_Branch([UNDECIDED] * len(self._sizes), hindrances)]
         while branches:
             branch = branches.pop()
             if () in branch.hindrances:
@@ -87,14 +85,14 @@ class Laws:
 
     def _decided(self, branch: _Branch, variable: int) -> Iterator[_Branch]:
         """The branch for each value of a variable."""
-        open_bodies = _by_value(branch.hindrances, variable, self._sizes[variable])
+        open_bodies = by_value(branch.hindrances, variable, self._sizes[variable])
         for value, hindrances in enumerate(open_bodies):
             before = branch.before.copy()
             before[variable] = value
             implied = self._imply(before, variable)
             if implied is not None:
                 for other in implied:
-                    hindrances = _by_value(hindrances, other, self._sizes[other])[before[other]]
+                    hindrances = by_value(hindrances, other, self._sizes[other])[before[other]]
                 yield _Branch(before, hindrances)
 
     def _imply(self, before: list[int], variable: int) -> list[int] | None:
@@ -102,9 +100,9 @@ class Laws:
         changed = [variable]
         for about in changed:  # grows while it is read
             for law in self._touched(about, before[about]):
-                if _unknown(law.body, before) is not None:
+                if unknown_in(law.body, before) is not None:
                     continue
-                truth = _truth(law.head, before)
+                truth = truth_of(law.head, before)
                 if truth is False:
                     return None
                 if truth is None and law.head[2]:
@@ -119,7 +117,7 @@ class Laws:
     def _outcome(self, effects: Sequence[Law], before: list[int]) -> Case | _Split | None:
         known: dict[Literal, None] = {}
         for law in effects:
-            unknown = _unknown(law.body, before)
+            unknown = unknown_in(law.body, before)
             if unknown is None:
                 known[law.head] = None
             elif unknown >= 0:
@@ -142,10 +140,10 @@ class Laws:
         waiting = list(known)
         for literal in waiting:  # grows while it is read
             for law in self._touched(*literal[:2]):
-                if not any(_says(literal, condition) for condition in law.body):
+                if not any(says(literal, condition) for condition in law.body):
                     continue
-                rest = tuple(c for c in law.body if not any(_says(k, c) for k in known))
-                unknown = _unknown(rest, before)
+                rest = tuple(c for c in law.body if not any(says(k, c) for k in known))
+                unknown = unknown_in(rest, before)
                 if unknown is None:
                     used.update(rest)
                     if law.head not in known:
@@ -159,14 +157,14 @@ class Laws:
         """A variable that loses a value which it may or may not have."""
         claimed = {variable for variable, _, truth in known if truth}
         denied = (variable for variable, _, truth in known if not truth)
-        return next((v for v in denied if v not in claimed and before[v] == _UNDECIDED), None)
+        return next((v for v in denied if v not in claimed and before[v] == UNDECIDED), None)
 
     def _judged(
         self, known: Iterable[Literal], used: Iterable[Literal], before: list[int]
     ) -> Case | _Split | None:
         """The outcome if it is one state, none, or several that cannot be told apart here."""
-        if any(_says(literal, (v, x, not truth)) for literal in known for v, x, truth in used):
-            return _pairs(before), None
+        if any(says(literal, (v, x, not truth)) for literal in known for v, x, truth in used):
+            return pairs(before), None
         following = before.copy()
         for variable, value, truth in known:
             if truth:
@@ -174,64 +172,15 @@ class Laws:
             elif following[variable] == value:
                 # Of two values the other one, of several the last, which is none of them.
                 following[variable] = self._sizes[variable] - 1
-        if any(_truth(literal, following) is False for literal in known):
+        if any(truth_of(literal, following) is False for literal in known):
             return None
-        after = tuple((v, x) for v, x in _pairs(following) if before[v] != x)
+        after = tuple((v, x) for v, x in pairs(following) if before[v] != x)
         for variable, _ in after:
             for law in self._concluding.get(variable, ()):
-                if _truth(law.head, following) is False:
-                    unknown = _unknown(law.body, following)
+                if truth_of(law.head, following) is False:
+                    unknown = unknown_in(law.body, following)
                     if unknown is None:
                         return None
                     if unknown >= 0:
                         return _Split(unknown)
-        return _pairs(before), after
-
-
-def _by_value(bodies: Sequence[Body], variable: int, size: int) -> list[list[Body]]:
-    """Of each value of a variable, what is then left of the bodies that it does not make false."""
-    found: list[list[Body]] = [[] for _ in range(size)]
-    for body in bodies:
-        rest = tuple(literal for literal in body if literal[0] != variable)
-        values = set(range(size)) if len(rest) == len(body) else _values(body, variable, size)
-        for value in values:
-            found[value].append(rest)
-    return found
-
-
-def _values(body: Body, variable: int, size: int) -> set[int]:
-    """The values of a variable that satisfy what a body says of it."""
-    values = set(range(size))
-    for about, value, truth in body:
-        if about == variable:
-            values &= {value} if truth else values - {value}
-    return values
-
-
-def _pairs(before: Sequence[int]) -> tuple[tuple[int, int], ...]:
-    return tuple((v, x) for v, x in enumerate(before) if x != _UNDECIDED)
-
-
-def _truth(literal: Literal, state: Sequence[int]) -> bool | None:
-    variable, value, truth = literal
-    known = state[variable]
-    return None if known == _UNDECIDED else (known == value) == truth
-
-
-def _unknown(body: Body, state: Sequence[int]) -> int | None:
-    """None if the body is true; -1 if it is false; else a variable that decides it."""
-    first: int | None = None
-    for literal in body:
-        truth = _truth(literal, state)
-        if truth is False:
-            return -1
-        if truth is None and first is None:
-            first = literal[0]
-    return first
-
-
-def _says(known: Literal, condition: Literal) -> bool:
-    """Whether one literal makes the other true: also, that a variable has another value."""
-    if known[:2] == condition[:2]:
-        return known[2] == condition[2]
-    return known[0] == condition[0] and known[2] and not condition[2]
+        return pairs(before), after

@@ -6,7 +6,7 @@ import random
 from collections.abc import Iterator
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError
@@ -80,7 +80,13 @@ def sources(draw: st.DrawFn) -> str:
     return f"fluents\n  {declared}\nactions\n  {actions}\nlaws\n  {written}\n"
 
 
+# What can never be true; by itself, and as one of two that exclude each other.
+NEVER = "fluents\n inertial p. inertial q.\nactions\n agent a.\nlaws\n a causes p.\n -p if p.\n"
+
+
 @settings(max_examples=400, deadline=None)
+@example(NEVER)
+@example(NEVER + " -p if q. -q if p.\n")
 @given(sources())
 def test_operators_are_exact_or_there_are_none(source: str) -> None:
     try:
