@@ -11,24 +11,22 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-import clingo
 from clingo import Symbol
 
 from asp.description import Description
-from asp.kept.control import KeptControl, State, goal_externals
-from asp.kept.narrow import MOST_LEVELS, SHORTEST, NarrowPrograms, candidates
+from asp.kept.control import State
+from asp.kept.narrow import MOST_LEVELS, NarrowPrograms
 from asp.kept.operators import Encoding, NotEncodableError
 from asp.kept.search import Bounds, Spaces
+from asp.kept.shared import SharedPrograms, horizon_of
 from asp.literals import arguments
-from asp.solving import check_time, fact, is_satisfiable, solving
+from asp.solving import check_time, fact
 
 MOST_STATES = 2**24
 """The largest number of states of which sets are made: bits of memory for each set."""
 
 _MOST_KEPT = 8_000
 """Laws, fluents and actions times steps: so many are grounded for all problems in no time."""
-
-_LEAST_HORIZON = 8
 
 Pairs = tuple[tuple[str, str], ...]
 
@@ -54,9 +52,9 @@ class Planner:
         """`classes` are the interchangeable constants, each class in order of declaration."""
         self.classes = tuple(tuple(members) for members in classes)
         self._description = description
-        self._program = program
-        self._facts = tuple(_facts(description, self.classes))
-        self._narrow = NarrowPrograms(description, program, self._facts)
+        facts = tuple(_facts(description, self.classes))
+        self._narrow = NarrowPrograms(description, program, facts)
+        self._shared = SharedPrograms(description, program, facts)
         self._spaces = _spaces(description)
         self._size = sum(
             map(
@@ -70,8 +68,6 @@ class Planner:
                 ),
             )
         )
-        self._planning: dict[int, KeptControl] = {}
-        self._judging: dict[int, KeptControl] = {}
         self._open: _Question | None = None
 
     def shortest(
@@ -91,14 +87,8 @@ class Planner:
 
     def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
-        horizon = 1 << (max(len(plan), _LEAST_HORIZON) - 1).bit_length()
-        if not self._keeps(horizon):
-            return self._narrow.succeeds(state, goal, plan)
-        kept = self._following(horizon)
-        follows = (fact("follows", action, step) for step, action in enumerate(plan))
-        kept.switch_on(*goal_externals(goal), *follows)
-        start = kept.assume_state(state, 0)
-        return start is not None and is_satisfiable(kept.control, start)
+        programs = self._shared if self._keeps(horizon_of(plan)) else self._narrow
+        return programs.succeeds(state, goal, plan)
 
     def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
         """Whether some state that can be reached satisfies the goal; None where nothing is said.
@@ -131,7 +121,7 @@ class Planner:
         self, state: State, goal: tuple[str, ...], question: _Question, pairs: Pairs
     ) -> tuple[str, ...] | None:
         if self._keeps(question.length):
-            return self._kept_plan(state, goal, question.length, pairs)
+            return self._shared.first_plan(state, goal, question.length, pairs)
         steps = self._steps(question)
         return self._narrow.first_plan(state, goal, steps, pairs) if all(steps) else None
 
@@ -147,43 +137,6 @@ class Planner:
             return [actions] * question.length
         allowed = question.bounds.steps(question.length, check_time)
         return [[action for action in actions if action in some] for some in allowed]
-
-    def _kept_plan(
-        self, state: State, goal: tuple[str, ...], length: int, symmetric: Pairs
-    ) -> tuple[str, ...] | None:
-        kept = self._control(length)
-        ordered = (fact("symmetric", *pair) for pair in symmetric)
-        kept.switch_on(SHORTEST, *goal_externals(goal), *ordered)
-        start = kept.assume_state(state, 0)
-        if start is None:
-            return None
-        with solving(kept.control, start) as model:
-            return None if model is None else self._read(kept, model, length)
-
-    def _control(self, length: int) -> KeptControl:
-        if length not in self._planning:
-            self._planning[length] = self._kept("kept_planning", length)
-        return self._planning[length]
-
-    def _following(self, horizon: int) -> KeptControl:
-        if horizon not in self._judging:
-            self._judging[horizon] = self._kept("kept_following", horizon)
-        return self._judging[horizon]
-
-    def _kept(self, name: str, steps: int) -> KeptControl:
-        facts = (*self._facts, *candidates([self._description.agent_actions] * steps))
-        return KeptControl(self._program, name, self._description.fluents, facts, n=steps)
-
-    def _read(self, kept: KeptControl, model: clingo.Model, length: int) -> tuple[str, ...]:
-        return tuple(
-            next(
-                action
-                for action in self._description.agent_actions
-                if (literal := kept.literal("occurs", action, step)) is not None
-                and model.is_true(literal)
-            )
-            for step in range(length)
-        )
 
 
 def _spaces(description: Description) -> Spaces | None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import groupby
+from collections.abc import Iterable, Sequence
 
 import clingo
 from clingo import Symbol
 
-from asp.kept.control import KeptControl, State, goal_externals
+from asp.kept.control import KeptControl, goal_externals
+from asp.kept.ends import MOST_MORE, Question
 from asp.kept.frontier import Frontier
 from asp.kept.pasts import (
     Account,
@@ -21,7 +20,7 @@ from asp.kept.pasts import (
     is_true,
     observations,
 )
-from asp.kept.prefixes import Prefix, steps
+from asp.kept.prefixes import steps
 from asp.preferring import preferring
 from asp.solving import answer_sets, fact, theory
 
@@ -30,8 +29,6 @@ LENGTH = 24
 
 MOST_ENTRIES = 64
 """How many states a frontier may have."""
-
-_MOST = 4
 
 
 class Windows:
@@ -88,7 +85,7 @@ class Windows:
             more = more or left_off
         return found[:most], more or len(found) > most
 
-    def _first(self, question: _Question, size: int) -> Account | None:
+    def _first(self, question: Question, size: int) -> Account | None:
         """The first explanation with at most so many events and distrusted reports."""
         control, limited = question.kept.control, question.at_most(size)
         with preferring(control, limited) as model:
@@ -96,7 +93,7 @@ class Windows:
                 return None
             if len(question.alike) == 1:
                 return self._read(question, model)
-            limited = [*limited, *_trust(question, model, self._events)]
+            limited = [*limited, *question.trust(model, self._events)]
         # Which reports are distrusted before the end comes before which events are assumed in it.
         for entries in question.alike:
             self._offer(question, entries)
@@ -105,10 +102,10 @@ class Windows:
                     return self._read(question, model)
         raise AssertionError("some entry led to the first model")
 
-    def _question(self, frontier: Frontier, past: Past) -> _Question | None:
+    def _question(self, frontier: Frontier, past: Past) -> Question | None:
         """The control with the end of a past and the entries of a frontier; None: too many."""
         end = past.from_step(frontier.step)
-        most = min(frontier.limit, frontier.least + _MOST)
+        most = min(frontier.limit, frontier.least + MOST_MORE)
         known = [
             (state, prefixes)
             for state, prefixes in frontier.entries.items()
@@ -122,27 +119,20 @@ class Windows:
         if given is None:
             return None
         entries = sorted(known, key=lambda entry: entry[1][0].order)
-        question = _Question(kept, frontier, end, most, entries, given)
+        question = Question(kept, frontier, end, most, entries, given, self._inertial)
         self._offer(question, range(1, len(entries) + 1))
         return question
 
-    def _offer(self, question: _Question, entries: Iterable[int]) -> None:
+    def _offer(self, question: Question, entries: Iterable[int]) -> None:
         """Makes exactly these entries available."""
-        kept, wanted = question.kept, set[int | None]()
-        for entry in entries:
-            state, prefixes = question.entries[entry - 1]
-            wanted.add(kept.literal("available", entry))
-            wanted |= {kept.literal("has", entry, f) for f in self._inertial if f in state}
-            dearer = prefixes[0].size - question.frontier.least
-            wanted |= {kept.literal("price", entry, number) for number in range(1, dearer + 1)}
-        on = {literal for literal in wanted if literal is not None}
+        on = question.offering(entries)
         for literal in self._on - on:
-            kept.control.assign_external(literal, False)
+            question.kept.control.assign_external(literal, False)
         for literal in on - self._on:
-            kept.control.assign_external(literal, True)
+            question.kept.control.assign_external(literal, True)
         self._on = on
 
-    def _read(self, question: _Question, model: clingo.Model) -> Account:
+    def _read(self, question: Question, model: clingo.Model) -> Account:
         """An account of the whole history, but for how it began and its exceptions."""
         kept, first = question.kept, question.frontier.step
         end = account(kept, model, question.end.step, self._events, ())
@@ -163,48 +153,10 @@ class Windows:
                 self._fluents,
                 self._ranks,
                 n=LENGTH,
-                most=_MOST,
+                most=MOST_MORE,
                 entries=MOST_ENTRIES,
             )
         return self._made
-
-
-@dataclass(frozen=True)
-class _Question:
-    """A control switched to the end of a past, and what the frontier's entries lead to.
-
-    `entries` are in the order of their explanations, `most` is the size up to which they are
-    complete.
-    """
-
-    kept: KeptControl
-    frontier: Frontier
-    end: Past
-    most: int
-    entries: Sequence[tuple[State, Sequence[Prefix]]]
-    given: list[int]
-
-    def at_most(self, size: int) -> list[int]:
-        """Assumptions for at most so many events and distrusted reports in the whole history."""
-        room = size - self.frontier.least
-        more = self.kept.literal("count", self.end.step, room + 1) if room < _MOST else None
-        return self.given if more is None else [*self.given, -more]
-
-    @property
-    def alike(self) -> list[list[int]]:
-        """The numbers of the entries, grouped by which reports they distrust, in order."""
-        numbered = enumerate(self.entries, start=1)
-        groups = groupby(numbered, key=lambda entry: entry[1][1][0].distrusts)
-        return [[number for number, _ in group] for _, group in groups]
-
-
-def _trust(question: _Question, model: clingo.Model, events: Sequence[str]) -> Iterator[int]:
-    """Assumptions: the same reports are distrusted as in a model."""
-    for step in range(question.end.step):
-        for event in events:
-            literal = question.kept.literal("distrusted", event, step)
-            if literal is not None:
-                yield literal if model.is_true(literal) else -literal
 
 
 def _with_room(rank: Symbol) -> Symbol:
