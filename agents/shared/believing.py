@@ -7,10 +7,10 @@ observation contradicts it; then the whole history is explained anew.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
-from agents.shared.assuming import assumed_in, events_of, happened_under, without_reported
-from agents.shared.history import GOAL, Diagnosis, History, Moment
+from agents.shared.assuming import assumed_in, events_of, without_reported
+from agents.shared.following import Belief, Follower
+from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import PACE, Memory, record_of
 from agents.shared.tools import tools_of
@@ -18,15 +18,6 @@ from asp.kept.control import State
 from asp.kept.folding import Pace
 from asp.kept.pasts import Account, Assumed, Past, Record
 from asp.literals import atom, is_positive
-
-
-@dataclass(frozen=True)
-class Belief:
-    """What the adopted history says of a step, and the steps up to it at which the goal held."""
-
-    step: int
-    state: State
-    held: frozenset[int]
 
 
 class Believer:
@@ -46,10 +37,10 @@ class Believer:
     ) -> None:
         self._knowledge = knowledge
         self._tools = tools_of(knowledge)
-        self._memory = Memory(knowledge, goal, since, self.holds, pace)
+        self._follower = Follower(knowledge, goal, since)
+        self._memory = Memory(knowledge, goal, since, self._follower.holds, pace)
         self._has_defaults = bool(knowledge.description.defaults)
         self._goal = goal
-        self._since = since
         self._plain = plain
         self._belief: Belief | None = None
         self._fewest = (0, 0)
@@ -105,31 +96,14 @@ class Believer:
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
-        return all((atom(literal) in state) == is_positive(literal) for literal in self._goal)
+        return self._follower.holds(state)
 
     def _carry(self, history: History, adopted: Diagnosis) -> Belief | None:
         """The belief at this step, if what is new agrees with the adopted explanation."""
         belief: Belief | None = (
             self._belief or self._folded(adopted) or self._first(history, adopted)
         )
-        while belief is not None and self._agrees(history.at(belief.step), belief.state):
-            if belief.step == history.step:
-                return belief
-            belief = self._advance(belief, history, adopted)
-        return None
-
-    def _advance(self, belief: Belief, history: History, adopted: Diagnosis) -> Belief | None:
-        """The belief a step later, if what happened there agrees with the explanation."""
-        step = belief.step
-        record = record_of(self._knowledge, history.at(step))
-        attempt = None if record.attempt is None else record.attempt[0]
-        events = happened_under(record, adopted, step)
-        if events and step < self._since:
-            return None
-        after = self._tools.transitions.after(belief.state, attempt, events)
-        if after is None or (record.attempt is not None and record.attempt[1] != after[1]):
-            return None
-        return self._next(belief, after[0])
+        return belief and self._follower.carried(belief, history, adopted)
 
     def _explain(self, history: History, adopted: Diagnosis) -> Diagnosis:
         """The explanation of the whole history; the belief becomes what it implies."""
@@ -144,7 +118,9 @@ class Believer:
         account = account or explanations.smallest(past, self._fewest)
         if account is None:
             diagnosis = self._plain(history, adopted)
-            self._belief = self._replay(history, diagnosis)
+            start = self._first(history, diagnosis)
+            assert start is not None, "an explanation says how it began"
+            self._belief = self._follower.replayed(start, history, diagnosis)
         else:
             diagnosis = self._adopt(account, history, unknown)
         if assumed_in(diagnosis) != assumed_in(adopted):
@@ -174,31 +150,10 @@ class Believer:
             if began is None or set(began.assumed.exceptions) != set(adopted.exceptions):
                 return None
             state = began.initial
-        return Belief(0, state, frozenset([0]) if self.holds(state) else frozenset())
+        return self._follower.start(state)
 
     def _folded(self, adopted: Diagnosis) -> Belief | None:
         """The belief at the step up to which the history is folded, if that is remembered."""
         folding = self._memory.folding
         found = folding.along(assumed_in(adopted)) if folding else None
         return Belief(folding.step, *found) if folding and found else None
-
-    def _next(self, belief: Belief, state: State) -> Belief:
-        step = belief.step + 1
-        return Belief(step, state, belief.held | {step} if self.holds(state) else belief.held)
-
-    def _replay(self, history: History, diagnosis: Diagnosis) -> Belief:
-        """The belief at the history's step with this explanation of it."""
-        belief = self._first(history, diagnosis)
-        assert belief is not None, "an explanation says how it began"
-        while belief.step < history.step:
-            after = self._advance(belief, history, diagnosis)
-            assert after is not None, "an explanation explains every step"
-            belief = after
-        return belief
-
-    def _agrees(self, moment: Moment, state: State) -> bool:
-        """Whether what was observed at a moment is so in the state."""
-        return all(
-            truth == (self.holds(state) if fluent == GOAL else fluent in state)
-            for fluent, truth in moment.observed.items()
-        )
