@@ -110,6 +110,7 @@ class RefinedRobot:
         fluents = [f for f in self._mind.coarse.fluents if self._mind.is_magnified(f)]
         with self._mind.tally.inferring():
             self._mind.belief.adapt(expected, self._believed, fluents)
+        self._mind.agree(self._believed)
 
     def _begin(self, percept: Percept, decision: Decision) -> Decision:
         """Begins the abstract action that was decided."""

@@ -7,7 +7,7 @@ from functools import cache
 
 from agents.intentional.executor.looking import Looking
 from agents.intentional.executor.mind import Mind
-from asp.literals import arguments, atom, is_positive
+from asp.literals import arguments, atom, complement, is_positive
 from asp.refinement import Refinement
 from asp.refinement.zooming import Transition, fine_goal, relevant
 from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
@@ -44,6 +44,7 @@ class Execution:
         with mind.tally.planning():
             self._relevant = relevant(mind.refinement.coarse, transition, mind.goal)
             self._effects = fine_goal(mind.refinement, transition, self._relevant).effects
+            self._direct = _direct(mind.refinement).get(action, frozenset())
             things = mind.looked_for(self._relevant)
         self._looking = Looking(mind, before, after, things)
         every = mind.refinement.coarse_signature.constants
@@ -61,9 +62,9 @@ class Execution:
         while max(self._failures, self._in_vain) < _PATIENCE:
             plan = yield from self._planned()
             if not plan:
-                return plan is not None and self._is_done()
+                return plan is not None and self._is_settled()
             self._in_vain += yield from self._follow(plan)
-            if self._is_done():
+            if self._is_settled():
                 return True
         self._mind.tally.failed(f"{self.action} failed {_PATIENCE} times in a row")
         return False
@@ -89,6 +90,7 @@ class Execution:
         for effect in expected:
             outcome += [(yield from self._looking.outcome(effect, percept))]
         self._looking.commit(literal for literal in outcome if mind.tests.of(literal) is not None)
+        mind.assume(outcome)
         if outcome == list(expected):
             yield from self._looking.look()
             return True
@@ -133,8 +135,18 @@ class Execution:
             if group or fluent in needed
         )
 
+    def _is_settled(self) -> bool:
+        """Whether the action is done; then what nobody can see of its effects is believed, too."""
+        done = self._is_done()
+        if done:
+            self._mind.assume(self._effects)
+        return done
+
     def _is_done(self) -> bool:
-        """Whether the effects follow from what is known."""
+        """Whether the effects follow from what is known.
+
+        Of fluents without counterparts an indirect effect follows unless the contrary is shown.
+        """
         mind = self._mind
         with mind.tally.inferring():
             magnified = [atom(e) for e in self._effects if mind.is_magnified(e)]
@@ -142,7 +154,8 @@ class Execution:
         return all(
             effect in follows
             if mind.is_magnified(effect)
-            else (atom(effect) in mind.plain) == is_positive(effect)
+            else mind.holds(effect)
+            or (effect not in self._direct and complement(effect) not in mind.shown)
             for effect in self._effects
         )
 
@@ -177,4 +190,13 @@ def _conditions(refinement: Refinement) -> Mapping[str, frozenset[str]]:
     for law in refinement.description.executability:
         for action in law.actions:
             found[action] = found.get(action, frozenset()).union(map(atom, law.body))
+    return found
+
+
+@cache
+def _direct(refinement: Refinement) -> Mapping[str, frozenset[str]]:
+    """What causal laws say that a coarse action may bring about."""
+    found: dict[str, frozenset[str]] = {}
+    for law in refinement.description.causal:
+        found[law.action] = found.get(law.action, frozenset()) | {law.head}
     return found

@@ -11,7 +11,7 @@ from agents.intentional.executor.laws import Effects, Tests
 from agents.intentional.executor.tally import Tally
 from asp.fine_plans import FineStart, NoPlan
 from asp.kept.clock import standing_still
-from asp.kept.refined import FinePlanner
+from asp.kept.refined import FinePlanner, LiteralPlanner, fine_planner
 from asp.literals import arguments, atom, is_positive, name
 from asp.refinement import Refinement
 from asp.refinement.refining import shared_places
@@ -22,7 +22,9 @@ from testbed.link.messages import Percept, Task
 class Mind:
     """The robot's knowledge and means at the fine resolution, for one trial.
 
-    `plain` are the true fluents of those that have no counterpart, as far as they are known.
+    `plain` are the true fluents of those that have no counterpart, as far as they are believed;
+    `shown` are the literals about such fluents that the last percept had, and `noticed` the
+    fluents of which there was any since the coarse robot was last asked.
     """
 
     def __init__(
@@ -39,6 +41,8 @@ class Mind:
         self.effects = _effects(refinement)
         self.belief = FineBelief(refinement, ())
         self.plain: frozenset[str] = frozenset()
+        self.shown: frozenset[str] = frozenset()
+        self.noticed: set[str] = set()
         self.news: list[tuple[int, str]] = []
 
     def know(self, literals: Iterable[str], coarse: Collection[str]) -> None:
@@ -74,14 +78,31 @@ class Mind:
             self.news.append((event.step, event.action))
             effects = self.effects.of(event.action, self.belief.known.true)
             self.belief.see(e for e in effects if self._is_fine(e))
+            self.assume(effects)
             touched.update(c for effect in effects for c in arguments(effect))
-        for literal in percept.visible:
-            if self._is_plain(literal) and (atom(literal) in self.plain) != is_positive(literal):
-                change = frozenset([atom(literal)])
-                self.plain = self.plain | change if is_positive(literal) else self.plain - change
-                touched.update(arguments(literal))
+        self.shown = frozenset(filter(self._is_plain, percept.visible))
+        self.noticed.update(map(atom, self.shown))
+        new = [literal for literal in self.shown if not self.holds(literal)]
+        touched.update(c for literal in new for c in arguments(literal))
+        self.assume(new)
         wholes = self.refinement.wholes
         return frozenset([*touched, *(wholes.get(constant, constant) for constant in touched)])
+
+    def holds(self, literal: str) -> bool:
+        """Whether a literal without a counterpart is believed."""
+        return (atom(literal) in self.plain) == is_positive(literal)
+
+    def assume(self, literals: Iterable[str]) -> None:
+        """Believes what literals say of fluents without counterparts."""
+        plain = list(filter(self._is_plain, literals))
+        gone = (atom(literal) for literal in plain)
+        self.plain = self.plain.difference(gone).union(filter(is_positive, plain))
+
+    def agree(self, believed: Collection[str]) -> None:
+        """Believes of fluents without counterparts what the coarse robot does."""
+        left = self.plain.difference(self.coarse.fluents)
+        self.plain = left.union(f for f in believed if not self.is_magnified(f))
+        self.noticed.clear()
 
     def plan(
         self, goal: tuple[str, ...], candidates: tuple[tuple[str, ...], ...], zoom: Collection[str]
@@ -123,9 +144,9 @@ class Mind:
 
 
 @cache
-def _planner(refinement: Refinement) -> FinePlanner:
+def _planner(refinement: Refinement) -> FinePlanner | LiteralPlanner:
     with standing_still():
-        return FinePlanner(refinement.weak, refinement.weak_signature)
+        return fine_planner(refinement.weak, refinement.weak_signature)
 
 
 @cache

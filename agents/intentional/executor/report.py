@@ -76,7 +76,8 @@ class Reporter:
                 yield surprise
 
     def _differs(self, fluent: str, expected: State) -> bool:
-        return (fluent in self._mind.plain) != (fluent in expected)
+        seen = fluent in self._mind.noticed
+        return seen and (fluent in self._mind.plain) != (fluent in expected)
 
     def _latest(self, outcome: Outcome | None) -> int:
         """The coarse step to which news of the present one is put down.

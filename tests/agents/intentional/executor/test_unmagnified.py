@@ -1,0 +1,84 @@
+"""Attributes that are not magnified, where the robot cannot see what becomes of them."""
+
+from __future__ import annotations
+
+import re
+from importlib.resources import files
+
+import pytest
+
+from agents.intentional.refined import RefinedRobot
+from asp.kept.compact import NotCompactError
+from asp.kept.refined import FinePlanner
+from asp.levels import level_text
+from asp.loading import read_domain
+from asp.refinement import Refinement, load
+from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
+
+
+def _staged(coarse: str, fine: str) -> Refinement:
+    refinement = load(coarse, "stage.al", fine, "stage.fine")
+    TEXTS[refinement] = fine
+    return refinement
+
+
+def _blind_office() -> Refinement:
+    """The packaged office, in which no robot sees whether a room is locked."""
+    shown = re.compile(r"^  .*\b(?:sees|shows) +locked\(.*\n", re.MULTILINE)
+    coarse, count = shown.subn("", read_domain("office")[1])
+    assert count == 5
+    return _staged(
+        coarse, files("asp").joinpath("domains", "office.fine").read_text(encoding="utf-8")
+    )
+
+
+OFFICE = _blind_office()
+START = ["fine_loc(rob1,kitchen_1)", "fine_loc(book1_cover,office1_1)"]
+START += ["fine_loc(book2_cover,office1_2)"]
+
+
+def entered(start: list[str], faults: Faults = NO_FAULTS, zooms: bool = True) -> Play:
+    return play(RefinedRobot(zooms=zooms), OFFICE, start, ["loc(rob1,library)"], faults)
+
+
+@pytest.mark.parametrize("zooms", [True, False])
+def test_an_effect_that_nobody_sees_is_taken_for_certain(zooms: bool) -> None:
+    went = entered([*START, "locked(library)"], zooms=zooms)
+    assert went.achieved
+    assert went.abstract == [("unlock(rob1,library)", True), ("move(rob1,library)", True)]
+    assert went.actions.count("unlock(rob1,library)") == 1
+
+
+@pytest.mark.parametrize("reported", [True, False])
+def test_what_others_do_unseen_is_told_or_explained(reported: bool) -> None:
+    locked = {("fine_move(rob1,kitchen_2)", 1): "exo_lock(library)"}
+    locked |= {("fine_move(rob1,kitchen_3)", 1): "exo_lock(library)"}
+    went = entered(START, Faults(events=locked, reported=reported))
+    assert went.achieved
+    assert went.actions.count("unlock(rob1,library)") == 1
+    explained = [d.trace.explanation for d in went.decisions if d.trace.explanation is not None]
+    events = [event.action for each in explained for event in each.unobserved]
+    assert events == ([] if reported else ["exo_lock(library)"])
+
+
+def _with_free_hands() -> Refinement:
+    """A level in which a hand is busy once it has held something, and free until then."""
+    coarse, fine = level_text(2, 1, 2, ((1, 2),))
+    said = "  inertial loc(thing, room).\n"
+    assert coarse.count(said) == 1
+    coarse = coarse.replace(said, f"{said}  inertial free(robot).\n  inertial busy(robot).\n")
+    coarse += "\nlaws\n  free(R) if -busy(R).\n  -free(R) if busy(R).\n"
+    return _staged(coarse + "  busy(R) if in_hand(R, O).\n", fine)
+
+
+HANDS = _with_free_hands()
+
+
+def test_an_indirect_effect_that_nobody_sees_follows() -> None:
+    """By a law about what is false, so that its plans are those of the literal translation."""
+    with pytest.raises(NotCompactError):
+        FinePlanner(HANDS.weak, HANDS.weak_signature)
+    start = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "free(rob1)"]
+    went = play(RefinedRobot(), HANDS, start, ["loc(object1,room2)"])
+    assert went.achieved
+    assert went.abstract == [("pickup(rob1,object1)", True), ("move(rob1,room2)", True)]
