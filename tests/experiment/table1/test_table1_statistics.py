@@ -1,0 +1,116 @@
+"""Estimates, tests and corrections against known values and plain definitions."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from testbed.experiment.table1.statistics import (
+    Estimate,
+    holm,
+    mcnemar,
+    mean,
+    median,
+    proportion,
+    signed_rank,
+)
+
+P_VALUES = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=12)
+
+
+def test_holms_correction_of_four_known_values() -> None:
+    assert holm([0.01, 0.04, 0.03, 0.005]) == pytest.approx([0.03, 0.06, 0.06, 0.02])
+    assert holm([]) == []
+
+
+@settings(deadline=None)
+@given(P_VALUES)
+def test_holm_lies_between_no_correction_and_bonferronis(p_values: list[float]) -> None:
+    corrected = holm(p_values)
+    for before, after in zip(p_values, corrected, strict=True):
+        assert before <= after <= min(1.0, len(p_values) * before)
+    in_order = sorted(zip(p_values, corrected, strict=True))
+    assert all(one[1] <= other[1] for one, other in pairwise(in_order))
+
+
+@settings(deadline=None)
+@given(P_VALUES, st.floats(0.01, 0.2))
+def test_holm_rejects_what_the_step_down_rule_rejects(p_values: list[float], level: float) -> None:
+    rejected = set()
+    order = sorted(range(len(p_values)), key=lambda i: p_values[i])
+    for rank, index in enumerate(order):
+        if p_values[index] * (len(p_values) - rank) > level:
+            break
+        rejected.add(index)
+    assert {i for i, p in enumerate(holm(p_values)) if p <= level} == rejected
+
+
+def test_the_interval_of_a_mean_is_that_of_the_normal_distribution() -> None:
+    sample = np.random.default_rng(5).normal(10.0, 2.0, 400)
+    estimate = mean([(sample, 1)])
+    assert estimate is not None
+    error = 1.96 * sample.std(ddof=1) / np.sqrt(len(sample))
+    assert estimate.value == pytest.approx(sample.mean())
+    assert estimate.high - estimate.low == pytest.approx(2 * error, rel=0.12)
+    assert mean([(sample, 1)]) == estimate
+
+
+def test_a_stratum_counts_as_often_as_it_says() -> None:
+    one, other = np.array([1.0, 3.0]), np.array([10.0, 10.0, 10.0])
+    estimate = mean([(one, 3), (other, 1)])
+    assert estimate is not None
+    assert estimate.value == pytest.approx((3 * 4.0 + 30.0) / 9)
+    assert (estimate.low, estimate.high) == pytest.approx((4.0, 16.0 / 3))
+    middle = median([(one, 3), (other, 1)])
+    assert middle is not None
+    assert middle.value == 3.0
+    assert mean([(np.array([]), 1)]) is None
+
+
+def test_where_all_are_right_the_interval_is_the_exact_one() -> None:
+    estimate = proportion([(np.ones(100), 4), (np.ones(92), 1)])
+    assert estimate is not None
+    assert (estimate.value, estimate.high) == (1.0, 1.0)
+    assert estimate.low == pytest.approx(0.025 ** (1 / 192))
+    mixed = proportion([(np.array([1.0, 0.0] * 50), 1)])
+    assert mixed is not None
+    assert mixed.low == pytest.approx(0.4, abs=0.03)
+
+
+def test_mcnemars_test_looks_at_the_pairs_that_differ() -> None:
+    first = np.array([True] * 10 + [False] * 2 + [True] * 80 + [False] * 8)
+    second = np.array([False] * 10 + [True] * 2 + [True] * 80 + [False] * 8)
+    test = mcnemar(first, second)
+    assert test is not None
+    assert test.p == pytest.approx(0.03857, abs=1e-5)
+    assert test.effect == pytest.approx(0.08)
+    assert mcnemar(first, first) is None
+
+
+@settings(deadline=None)
+@given(st.lists(st.integers(-9, 9), min_size=1, max_size=30))
+def test_the_effect_is_favourable_ranks_less_unfavourable(values: list[int]) -> None:
+    test = signed_rank(np.array(values, dtype=float))
+    nonzero = [value for value in values if value]
+    if not nonzero:
+        assert test is None
+        return
+    assert test is not None
+    sizes = sorted(abs(v) for v in nonzero)
+
+    def rank(value: int) -> float:
+        places = [i for i, size in enumerate(sizes, start=1) if size == abs(value)]
+        return sum(places) / len(places)
+
+    signed = sum(rank(value) * (1 if value > 0 else -1) for value in nonzero)
+    assert test.effect == pytest.approx(signed / sum(range(1, len(nonzero) + 1)))
+    assert 0.0 <= test.p <= 1.0
+
+
+def test_a_rounded_value_may_lie_half_a_digit_outside() -> None:
+    estimate = Estimate(1.0, 0.9, 1.1)
+    assert estimate.covers(1.104, 0.005)
+    assert not estimate.covers(1.106, 0.005)
+    assert not estimate.covers(0.89, 0.005)
