@@ -1,0 +1,138 @@
+"""Headless Chromium, spoken to over pipes in its DevTools protocol."""
+
+import fcntl
+import json
+import os
+import select
+import shutil
+import subprocess
+import time
+from pathlib import Path
+from typing import Any
+
+CHROMIUM = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))),
+    None,
+)
+PATIENCE_S = 90.0
+HIGH = 20  # descriptors from here on are not those that the browser reads and writes
+OPTIONS = (
+    "--headless=new",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-dev-shm-usage",
+    "--no-first-run",
+    "--remote-debugging-pipe",
+)
+Event = dict[str, Any]
+
+
+class Browser:
+    """The process, and the messages that it sent so far."""
+
+    def __init__(self, executable: str, profile: Path) -> None:
+        reads, self._to = _pipe()
+        self._from, writes = _pipe()
+
+        def as_expected() -> None:
+            os.dup2(reads, 3)
+            os.dup2(writes, 4)
+
+        self._process = subprocess.Popen(
+            [executable, *OPTIONS, f"--user-data-dir={profile}"],
+            preexec_fn=as_expected,
+            pass_fds=(3, 4, reads, writes),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        os.close(reads)
+        os.close(writes)
+        self._buffer = b""
+        self._last = 0
+        self.events: list[Event] = []
+
+    def call(self, method: str, session: str | None = None, **parameters: object) -> Event:
+        """Call a method of the protocol and wait for its result."""
+        self._last += 1
+        message: Event = {"id": self._last, "method": method, "params": parameters}
+        if session is not None:
+            message["sessionId"] = session
+        os.write(self._to, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self.receive()
+            if answer.get("id") == self._last:
+                assert "error" not in answer, answer
+                result: Event = answer["result"]
+                return result
+            self.events.append(answer)
+
+    def receive(self) -> Event:
+        """The next message."""
+        deadline = time.monotonic() + PATIENCE_S
+        while b"\0" not in self._buffer:
+            ready, _, _ = select.select([self._from], [], [], deadline - time.monotonic())
+            assert ready, "the browser does not answer"
+            read = os.read(self._from, 1 << 16)
+            assert read, "the browser has ended"
+            self._buffer += read
+        line, _, self._buffer = self._buffer.partition(b"\0")
+        message: Event = json.loads(line)
+        return message
+
+    def close(self) -> None:
+        """End the process."""
+        self._process.kill()
+        self._process.wait()
+        os.close(self._to)
+        os.close(self._from)
+
+
+def _pipe() -> tuple[int, int]:
+    ends = os.pipe()
+    high = [fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, HIGH) for end in ends]
+    for end in ends:
+        os.close(end)
+    return high[0], high[1]
+
+
+class Tab:
+    """An open page: what it asked for, what it complained of, and a keyboard before it."""
+
+    def __init__(self, browser: Browser, file: Path, width: int, scheme: str) -> None:
+        self._browser = browser
+        target = browser.call("Target.createTarget", url="about:blank")["targetId"]
+        attached = browser.call("Target.attachToTarget", targetId=target, flatten=True)
+        self._session = attached["sessionId"]
+        for domain in ("Network", "Log", "Runtime", "Page"):
+            self.call(f"{domain}.enable")
+        screen = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+        self.call("Emulation.setDeviceMetricsOverride", **screen)
+        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        self.call("Emulation.setEmulatedMedia", features=features)
+        self.call("Page.navigate", url=file.as_uri())
+        self._wait("Page.loadEventFired")
+
+    def call(self, method: str, **parameters: object) -> Event:
+        """Call a method of the protocol for this page."""
+        return self._browser.call(method, self._session, **parameters)
+
+    def evaluate(self, expression: str) -> Any:
+        """The value of an expression of JavaScript."""
+        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True)
+        assert "exceptionDetails" not in answer, answer
+        return answer["result"].get("value")
+
+    def press(self, key: str, code: int, text: str = "") -> None:
+        """Press a key and let it go."""
+        common = {"key": key, "code": key, "windowsVirtualKeyCode": code}
+        self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **common)
+        self.call("Input.dispatchKeyEvent", type="keyUp", **common)
+
+    def events(self, *methods: str) -> list[Event]:
+        """The parameters of the events of these names."""
+        own = [e for e in self._browser.events if e.get("sessionId") == self._session]
+        return [event["params"] for event in own if event["method"] in methods]
+
+    def _wait(self, method: str) -> None:
+        while not self.events(method):
+            self._browser.events.append(self._browser.receive())
