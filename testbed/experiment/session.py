@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.progress import (
@@ -35,8 +36,11 @@ from testbed.experiment.store import (
 from testbed.experiment.tables import rich_table
 from testbed.experiment.wording import counted
 
+if TYPE_CHECKING:
+    from testbed.experiment.table1.analysis import Analysis
+
 DONE, FAILED, INTERRUPTED = 0, 1, 130
-WIDE = 120
+WIDE, WIDEST = 120, 150
 
 
 def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
@@ -113,9 +117,24 @@ def _show(console: Console, tables: Tables) -> None:
     if tables.levels:
         console.print()
         console.print(rich_level_table(tables.levels))
+    for analysis in tables.table1:
+        _show_table1(console, analysis)
     for row in tables.rows:
         for note in row.notes():
             _say(console, note)
+
+
+def _show_table1(console: Console, analysis: Analysis) -> None:
+    from testbed.experiment.table1.table import rich_table1  # noqa: PLC0415  # slow, and rare
+
+    whom = f"Table 1, {analysis.mind} against {analysis.base}"
+    both = (("triggered", analysis.triggered), ("random events, classified", analysis.random))
+    width = None if console.is_terminal else WIDEST
+    for kind, table in both:
+        if table is not None:
+            title = f"{whom}: {kind} (*: outside of our interval)"
+            console.print()
+            console.print(rich_table1(table, title), width=width)
 
 
 def _say(console: Console, line: str) -> None:

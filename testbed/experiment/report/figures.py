@@ -13,10 +13,10 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLo
 
 from testbed.experiment.report.svg import CARD, LINE, SETTINGS, SOFT, blank, inline
 
-WIDTH = 3.7
+WIDTH = 3.2
 ROW_HEIGHT, FRAME_HEIGHT = 0.33, 0.45
-APART = 0.24
-LEVELS_HEIGHT = 2.9
+APART, ASIDE = 0.24, 0.1
+LEVELS_HEIGHT = 2.6
 TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 ROOM = 1.15
 
@@ -73,7 +73,8 @@ def curves(name: str, title: str, levels: Sequence[str], series: Sequence[Series
         figure, axes = blank(WIDTH, LEVELS_HEIGHT)
         places = {level: index for index, level in enumerate(levels)}
         for own in series:
-            _curve(axes, own, places)
+            shift = -ASIDE if own.colour == series[0].colour else ASIDE
+            _curve(axes, own, {level: place + shift for level, place in places.items()})
         axes.set_xticks(range(len(levels)), levels)
         axes.set_xlim(-0.4, len(levels) - 0.6)
         axes.set_yscale("log")
@@ -93,7 +94,7 @@ def _dots(axes: Axes, series: Series, heights: dict[str, float]) -> None:
         axes.plot([point.value], [height], **_look(series))
 
 
-def _curve(axes: Axes, series: Series, places: dict[str, int]) -> None:
+def _curve(axes: Axes, series: Series, places: dict[str, float]) -> None:
     x = [places[point.place] for point in series.points]
     y = [point.value for point in series.points]
     line = (0, (3, 2)) if series.published else "-"

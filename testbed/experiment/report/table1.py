@@ -15,15 +15,14 @@ from testbed.experiment.summary import BASELINE
 from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import MEETINGS, pairs_of
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.experiment.table1.runs import PROTOCOL, minds_of
 from testbed.experiment.table1.statistics import Estimate
-from testbed.experiment.table1.table import HALF_CENT, HALF_PERCENT, tests_of
-from testbed.experiment.wording import counted, in_words
+from testbed.experiment.table1.table import HALF_CENT, HALF_PERCENT, HEADINGS, tests_of
+from testbed.experiment.wording import counted
 
-NAME = "table1"
-NAMES = {"total_time": "total time", "execution_units": "exec. time"}
 ACCURACIES = ("TP correct", "ATI correct")
-COLUMNS = ("scenario", "pairs", *(NAMES.get(m, in_words(m)) for m in MEASURES), *ACCURACIES)
-TESTS = ("scenario", *COLUMNS[2:-2], "correct")
+COLUMNS = ("scenario", "pairs", *HEADINGS, *ACCURACIES)
+TESTS = ("scenario", *HEADINGS, "correct")
 TRIGGERED, RANDOM = "triggered", "drawn at random, classified"
 
 
@@ -58,13 +57,12 @@ class View:
 
 def analyses(folder: Path, config: ExperimentConfig) -> list[Analysis]:
     """Each robot with activities against the traditional one; nothing for another protocol."""
-    if config.protocol != NAME or BASELINE not in config.robots:
+    if config.protocol != PROTOCOL:
         return []
     world = load_world(config.domain)
-    minds = [robot for robot in config.robots if robot != BASELINE]
     return [
         analyse(pairs_of(read_records(folder), world, mind, BASELINE), mind, BASELINE)
-        for mind in minds
+        for mind in minds_of(config)
     ]
 
 
@@ -133,7 +131,7 @@ def panels(analysis: Analysis) -> list[Panel]:
     ]
     return found + [
         forest(f"{name}-{m}", f"{title}, TP / ATI", rows, _ratio_series(analysis, rows, m))
-        for m, title in zip(MEASURES, COLUMNS[2:], strict=False)
+        for m, title in zip(MEASURES, HEADINGS, strict=True)
     ]
 
 
