@@ -50,13 +50,6 @@ def read_run(folder: Path) -> Run:
     return Run(folder, config, pairs, {m: analyse(p, m, BASELINE) for m, p in pairs.items()})
 
 
-def analysis_of(records: Iterable[TrialRecord], config: ExperimentConfig) -> Analysis | None:
-    """Table 1 of the first robot beside the baseline; None without pairs, or another protocol."""
-    minds = minds_of(config) if config.protocol == PROTOCOL else ()
-    pairs = _pairs(records, config, minds[0]) if minds else []
-    return analyse(pairs, minds[0], BASELINE) if pairs else None
-
-
 def minds_of(config: ExperimentConfig) -> tuple[str, ...]:
     """The robots of a configuration with activities, where the baseline is there, too."""
     if BASELINE not in config.robots:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import rich.table
+from rich.markup import escape
 
 from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
@@ -87,6 +88,20 @@ def _mark(ours: Estimate | None, published: float, half_digit: float) -> str:
     return "" if ours is not None and ours.covers(published, half_digit) else " *"
 
 
+def _narrow(table: Table) -> Iterator[Cells]:
+    """The same for few columns of text: each interval below its value."""
+    for cells in rows_of(table):
+        values, intervals = zip(*(_parts(cell) for cell in cells), strict=True)
+        yield values
+        if any(intervals):
+            yield ("", *intervals[1:])
+
+
+def _parts(cell: str) -> tuple[str, str]:
+    value, bracket, rest = cell.partition(" [")
+    return value, bracket.strip() + rest
+
+
 def rich_table1(table: Table, title: str) -> rich.table.Table:
     """The table for a terminal."""
     shown = rich.table.Table(
@@ -94,6 +109,6 @@ def rich_table1(table: Table, title: str) -> rich.table.Table:
     )
     for column in shown.columns[1:]:
         column.justify = "right"
-    for cells in rows_of(table):
-        shown.add_row(*cells)
+    for cells in _narrow(table):
+        shown.add_row(*(escape(cell) for cell in cells))
     return shown

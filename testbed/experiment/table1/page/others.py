@@ -71,11 +71,22 @@ is achieved:
 
 {markdown(columns, _achieved(run))}
 
-The scenario is the one that was played, or, of a random event, what it came to be for the first of
-these robots. Where that one ends wrongly after all of its one activity, it is scenario 1 by the
-rule.
+{_why(run)}The scenario is the one that was played, or, of a random event, what it came to be for
+the first of these robots. Where that one ends wrongly after all of its one activity, it is scenario
+1 by the rule.
 
 {_costs(run)}"""
+
+
+def _why(run: Run) -> str:
+    """What there is to say where the first robot fails in no trial."""
+    if not all(pair.mind.achieved for pair in run.pairs[run.minds[0]]):
+        return ""
+    return (
+        "ATI does without feedback here: it ends in the room that its goal is about, and sees all\n"
+        "of the goal when it finishes; or it infers the rest, which is right as long as there is at\n"
+        "most one exogenous action in a trial. Of several it could miss one.\n\n"
+    )
 
 
 def _achieved(run: Run) -> Iterator[tuple[str, ...]]:

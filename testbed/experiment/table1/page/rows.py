@@ -60,10 +60,11 @@ def _plans(pairs: Sequence[Pair]) -> str:
     made = evidence.plans_made(own).items()
     counts = ", ".join(f"{plans} plans in {count} pairs" for plans, count in made)
     return fill(
-        f"TP made {counts or 'no plans'}, triggered or random. It misses the book and takes it to be "
-        "in one room after the other, in the order in which the domain declares them: the library, "
-        "where it is, comes last. The published mean of 2.63 plans would fit explanations in another "
-        "order, in which the library is tried earlier in some pairs; TP then walks less in vain.",
+        f"TP made {counts or 'no plans'}, triggered or random. It misses the book and takes it to "
+        "be in one room after the other, in the order in which the domain declares them: the "
+        "library, where it is, comes last. The published mean of 2.63 plans would fit explanations "
+        "in another order, in which the library is tried earlier in some pairs; TP then walks less "
+        "in vain.",
         WIDTH,
     )
 
