@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from collections.abc import Iterable, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import chain
 
 from asp import syntax
 from asp.fine_plans import FinePlan, FineStart, NoPlan, plain_plan
 from asp.kept.compact import NotCompactError
 from asp.kept.horizon import Horizon
+from asp.kept.horizons import Horizons
 from asp.kept.narrowing import Narrow, Narrower
 from asp.kept.patterns import functions, subject
 from asp.kept.relaxed import Relaxed
@@ -20,6 +21,7 @@ from asp.restriction import narrowed, restrict
 from asp.signature import Signature
 
 _MOST_NARROWED = 1_000
+_MOST_STEPS = 100_000  # of constants: some 500 MB of controls
 
 
 class FinePlanner:
@@ -30,8 +32,18 @@ class FinePlanner:
     for each length, asked from a lower bound on (`Relaxed`).
     """
 
-    def __init__(self, source: syntax.Source, signature: Signature, most: int = 32) -> None:
-        """`source` has the physics only; the controls of at most `most` parts of it are kept."""
+    def __init__(
+        self,
+        source: syntax.Source,
+        signature: Signature,
+        most: int = 32,
+        most_steps: int = _MOST_STEPS,
+    ) -> None:
+        """`source` has the physics only.
+
+        The controls of at most `most` parts of it are kept, and of these the ones used last that
+        take at most `most_steps` (`Horizons`).
+        """
         self._constants = signature.constants
         self._functions = functions(source, signature)
         self._sparing = Sparing(source, signature)
@@ -39,6 +51,7 @@ class FinePlanner:
         self._narrow = lru_cache(_MOST_NARROWED)(self._narrower.narrow)
         self._most = most
         self._kept: OrderedDict[object, _Domain] = OrderedDict()
+        self._horizons = Horizons(most_steps)
 
     def plan(
         self,
@@ -73,7 +86,9 @@ class FinePlanner:
         if least is None:
             return NoPlan.OUT_OF_REACH
         for length in range(least, limit + 1):
-            horizon = domain.horizon(length)
+            horizon = self._horizons.get(
+                domain, length, len(narrow.names), partial(domain.horizon, length)
+            )
             plan = horizon.plan(horizon.start(true, candidates), wanted)
             if plan is not None:
                 return narrow.back(plan)
@@ -101,23 +116,20 @@ class FinePlanner:
             self._kept[narrow.key] = _Domain(program, actions)
         self._kept.move_to_end(narrow.key)
         while len(self._kept) > self._most:
-            self._kept.popitem(last=False)
+            self._horizons.forget(self._kept.popitem(last=False)[1])
         return self._kept[narrow.key]
 
 
 class _Domain:
-    """A narrowed description: its lower bounds, and its controls by length."""
+    """A narrowed description: its lower bounds, and what controls are made of."""
 
     def __init__(self, program: str, actions: Sequence[str]) -> None:
         self.relaxed = Relaxed(program)
         self._program = program
         self._actions = actions
-        self._horizons: dict[int, Horizon] = {}
 
     def horizon(self, length: int) -> Horizon:
-        if length not in self._horizons:
-            self._horizons[length] = Horizon(self._program, self._actions, length)
-        return self._horizons[length]
+        return Horizon(self._program, self._actions, length)
 
 
 class LiteralPlanner:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import random
 from pathlib import Path
+from typing import cast
 
 import pytest
 
 from asp.fine_plans import FineStart, NoPlan
 from asp.kept.compact import NotCompactError
+from asp.kept.horizon import Horizon
+from asp.kept.horizons import Horizons
 from asp.kept.refined import FinePlanner, fine_planner
 from asp.loading import analyse
 from asp.refinement import Refinement, load, load_refinement
@@ -126,6 +129,41 @@ def test_no_more_is_kept_than_was_asked_for() -> None:
         for room in ("room2", "room3"):
             assert planner.plan(ROW, (f"loc(rob1,{room})",), LIMIT)
             assert planner.kept == 1
+
+
+def test_plans_are_the_same_where_little_is_kept() -> None:
+    draw, planner = random.Random(3), _planner(level("L2"))
+    forgetful = FinePlanner(level("L2").weak, level("L2").weak_signature, most_steps=1)
+    for _ in range(20):
+        start, goal = drawn_state(level("L2"), draw), drawn_goal(level("L2"), draw)
+        assert forgetful.plan(start, goal, LIMIT) == planner.plan(start, goal, LIMIT)
+
+
+class TestHorizons:
+    """Of description and length alone, made by name."""
+
+    def test_those_not_used_for_longest_go_first(self) -> None:
+        horizons, made = Horizons(12), list[None]()
+        asked = [("a", 2), ("a", 4), ("a", 2), ("b", 3), ("a", 2), ("a", 4)]
+        for description, length in asked:
+            horizons.get(description, length, 2, lambda: cast(Horizon, made.append(None)))
+            assert horizons.size <= 12
+        # a, 4 had to go for b, 3, and came back.
+        assert len(made) == 4
+        assert horizons.size == 12
+
+    def test_one_too_large_is_kept_alone(self) -> None:
+        horizons = Horizons(12)
+        for length in (1, 2, 20):
+            horizons.get("a", length, 1, lambda: cast(Horizon, None))
+        assert (len(horizons), horizons.size) == (1, 20)
+
+    def test_those_of_one_description_are_forgotten(self) -> None:
+        horizons = Horizons(12)
+        for description in ("a", "b"):
+            horizons.get(description, 1, 1, lambda: cast(Horizon, None))
+        horizons.forget("a")
+        assert len(horizons) == 1
 
 
 LAMP = """
