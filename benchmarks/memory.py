@@ -21,7 +21,7 @@ STATES = {"small": 2, "full": 192}
 def main(size: str) -> list[Sheet]:
     """Sheet `memory`: resident memory after so many trials."""
     notes = (
-        "scenarios 1 to 6 in turn, from different initial states, all answers remembered;",
+        "scenarios 1 to 6 in turn, from different initial states, nothing forgotten in between;",
         "the first row is after the first trial",
     )
     title = "Resident memory of one process, link included"

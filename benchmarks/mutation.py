@@ -15,8 +15,11 @@ CASES = Path(__file__).parent.parent / "tests" / "asp"
 SAMPLE = 12
 SEED = 1
 
-Mutant = tuple[int, int | None]
-"""An axiom's number, and which of its rules is left out, from 1; None: all of them."""
+LETTERED = ("defaults", "diagnosis", "fine_planning")
+"""Theories with paragraphs that have a letter instead of a number."""
+
+Mutant = tuple[int | str, int | None]
+"""An axiom's number, or a theory and a letter, and which rule is left out, from 1; None: all."""
 
 
 def main(size: str) -> list[Sheet]:
@@ -37,7 +40,11 @@ def main(size: str) -> list[Sheet]:
 
 def all_mutants() -> Iterator[Mutant]:
     """Each axiom left out as a whole, and where it has several rules, each of them."""
-    for number, block in sorted(_module("axioms").axioms().items()):
+    texts = _module("axioms")
+    blocks = dict(sorted(texts.axioms().items()))
+    for theory in LETTERED:
+        blocks |= texts.lettered(theory)
+    for number, block in blocks.items():
         yield number, None
         if len(block.rules) > 1:
             yield from ((number, rule) for rule in range(1, len(block.rules) + 1))
@@ -58,7 +65,7 @@ def _row(mutant: Mutant) -> Row:
     }
 
 
-def _cases(number: int) -> list[Any]:
+def _cases(number: int | str) -> list[Any]:
     """Every case, those of the axiom first."""
     modules = [_module(path.stem) for path in sorted(CASES.glob("cases_of_*.py"))]
     cases = [case for module in modules for case in module.CASES]

@@ -60,8 +60,12 @@ class FineCase:
     n: int = 0
 
     @property
+    def number(self) -> str:
+        return f"fine_planning.{self.paragraph}"
+
+    @property
     def without(self) -> Without:
-        return Without(f"fine_planning.{self.paragraph}", self.rule)
+        return Without(self.number, self.rule)
 
     @property
     def program(self) -> Program:

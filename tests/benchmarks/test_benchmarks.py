@@ -68,6 +68,12 @@ def test_a_sample_of_mutants_is_killed() -> None:
     assert sheets["survivors"] == []
 
 
+def test_there_are_mutants_of_every_paragraph_with_a_number_or_a_letter() -> None:
+    left_out = {number for number, _ in mutation.all_mutants()}
+    assert left_out >= set(range(1, 54))
+    assert left_out >= {"defaults.a", "defaults.e", "diagnosis.b", "fine_planning.h"}
+
+
 def test_results_are_written_and_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main(["mutation", "--size", "small", "--out", str(tmp_path)])
     written = json.loads((tmp_path / "mutation.json").read_text(encoding="utf-8"))
