@@ -83,9 +83,9 @@ def _why(run: Run) -> str:
     if not all(pair.mind.achieved for pair in run.pairs[run.minds[0]]):
         return ""
     return (
-        "ATI does without feedback here: it ends in the room that its goal is about, and sees all\n"
-        "of the goal when it finishes; or it infers the rest, which is right as long as there is at\n"
-        "most one exogenous action in a trial. Of several it could miss one.\n\n"
+        "ATI does without feedback here: it ends in the room that its goal is about, and sees\n"
+        "all of the goal when it finishes; or it infers the rest, which is right as long as there\n"
+        "is at most one exogenous action in a trial. Of several it could miss one.\n\n"
     )
 
 

@@ -1,0 +1,206 @@
+"""Pairs and rows made by hand: what is counted where, and what comes out of it."""
+
+import pytest
+
+from testbed.experiment.domains import load_world
+from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
+from testbed.experiment.summary import MEASURES as COMPUTED
+from testbed.experiment.table1 import table as text
+from testbed.experiment.table1.analysis import Row, Table, analyse
+from testbed.experiment.table1.pairing import Meeting, Pair, Side, pairs_of, undone
+from testbed.experiment.table1.published import MEASURES, NO_FAILURES, PUBLISHED
+from tests.experiment.samples import a_record
+
+WORLD = load_world("office")
+GOAL = ["loc(book1,library)", "loc(book2,library)"]
+START = ["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,kitchen)"]
+
+
+def _side(
+    value: float = 1.0,
+    correct: bool = True,
+    event: str | None = "exo_lock(library)",
+    before: tuple[str, ...] = ("a",),
+    failed: bool = False,
+) -> Side:
+    return Side(
+        trial="t",
+        failed=failed,
+        achieved=correct,
+        correct=correct,
+        out_of_reach=False,
+        outcome="achieved" if correct else "false_finish",
+        event=event,
+        undone=False,
+        before=before,
+        measures=dict.fromkeys(MEASURES, value),
+    )
+
+
+def _pair(
+    intended: str, mind: Side, base: Side, happened: str | None = None, solvable: bool = True
+) -> Pair:
+    return Pair(intended, happened or intended, solvable, mind, base)
+
+
+def _named(table: Table | None) -> dict[str, Row]:
+    assert table is not None
+    return {row.name: row for row in table.rows}
+
+
+def test_the_measures_are_the_published_columns() -> None:
+    assert tuple(COMPUTED) == MEASURES
+    assert all(set(row.ratios) == set(MEASURES) for row in PUBLISHED.values())
+
+
+def test_a_row_has_the_mean_of_the_ratios_and_not_the_ratio_of_the_means() -> None:
+    pairs = [_pair("3", _side(1.0), _side(4.0)), _pair("3", _side(10.0), _side(10.0))]
+    ratio = _named(analyse(pairs, "m", "b").triggered)["3"].ratios["actions"]
+    assert ratio.mean is not None
+    assert (ratio.mean.value, ratio.pairs) == (2.5, 2)
+
+
+def test_a_pair_without_a_measure_has_no_ratio_and_counts_for_the_accuracy() -> None:
+    pairs = [_pair("3", _side(0.0), _side(4.0)), _pair("3", _side(2.0), _side(1.0, correct=False))]
+    row = _named(analyse(pairs, "m", "b").triggered)["3"]
+    assert (row.pairs, row.ratios["plans"].pairs) == (2, 1)
+    assert row.baseline is not None
+    assert row.baseline.value == 0.5
+
+
+def test_what_nobody_failed_in_is_left_after_the_baselines_failures() -> None:
+    pairs = [_pair("4", _side(), _side(3.0)), _pair("4", _side(), _side(0.5, correct=False))]
+    rows = _named(analyse(pairs, "m", "b").triggered)
+    for name in ("4" + NO_FAILURES, "all" + NO_FAILURES):
+        mean = rows[name].ratios["actions"].mean
+        assert mean is not None
+        assert (rows[name].pairs, mean.value) == (1, 3.0)
+    assert rows["3" + NO_FAILURES].pairs == 0
+
+
+def test_lost_trials_and_goals_that_nothing_achieves_are_counted_apart() -> None:
+    pairs = [
+        _pair("3", _side(), _side()),
+        _pair("3", _side(failed=True, correct=False), _side()),
+        _pair("3", _side(), _side(failed=True, correct=False)),
+        _pair("3", _side(correct=False), _side(correct=False), solvable=False),
+    ]
+    row = _named(analyse(pairs, "m", "b").triggered)["3"]
+    assert (row.pairs, row.failed, row.unsolvable) == (1, 2, 1)
+    assert row.intentional is not None
+    assert row.intentional.value == 1.0
+
+
+def test_what_did_not_come_to_its_scenario_is_in_no_row() -> None:
+    quiet = _side(event=None)
+    pairs = [
+        _pair("1", quiet, quiet),
+        _pair("1", quiet, quiet, happened="nothing to do"),
+        _pair("2", quiet, quiet, happened="1"),
+        _pair("2", _side(), _side()),
+        _pair("random", _side(), _side(), happened="6"),
+        _pair("random", _side(), _side(), happened="unclassified"),
+    ]
+    analysis = analyse(pairs, "m", "b")
+    triggered, drawn = _named(analysis.triggered), _named(analysis.random)
+    assert [triggered[name].pairs for name in ("1", "2", "all")] == [1, 1, 2]
+    assert analysis.triggered is not None
+    assert analysis.triggered.apart == {"no event": 1, "nothing to do": 1}
+    assert [drawn[name].pairs for name in ("6", "all")] == [1, 0]
+    assert analysis.random is not None
+    assert analysis.random.apart == {"unclassified": 1}
+    assert analysis.became["2"] == {"1": 1, "2": 1}
+
+
+def test_in_the_row_of_all_each_scenario_weighs_as_if_played_equally_often() -> None:
+    pairs = [_pair("2", _side(), _side(9.0))]
+    pairs += [_pair("3", _side(), _side(1.0)) for _ in range(4)]
+    mean = _named(analyse(pairs, "m", "b").triggered)["all"].ratios["actions"].mean
+    assert mean is not None
+    assert mean.value == pytest.approx((4 * 9.0 + 4 * 1.0) / 8)
+
+
+def test_the_corrected_p_values_are_those_of_the_whole_table() -> None:
+    few = [_pair("3", _side(1.0), _side(2.0 + n)) for n in range(8)]
+    alone = _named(analyse(few, "m", "b").triggered)["3"].ratios["actions"].test
+    assert alone is not None
+    assert alone.holm is not None
+    assert (alone.p, alone.effect) == (pytest.approx(2 / 2**8), 1.0)
+    assert alone.holm == pytest.approx(min(1.0, alone.p * 5 * 4))
+
+
+def test_a_published_value_outside_of_our_interval_is_marked() -> None:
+    pairs = [_pair("1", _side(1.0, event=None), _side(1.0, event=None)) for _ in range(30)]
+    table = analyse(pairs, "m", "b").triggered
+    assert table is not None
+    cells = {row[0].strip(): row for row in list(text.rows_of(table))[:3]}
+    assert cells["1"][3] == "1.00 [1.00, 1.00]"
+    assert cells["published"][2:] == ("0.81 *", "1.00", "0.45 *", "1.00", "1.00", "100%", "100%")
+    assert next(text.tests_of(table)) == ("1", *["-"] * 6)
+
+
+@pytest.mark.parametrize(
+    ("mind", "base", "meeting"),
+    [
+        ((None, ("a", "b")), (None, ("a", "b")), "nothing"),
+        (("e", ("a", "b")), ("e", ("a", "b")), "same"),
+        (("e", ("a", "b")), ("e", ("c", "b")), "same later"),
+        (("e", ("a", "b")), ("e", ("a", "c")), "other"),
+        (("e", ("a", "b")), ("f", ("a", "c")), "other"),
+        (("e", ("a", "b")), ("f", ("a", "b")), "other at once"),
+        (("e", ("a", "b")), (None, ("a", "c", "d")), "other"),
+        (("e", ("a", "b")), (None, ("a", "b", "d")), "other at once"),
+        ((None, ("a",)), ("e", ("a", "b")), "other"),
+    ],
+)
+def test_whether_both_met_the_same(
+    mind: tuple[str | None, tuple[str, ...]],
+    base: tuple[str | None, tuple[str, ...]],
+    meeting: Meeting,
+) -> None:
+    sides = [_side(event=event, before=before) for event, before in (mind, base)]
+    assert _pair("3", *sides).meeting == meeting
+
+
+def _record(robot: str, **values: object) -> TrialRecord:
+    given: dict[str, object] = {"pair": "p", "robot": robot, "initial": START, "goal": GOAL}
+    return a_record(robot, **given | {"minimal_actions": 1, "steps": 4} | values)
+
+
+def test_pairs_are_joined_in_any_order_and_others_are_passed_over() -> None:
+    mind = _record("intentional", activities=[Activity(1, 1, ["move(rob1,library)"])])
+    mind.actions = [Attempt(2, "move(rob1,library)", True)]
+    base, third = _record("traditional"), _record("intentional-checking")
+    for records in ([mind, third, base], [base, mind]):
+        (pair,) = pairs_of(records, WORLD, "intentional", "traditional")
+        assert (pair.happened, pair.mind.trial, pair.base.trial) == (
+            "1",
+            "intentional",
+            "traditional",
+        )
+    assert list(pairs_of([mind, third], WORLD, "intentional", "traditional")) == []
+
+
+@pytest.mark.parametrize(
+    ("event", "action", "taken"),
+    [
+        ("exo_move(book1,office1)", "move(rob1,office2)", True),
+        ("exo_move(book2,office1)", "move(rob1,office2)", False),
+        ("exo_lock(library)", "move(rob1,office2)", False),
+        ("exo_move(book1,office1)", "pickup(rob1,book2)", True),
+    ],
+)
+def test_an_event_undoes_what_would_else_be_true(event: str, action: str, taken: bool) -> None:
+    record = _record("intentional", actions=[Attempt(2, action, True)])
+    happened = Occurrence(2, event, False)
+    record.exogenous = [happened]
+    assert undone(record, happened, WORLD) is taken
+
+
+def test_what_the_robot_itself_undoes_is_not_undone_by_the_event() -> None:
+    held = ["loc(rob1,library)", "in_hand(rob1,book1)", "loc(book1,library)", "loc(book2,kitchen)"]
+    record = _record("intentional", initial=held)
+    record.actions = [Attempt(2, "move(rob1,kitchen)", True)]
+    happened = Occurrence(2, "exo_move(book2,office1)", False)
+    record.exogenous = [happened]
+    assert undone(record, happened, WORLD) is False
