@@ -170,6 +170,7 @@ def test_a_trial_in_error_gives_exit_code_1_and_keeps_the_rest() -> None:
         (["check", "quickstart", "goal=[loc(book1,libary)]"], "did you mean 'library'?"),
         (["check", "quickstart", "robots=[intentinal]"], "did you mean 'intentional'?"),
         (["report", "nowhere"], "nowhere: is not a run folder"),
+        (["export", "nowhere"], "nowhere: is not a run folder"),
         (["replay", "nowhere", "--trial", "a"], "nowhere: is not a run folder"),
         (["translate", "nowhere.al"], "nowhere.al: no such"),
         (["robot", "--config", "nowhere.json5"], "nowhere.json5"),
@@ -272,7 +273,7 @@ def test_help_shows_an_example_a_line() -> None:
     assert len(examples) == 3
     assert all(line.startswith("testbed run ") for line in examples)
     overview = _testbed("--help").stdout
-    for command in ("run", "check", "robot", "report", "replay", "translate"):
+    for command in ("run", "check", "robot", "report", "export", "replay", "translate"):
         assert command in overview
 
 
