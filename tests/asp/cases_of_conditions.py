@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.asp.axioms import Always, never, possible
+from tests.asp.axioms import Always, Inconsistent, never, possible
 from tests.asp.stories import (
     GATE_OPEN,
     GATE_SHUT,
@@ -106,6 +106,15 @@ CASES = (
         n=1,
         rule=1,
         condition="occurs(PAA,I)",
+    ),
+    Case(
+        17,
+        "that a defined fluent was observed is no reason for it to hold",
+        lines(_OPEN, "obs(my_goal,true,0).", "current_step(1)."),
+        Inconsistent(),
+        n=1,
+        rule=1,
+        condition="inertial(F)",
     ),
     Case(
         18,

@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.logician import Logician
+from asp.loading import parse_description
+from testbed.environment.world import World
 from testbed.link.messages import Decision
 from tests.agents.intentional.lives import Place, Wish, live, place
 from tests.agents.intentional.test_kept import Both
@@ -116,6 +118,23 @@ def test_without_defaults_what_must_be_somewhere_is_where_comes_first(
     life = live(robot, start, ("loc(book1,office2)",), where=OFFICE, steps=2)
     assert {"loc(book1,kitchen)", "loc(book2,kitchen)"} <= set(life.decisions[0].trace.belief)
     assert "locked(library)" not in life.decisions[0].trace.belief
+
+
+SIGNAL = OFFICE.source.replace(
+    "inertial locked(secure_room).", "inertial locked(secure_room).\n  defined signal."
+).replace("  % State constraints.", "  signal if locked(library).\n")
+
+
+@pytest.mark.parametrize("locked", [True, False])
+def test_a_defined_fluent_that_is_seen_at_the_start_needs_its_reason(locked: bool) -> None:
+    """From office1 the lock itself is out of sight."""
+    source = SIGNAL + "sees\n  R sees signal if robot(R).\n"
+    world = World(parse_description(source, "office.al"))
+    where = Place("office", world, source, dark=True)
+    true = ["loc(rob1,office1)", "loc(book1,office1)", "loc(book2,office1)"]
+    start = world.state([*true, *["locked(library)"] * locked])
+    life = live(IntentionalRobot(Both), start, ("loc(book1,office2)",), steps=3, where=where)
+    assert ("locked(library)" in life.decisions[0].trace.belief) is locked
 
 
 def test_an_exception_is_assumed_rather_than_an_event_that_would_do() -> None:
