@@ -37,17 +37,20 @@ def later(run: Run) -> str:
     columns = ("scenario", "pairs", "TP acc.", "published", *HEADINGS)
     rows = [_accuracy(row) for row in table.rows if row.name in PUBLISHED and row.pairs]
     shares = ", ".join(f"{name}: {percent(s)}" for name, s in evidence.shares(table).items())
+    published, _ = evidence.published_weights()
+    weights = ", ".join(f"{name}: {percent(s)}" for name, s in published.items())
     return f"""\
 ## If random events came later
 
 In the released simulator a random event is tried with probability 0.92 at each action, so that it
 mostly comes beside the first, when nothing that the robot delivered can be undone yet. How much
-depends on that is seen with {run.config.adversary.rate} in its place, all else being equal (this is
-no attempt at agreement; the tables above stand):
+depends on that is seen with {run.config.adversary.rate} in its place, all else being equal. This is
+no attempt at agreement; the tables above stand. The shares of the scenarios, beside those that the
+published rows ask for, say whether later events could be what the published table is made of:
 
 {markdown(columns, rows)}
 
-Shares of the scenarios 1 to 5: {shares}.
+Shares of the scenarios 1 to 5: {shares}; published {weights}.
 """
 
 
