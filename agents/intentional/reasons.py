@@ -16,6 +16,7 @@ from agents.shared.knowledge import Knowledge
 from agents.shared.memory import past_of
 from agents.shared.tools import tools_of
 from asp.kept.control import State
+from asp.kept.pasts import Assumed
 from asp.literals import complement
 from asp.solving import TimeLimitError, time_limit
 from testbed.link.messages import Contradiction, Event, Explanation
@@ -73,17 +74,27 @@ class Reasons:
     def alternatives(
         self, history: History, explained: Explained
     ) -> tuple[list[Explanation], bool]:
-        """The other explanations that are as small, and whether there are more than are given."""
+        """The other explanations that are as small, and whether there are more than are given.
+
+        None are given where the time for a decision does not suffice to find them.
+        """
         diagnosis = explained.diagnosis
-        if explained.others is not None:
-            found, more = explained.others(MOST_ALTERNATIVES)
-        else:
-            past = past_of(self._knowledge, self._goal, history, _FIRST_EVENT)
-            size = (diagnosis.size, len(diagnosis.exceptions))
-            found, more = self._tools.explanations.alternatives(past, size, MOST_ALTERNATIVES)
+        try:
+            with time_limit(self._decision_s):
+                found, more = self._found(history, explained)
+        except TimeLimitError:
+            return [], True
         others = (Diagnosis(_events(a.events), _events(a.distrusted), a.exceptions) for a in found)
         own = replace(diagnosis, initial=())
         return [self.explanation(other, history.step) for other in others if other != own], more
+
+    def _found(self, history: History, explained: Explained) -> tuple[list[Assumed], bool]:
+        if explained.others is not None:
+            return explained.others(MOST_ALTERNATIVES)
+        diagnosis = explained.diagnosis
+        past = past_of(self._knowledge, self._goal, history, _FIRST_EVENT)
+        size = (diagnosis.size, len(diagnosis.exceptions))
+        return self._tools.explanations.alternatives(past, size, MOST_ALTERNATIVES)
 
     def explanation(self, diagnosis: Diagnosis, step: int) -> Explanation:
         """A diagnosis as it travels."""

@@ -8,6 +8,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
+from agents.intentional.kept import KeptLogician
+from agents.intentional.logician import Logician
 from agents.intentional.reasons import Reasons
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
@@ -152,6 +154,21 @@ def _smallest_in_the_plain_theory(history: History) -> set[tuple[Pairs, Pairs]] 
         if found:
             return found
     return None
+
+
+@pytest.mark.parametrize("reasoner", [KeptLogician, Logician])
+def test_no_more_time_than_for_a_decision_is_spent_on_alternatives(
+    reasoner: type[KeptLogician] | type[Logician],
+) -> None:
+    history = History()
+    history.observe(WORLD.literals(START), 0)
+    history.happened(f"select({GOAL})", True, 0)
+    history.step = 3
+    history.observe(["-loc(book2,kitchen)"], 3)
+    explained = reasoner(OFFICE, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Diagnosis())
+    assert Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, explained)[0]
+    hurried = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20, decision_s=0)
+    assert hurried.alternatives(history, explained) == ([], True)
 
 
 def test_more_alternatives_than_are_listed_are_said_to_be_there() -> None:
