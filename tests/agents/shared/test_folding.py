@@ -158,6 +158,29 @@ def test_what_could_only_happen_before_the_folded_past_ended() -> None:
     _compare_others(folded.others(histories[0]), whole.others(histories[1]), whole.adopted)
 
 
+def test_news_of_the_selection_of_the_goal_stays_false_in_the_folded_past() -> None:
+    """Nothing else happens at step 0, so that the library was locked at another one."""
+    known = ("loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,office1)")
+    minds = Mind(OFFICE, TINY), Mind(OFFICE, UNFOLDED)
+    for mind in minds:
+        history = History()
+        history.observe(OFFICE.world.literals(OFFICE.world.state(known)), 0)
+        history.happened("select(my_goal)", True, 0)
+        for step in range(20):
+            if step == 8:
+                history.happened("exo_lock(library)", True, 0)
+            _sees(history, "loc(rob1,office1)")
+            mind.think(history)
+        _sees(history, "locked(library)")
+        mind.think(history)
+        assert [(e.step, e.action) for e in mind.adopted.distrusted] == [(0, "exo_lock(library)")]
+        assert [e.action for e in mind.adopted.unobserved] == ["exo_lock(library)"]
+    folded, whole = minds
+    assert folded.believer.folded > 6
+    assert folded.adopted == whole.adopted
+    assert folded.believer.belief == whole.believer.belief
+
+
 def test_what_is_forgotten_of_transitions_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(frontier, "REMEMBERED", 3)
     assert compare(OFFICE, 40, 13, LIVELY, TINY) > 0
