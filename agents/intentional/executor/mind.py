@@ -114,7 +114,7 @@ class Mind:
         """
         zoom = frozenset(zoom) | self._whereabouts()
         constants = zoom | fine_constants(self.refinement, zoom)
-        start = FineStart(self.belief.known.true | self.plain, candidates)
+        start = FineStart(self.belief.known.true | self._inertial(), candidates)
         limit = sum(len(self.refinement.components[constant]) for constant in zoom) + 1
         planner = _planner(self.refinement)
         try:
@@ -122,6 +122,11 @@ class Mind:
         except ValueError:  # the goal is about something that is elsewhere
             return None
         return None if isinstance(found, NoPlan) else found
+
+    def _inertial(self) -> frozenset[str]:
+        """What a state is told by, of fluents without counterparts: others follow by laws."""
+        symbols = self.refinement.coarse_signature.symbols
+        return frozenset(f for f in self.plain if symbols[name(f)].kind == "inertial")
 
     def _whereabouts(self) -> frozenset[str]:
         """The coarse constants of what is known of the robot itself."""

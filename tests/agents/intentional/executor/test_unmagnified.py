@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
 
@@ -82,3 +83,33 @@ def test_an_indirect_effect_that_nobody_sees_follows() -> None:
     went = play(RefinedRobot(), HANDS, start, ["loc(object1,room2)"])
     assert went.achieved
     assert went.abstract == [("pickup(rob1,object1)", True), ("move(rob1,room2)", True)]
+
+
+def _table() -> Refinement:
+    texts = Path(__file__).parents[3] / "asp" / "refinement"
+    return _staged(
+        texts.joinpath("tabletop.al").read_text(encoding="utf-8"),
+        texts.joinpath("tabletop.fine").read_text(encoding="utf-8"),
+    )
+
+
+TABLE = _table()
+
+
+@pytest.mark.parametrize("zooms", [True, False])
+def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: bool) -> None:
+    start = [
+        "fine_over(left_arm,green_3)",
+        "fine_held(left_arm,base2)",
+        "fine_lies(base1,yellow_1)",
+    ]
+    went = play(RefinedRobot(zooms=zooms), TABLE, start, ["lies(block1,red)"])
+    assert went.achieved
+    assert [action for action, _ in went.abstract] == [
+        "swing(left_arm,yellow)",
+        "release(left_arm,block2)",
+        "grasp(left_arm,block1)",
+        "swing(left_arm,green)",
+        "swing(left_arm,red)",
+    ]
+    assert all(happened for _, happened in went.abstract)
