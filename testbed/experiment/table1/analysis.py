@@ -5,15 +5,14 @@ from __future__ import annotations
 import dataclasses
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from testbed.experiment.table1.classify import NOTHING_TO_DO
-from testbed.experiment.table1.pairing import Meeting, Pair
+from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
+from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
 from testbed.experiment.table1.statistics import (
-    Estimate,
     Strata,
     Test,
     holm,
@@ -24,67 +23,12 @@ from testbed.experiment.table1.statistics import (
     signed_rank,
 )
 
+__all__ = ["RANDOM", "Analysis", "Ratio", "Row", "Table", "analyse"]
+
 RANDOM = "random"
 NO_EVENT = "no event"
 ONE = "1"
 """The scenario in which nothing happens."""
-
-
-@dataclass(frozen=True)
-class Ratio:
-    """A measure of the traditional robot, divided by the intentional one\'s.
-
-    `pairs` have a ratio: the intentional robot\'s measure is not 0. The test compares the measures
-    themselves; its effect is above 0 where the traditional robot needed more.
-    """
-
-    pairs: int
-    mean: Estimate | None
-    median: Estimate | None
-    test: Test | None
-
-
-@dataclass(frozen=True)
-class Row:
-    """A row of the table; `pairs` are those counted, `failed` and `unsolvable` those left out.
-
-    The test of the accuracies has its effect above 0 where the intentional robot was right more
-    often. `out_of_reach` are goals that could not be achieved any more where a trial ended.
-    """
-
-    name: str
-    pairs: int
-    failed: int
-    unsolvable: int
-    out_of_reach: int
-    meetings: Mapping[Meeting, int]
-    intentional: Estimate | None
-    baseline: Estimate | None
-    accuracy: Test | None
-    ratios: Mapping[str, Ratio]
-
-
-@dataclass(frozen=True)
-class Table:
-    """One way of assigning pairs to scenarios; `apart` counts the pairs that are in no row."""
-
-    rows: tuple[Row, ...]
-    apart: Mapping[str, int]
-
-
-@dataclass(frozen=True)
-class Analysis:
-    """What the pairs of two robots come to.
-
-    `triggered`: by the scenario that was played; `random`: by the scenario that a random event came
-    to be. `became` counts the pairs by both: which scenario was played, and what it came to be.
-    """
-
-    mind: str
-    base: str
-    triggered: Table | None
-    random: Table | None
-    became: Mapping[str, Mapping[str, int]]
 
 
 def analyse(pairs: Iterable[Pair], mind: str, base: str) -> Analysis:
@@ -152,6 +96,7 @@ def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int]) -> Row:
         baseline=proportion(_strata(counted, times, lambda pair: pair.base.correct)),
         accuracy=mcnemar(minds, bases) if counted else None,
         ratios={measure: _ratio(counted, measure, times) for measure in MEASURES},
+        advantage=mean(_strata(counted, times, lambda p: p.mind.correct - p.base.correct)),
     )
 
 

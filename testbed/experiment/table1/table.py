@@ -9,7 +9,7 @@ from rich.markup import escape
 
 from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
-from testbed.experiment.table1.statistics import Estimate
+from testbed.experiment.table1.statistics import Estimate, Test
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
@@ -37,14 +37,22 @@ def rows_of(table: Table) -> Iterator[Cells]:
 
 
 def tests_of(table: Table) -> Iterator[Cells]:
-    """For each row the effect sizes, with the p-values after Holm\'s correction."""
+    """For each row the effect sizes, with the p-values after Holm's correction."""
     for row in table.rows:
         if row.pairs:
-            tests = [*(row.ratios[m].test for m in MEASURES), row.accuracy]
-            yield (
-                row.name,
-                *("-" if t is None else f"{t.effect:+.2f} ({chance(t.holm)})" for t in tests),
-            )
+            yield (row.name, *(_effect(row.ratios[m].test) for m in MEASURES), _advantage(row))
+
+
+def _effect(test: Test | None) -> str:
+    return "-" if test is None else f"{test.effect:+.2f} ({chance(test.holm)})"
+
+
+def _advantage(row: Row) -> str:
+    difference = row.advantage
+    if row.accuracy is None or difference is None:
+        return "-"
+    interval = f"[{difference.low:+.2f}, {difference.high:+.2f}]"
+    return f"{difference.value:+.2f} {interval} ({chance(row.accuracy.holm)})"
 
 
 def chance(p: float | None) -> str:

@@ -129,6 +129,16 @@ def test_the_corrected_p_values_are_those_of_the_whole_table() -> None:
     assert alone.holm == pytest.approx(min(1.0, alone.p * 5 * 4))
 
 
+def test_the_advantage_is_how_much_more_often_the_intentional_robot_is_right() -> None:
+    pairs = [_pair("4", _side(), _side(correct=n >= 30)) for n in range(100)]
+    row = _named(analyse(pairs, "m", "b").triggered)["4"]
+    assert row.advantage is not None
+    assert row.accuracy is not None
+    assert (row.advantage.value, row.accuracy.effect) == (pytest.approx(0.3), pytest.approx(0.3))
+    assert row.advantage.low == pytest.approx(0.21, abs=0.03)
+    assert row.advantage.high == pytest.approx(0.39, abs=0.03)
+
+
 def test_a_published_value_outside_of_our_interval_is_marked() -> None:
     pairs = [_pair("1", _side(1.0, event=None), _side(1.0, event=None)) for _ in range(30)]
     table = analyse(pairs, "m", "b").triggered

@@ -27,10 +27,11 @@ and the row without failures. Beside it ours, of the random pairs:
 {markdown(("pairs", *HEADINGS), _split(drawn))}
 
 Where both parts of a row agree with ours and the row itself does not, what differs is how large the
-parts are: how often the event undid a part of the goal. In row 3 that is {_failing(drawn, "3")} of our
-random pairs and 28% of the published ones, in row 4 {_failing(drawn, "4")} and 27%. What made it more
-frequent in the published row 3 we could not find; the paper does not say how initial states were
-drawn, and a book that is in its place at the start is the one that can be taken away first.
+parts are: how often the event undid a part of the goal. In row 3 that is
+{_failing(drawn, "3")} of our random pairs and 28% of the published ones, in row 4
+{_failing(drawn, "4")} and 27%. What made it more frequent in the published row 3 we could not find.
+The paper does not say how initial states were drawn; a book that is in its place at the start is
+the one that can be taken away first.
 
 **2.** {_plans(pairs)}
 

@@ -1,0 +1,68 @@
+"""What the analysis of pairs gives: rows, tables, both ways of drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from testbed.experiment.table1.pairing import Meeting
+from testbed.experiment.table1.statistics import Estimate, Test
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """A measure of the traditional robot, divided by the intentional one\'s.
+
+    `pairs` have a ratio: the intentional robot\'s measure is not 0. The test compares the measures
+    themselves; its effect is above 0 where the traditional robot needed more.
+    """
+
+    pairs: int
+    mean: Estimate | None
+    median: Estimate | None
+    test: Test | None
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row of the table; `pairs` are those counted, `failed` and `unsolvable` those left out.
+
+    The test of the accuracies has its effect above 0 where the intentional robot was right more
+    often; `advantage` is that difference of the proportions with its interval. `out_of_reach` are
+    goals that could not be achieved any more where a trial ended.
+    """
+
+    name: str
+    pairs: int
+    failed: int
+    unsolvable: int
+    out_of_reach: int
+    meetings: Mapping[Meeting, int]
+    intentional: Estimate | None
+    baseline: Estimate | None
+    accuracy: Test | None
+    ratios: Mapping[str, Ratio]
+    advantage: Estimate | None = None
+
+
+@dataclass(frozen=True)
+class Table:
+    """One way of assigning pairs to scenarios; `apart` counts the pairs that are in no row."""
+
+    rows: tuple[Row, ...]
+    apart: Mapping[str, int]
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """What the pairs of two robots come to.
+
+    `triggered`: by the scenario that was played; `random`: by the scenario that a random event came
+    to be. `became` counts the pairs by both: which scenario was played, and what it came to be.
+    """
+
+    mind: str
+    base: str
+    triggered: Table | None
+    random: Table | None
+    became: Mapping[str, Mapping[str, int]]
