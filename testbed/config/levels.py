@@ -59,6 +59,8 @@ def _names(config: ExperimentConfig) -> Iterator[Finding]:
 def ground_findings(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:
     """What the descriptions of one level do not allow."""
     coarse, weak = refinement.coarse_signature, refinement.weak_signature
+    if not refinement.description.robots:
+        yield ("domain",), "has no robot: nobody sees anything in it; for example: R sees f(X)."
     yield from _literals(("goal",), config.goal, coarse)
     yield from _patterns(config.draw.goal if not config.goal else (), coarse)
     yield from _known(("observability",), config.observability, _named(weak, "exogenous"))

@@ -1,5 +1,6 @@
 """Configurations of the fine resolution: levels, their own sizes and maps, and what is refused."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -176,6 +177,16 @@ def test_a_mistake_in_a_map_is_told_with_its_place(own_map: Path) -> None:
     lines = _refusal(own_map.parent, own_map.read_text(encoding="utf-8"))
     assert lines[0].startswith("flat.fine:")
     assert "rom1_1" in lines[0]
+
+
+def test_a_domain_in_which_nobody_sees_anything_has_no_robot(own_map: Path) -> None:
+    coarse = own_map.with_name("own.al")
+    text = coarse.read_text(encoding="utf-8")
+    blind = re.sub(r"^sees\n.*?(?=^% Execution units)", "", text, flags=re.MULTILINE | re.DOTALL)
+    assert blind != text
+    coarse.write_text(blind, encoding="utf-8")
+    (line,) = _refusal(own_map.parent, own_map.read_text(encoding="utf-8"))
+    assert line.startswith("tiny.yaml:2: domain: has no robot: nobody sees anything in it")
 
 
 def test_a_map_that_is_not_there_is_one_line(own_map: Path) -> None:
