@@ -7,6 +7,7 @@ from pathlib import Path
 
 from benchmarks import (
     decisions,
+    driver,
     figures,
     growth,
     joint_growth,
@@ -25,6 +26,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "growth": growth.main,
     "peers": peers.main,
     "memory": memory.main,
+    "driver": driver.main,
     "mutation": mutation.main,
     "joint_growth": joint_growth.main,
     "zooming": zooming.main,

@@ -2,29 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    ProgressColumn,
-    Task,
-    TextColumn,
-    TimeRemainingColumn,
-)
-from rich.text import Text
 
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.level_table import rich_level_table
+from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
 from testbed.experiment.registry import known_robots
 from testbed.experiment.report import Tables, write_report
-from testbed.experiment.runner import Notify, Tally, run_trials
+from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import (
     REPORT,
     check_unchanged,
@@ -65,7 +55,7 @@ def run_session(
     folder = choose_folder(out, config.name, resume)
     _prepare(folder, config)
     provenance = Provenance(folder, config, session_arguments())
-    with _progress(quiet) as notify:
+    with progress(quiet) as notify:
         tally = run_trials(config, folder, workers, notify)
     code = _exit_code(tally)
     provenance.close(code)
@@ -139,34 +129,3 @@ def _show_table1(console: Console, analysis: Analysis) -> None:
 
 def _say(console: Console, line: str) -> None:
     console.print(line, soft_wrap=True, highlight=False, markup=False)
-
-
-class _Rate(ProgressColumn):
-    """Trials a second."""
-
-    def render(self, task: Task) -> Text:
-        speed = task.finished_speed or task.speed
-        return Text("" if speed is None else f"{speed:.1f}/s")
-
-
-@contextmanager
-def _progress(quiet: bool) -> Iterator[Notify]:
-    """A bar on standard error with rate and time left, where that is a terminal."""
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        _Rate(),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console, disable=quiet or not console.is_terminal) as bar:
-        task = bar.add_task("trials", total=None)
-
-        def notify(tally: Tally) -> None:
-            failed = f", {tally.failed} failed" if tally.failed else ""
-            bar.update(
-                task, total=tally.planned, completed=tally.done, description=f"trials{failed}"
-            )
-
-        yield notify

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import decisions, growth, memory, mutation, peers, worlds
+from benchmarks import decisions, driver, growth, memory, mutation, peers, worlds
 from benchmarks.__main__ import main
 from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS
 from benchmarks.sheets import Row, Sheet
@@ -60,6 +60,14 @@ def test_trial_after_trial_takes_no_more_memory() -> None:
     assert [row["trials"] for row in rows] == [1, *range(30, 301, 30)]
     settled = [float(str(row["growth_mb"])) for row in rows[4:]]
     assert sum(settled) < SETTLED_MB
+
+
+def test_the_driver_of_a_run_grows_by_what_it_knows_of_each_trial() -> None:
+    sheets = rows_of(driver.main("small"))
+    assert [row["trials"] for row in sheets["driver"]] == list(range(0, 121, 12))
+    grown = [float(str(row["growth_mb"])) for row in sheets["driver"][1:]]
+    assert sum(grown) < SETTLED_MB
+    assert [(row["workers"], row["trials"]) for row in sheets["workers"]] == [(1, 24), (2, 24)]
 
 
 def test_a_sample_of_mutants_is_killed() -> None:

@@ -1,0 +1,94 @@
+"""The process that drives a run: its memory over many trials, and how busy its workers are."""
+
+from __future__ import annotations
+
+import os
+import resource
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from benchmarks.memory import resident_mb
+from benchmarks.sheets import Row, Sheet, gathered
+from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.registry import known_robots
+from testbed.experiment.runner import Tally, run_trials
+
+TRIALS = {"small": 120, "full": 20_000}
+SAMPLES = 10
+WORKERS = (1, 2)
+STATES = 192
+ROBOTS = ("intentional", "traditional")
+PAIRS = {"small": 2, "full": 100}  # of each scenario of the published comparison
+
+
+def main(size: str) -> list[Sheet]:
+    """Sheets `driver` (memory after so many trials) and `workers` (trials a second)."""
+    compared = load_config("table1", [f"limit={PAIRS[size]}"], known_robots)
+    return [
+        Sheet(
+            "driver",
+            "Resident memory of the driving process, 2 workers",
+            gathered(_soak(configuration(TRIALS[size]))),
+            ("the office, one room to go to, random events; records are written as they come",),
+        ),
+        Sheet(
+            "workers",
+            "Trials of Table 1 a second, and processors busy with them",
+            gathered(throughput(compared, workers) for workers in WORKERS),
+            (f"processors: {os.cpu_count()}; starting the workers is included",),
+        ),
+    ]
+
+
+def configuration(trials: int) -> ExperimentConfig:
+    """At least so many small trials: both robots go to a room while others act at random."""
+    repeats = -(-trials // (STATES * len(ROBOTS)))
+    limit = -(-trials // len(ROBOTS))
+    overrides = [
+        "link=inprocess",
+        "scenarios=[random]",
+        "goal=[loc(rob1,library)]",
+        f"robots=[{','.join(ROBOTS)}]",
+        f"repeats={repeats}",
+        f"limit={limit}",
+    ]
+    return load_config("office", overrides, known_robots)
+
+
+def _soak(config: ExperimentConfig) -> Iterator[Row]:
+    """A row when the trials are planned, and after each tenth of them."""
+    samples: list[tuple[int, float]] = []
+
+    def sample(tally: Tally) -> None:
+        if tally.done % max(1, tally.planned // SAMPLES) == 0:
+            samples.append((tally.done, resident_mb()))
+
+    with tempfile.TemporaryDirectory() as folder:
+        run_trials(config, Path(folder), 2, sample)
+    before: float | None = None
+    for trials, now in samples:
+        growth = None if before is None else now - before
+        yield {"trials": trials, "resident_mb": now, "growth_mb": growth}
+        before = now
+
+
+def throughput(config: ExperimentConfig, workers: int) -> Row:
+    """Worker processes count when they have ended, so that what they used is known after a run."""
+    began, used = time.perf_counter(), _processor_s()
+    with tempfile.TemporaryDirectory() as folder:
+        tally = run_trials(config, Path(folder), workers, lambda _: None)
+    seconds = time.perf_counter() - began
+    return {
+        "workers": workers,
+        "trials": tally.done,
+        "trials_per_s": tally.done / seconds,
+        "processors_busy": (_processor_s() - used) / seconds,
+    }
+
+
+def _processor_s() -> float:
+    """Seconds of processor time of this process and of those that it waited for."""
+    usages = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(usage.ru_utime + usage.ru_stime for usage in usages)

@@ -1,0 +1,97 @@
+"""How a run goes on, told on standard error: trials done, their rate, and the time left."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TextColumn,
+    TimeRemainingColumn,
+)
+from rich.text import Text
+
+from testbed.experiment.runner import Notify, Tally
+from testbed.experiment.wording import counted
+
+EVERY_S = 30.0
+
+
+@contextmanager
+def progress(quiet: bool) -> Iterator[Notify]:
+    """A bar where standard error is a terminal; elsewhere a line from time to time."""
+    console = Console(stderr=True)
+    if quiet:
+        yield _nothing
+    elif console.is_terminal:
+        with _bar(console) as notify:
+            yield notify
+    else:
+        yield Lines(lambda line: console.print(line, soft_wrap=True, highlight=False)).notify
+
+
+def _nothing(tally: Tally) -> None:
+    del tally
+
+
+class Lines:
+    """Says a line whenever `EVERY_S` seconds have passed; the rate is that of this session."""
+
+    def __init__(
+        self, say: Callable[[str], None], clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._say, self._clock = say, clock
+        self._began: tuple[float, int] | None = None
+        self._due = 0.0
+
+    def notify(self, tally: Tally) -> None:
+        """Told at the start and after every trial."""
+        now = self._clock()
+        if self._began is None:
+            self._began, self._due = (now, tally.done), now + EVERY_S
+        elif now >= self._due:
+            self._due = now + EVERY_S
+            self._say(self._line(tally, now, *self._began))
+
+    def _line(self, tally: Tally, now: float, began: float, done: int) -> str:
+        rate = (tally.done - done) / (now - began)
+        left = round((tally.planned - tally.done) / rate)
+        failed = f", {tally.failed} failed" if tally.failed else ""
+        trials = f"{tally.done} of {counted(tally.planned, 'trial')}{failed}"
+        return f"{trials}, {rate:.1f}/s, {left // 3600}:{left // 60 % 60:02}:{left % 60:02} left"
+
+
+class _Rate(ProgressColumn):
+    """Trials a second."""
+
+    def render(self, task: Task) -> Text:
+        speed = task.finished_speed or task.speed
+        return Text("" if speed is None else f"{speed:.1f}/s")
+
+
+@contextmanager
+def _bar(console: Console) -> Iterator[Notify]:
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        _Rate(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console) as bar:
+        task = bar.add_task("trials", total=None)
+
+        def notify(tally: Tally) -> None:
+            failed = f", {tally.failed} failed" if tally.failed else ""
+            bar.update(
+                task, total=tally.planned, completed=tally.done, description=f"trials{failed}"
+            )
+
+        yield notify
