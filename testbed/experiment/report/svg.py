@@ -41,7 +41,7 @@ SETTINGS: Any = {  # matplotlib names every setting that there is in its type
     "lines.linewidth": 1.4,
     "lines.markersize": 4.5,
 }
-_FONT = re.compile(r"font: ([\d.]+)px [^;\"]+")
+_FAMILY = re.compile(r"font-family: [^;\"]+; ?")
 _IDS = re.compile(r' id="([^"]+)"')
 
 
@@ -78,8 +78,7 @@ def _tidied(text: str, name: str, label: str) -> str:
     body = body.replace("xlink:href", "href")
     for colour, variable in VARIABLES.items():
         body = body.replace(colour, f"var({variable})")
-    body = _FONT.sub(r"font-size: \1px", body)
-    body = re.sub(r"\n\s*", "\n", _own_ids(body, name))
+    body = re.sub(r"\n\s*", "\n", _own_ids(_FAMILY.sub("", body), name))
     return f'<svg {box.group()} role="img" aria-label="{escape(label)}">{body}'
 
 
