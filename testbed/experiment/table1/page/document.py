@@ -6,6 +6,8 @@ import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from testbed.experiment.digest import digest
+from testbed.experiment.store import read_records
 from testbed.experiment.table1.analysis import Analysis, Table
 from testbed.experiment.table1.markdown import markdown
 from testbed.experiment.table1.page.drawing import drawing
@@ -24,6 +26,10 @@ and how. Nothing in the robots or in the triggers was chosen to come near the pu
 ```console
 {commands}
 ```
+
+Whoever runs the first command gets the same results: their digest, times aside, is
+`{digest}`. Planning times depend on the machine, and on
+what else it does.
 
 In each table: our mean with its 95% interval, our median, and the published value, with `*` where
 it does not lie in the interval of our mean. TP is `traditional`, ATI `intentional`; ratios are
@@ -54,7 +60,9 @@ def document(sources: Sources) -> str:
     mind = sources.main.minds[0]
     analysis, pairs = sources.main.analyses[mind], sources.main.pairs[mind]
     parts = [
-        INTRODUCTION.format(commands=_commands(sources)),
+        INTRODUCTION.format(
+            commands=_commands(sources), digest=digest(read_records(sources.main.folder))
+        ),
         *_tables(analysis),
         drawing(analysis),
         blindness(pairs),
