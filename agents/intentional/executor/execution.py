@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable, Mapping, Sequence
-from functools import cache
+from collections.abc import Generator, Iterable, Sequence
 
+from agents.intentional.executor.laws import conditions, direct_effects
 from agents.intentional.executor.looking import Looking
 from agents.intentional.executor.mind import Mind
 from asp.literals import arguments, atom, complement, is_positive
-from asp.refinement import Refinement
 from asp.refinement.zooming import Transition, fine_goal, relevant
 from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Percept
@@ -44,7 +43,7 @@ class Execution:
         with mind.tally.planning():
             self._relevant = relevant(mind.refinement.coarse, transition, mind.goal)
             self._effects = fine_goal(mind.refinement, transition, self._relevant).effects
-            self._direct = _direct(mind.refinement).get(action, frozenset())
+            self._direct = direct_effects(mind.refinement).get(action, frozenset())
             things = mind.looked_for(self._relevant)
         self._looking = Looking(mind, before, after, things)
         every = mind.refinement.coarse_signature.constants
@@ -126,7 +125,7 @@ class Execution:
         and of no other: to go to a room a robot need not find there what it expected.
         """
         about = frozenset(arguments(self.action))
-        needed = _conditions(self._mind.refinement).get(self.action, frozenset())
+        needed = conditions(self._mind.refinement).get(self.action, frozenset())
         return tuple(
             group
             for fluent in sorted(self._before)
@@ -181,22 +180,3 @@ class Execution:
         wholes = self._mind.refinement.wholes
         named = {wholes.get(c, c) for literal in literals for c in arguments(literal)}
         return named - {self._mind.coarse.robot}
-
-
-@cache
-def _conditions(refinement: Refinement) -> Mapping[str, frozenset[str]]:
-    """The fluents on which it depends whether a coarse action is possible."""
-    found: dict[str, frozenset[str]] = {}
-    for law in refinement.description.executability:
-        for action in law.actions:
-            found[action] = found.get(action, frozenset()).union(map(atom, law.body))
-    return found
-
-
-@cache
-def _direct(refinement: Refinement) -> Mapping[str, frozenset[str]]:
-    """What causal laws say that a coarse action may bring about."""
-    found: dict[str, frozenset[str]] = {}
-    for law in refinement.description.causal:
-        found[law.action] = found.get(law.action, frozenset()) | {law.head}
-    return found

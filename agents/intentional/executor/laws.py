@@ -1,8 +1,9 @@
-"""What laws of D_f say of single actions and tests, instance by instance as they are asked for."""
+"""What laws say of single actions and tests; those of D_f instance by instance, when asked for."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
+from functools import cache
 from itertools import product
 
 from asp import roles, syntax
@@ -96,6 +97,25 @@ class Tests:
             choices = ([m for m in domains[v] if m in things] for v in free)
             for values in product(*choices):
                 yield _instance(law.head.atom, {**binding, **dict(zip(free, values, strict=True))})
+
+
+@cache
+def conditions(refinement: Refinement) -> Mapping[str, frozenset[str]]:
+    """The fluents on which it depends whether a coarse action is possible."""
+    found: dict[str, frozenset[str]] = {}
+    for law in refinement.description.executability:
+        for action in law.actions:
+            found[action] = found.get(action, frozenset()).union(map(atom, law.body))
+    return found
+
+
+@cache
+def direct_effects(refinement: Refinement) -> Mapping[str, frozenset[str]]:
+    """What causal laws say that a coarse action may bring about."""
+    found: dict[str, frozenset[str]] = {}
+    for law in refinement.description.causal:
+        found[law.action] = found.get(law.action, frozenset()) | {law.head}
+    return found
 
 
 def _tested(law: syntax.StateConstraint) -> str:
