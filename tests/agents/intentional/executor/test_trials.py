@@ -10,7 +10,9 @@ from agents.adversary.random import Random
 from agents.intentional.refined import EitherRobot
 from asp.levels import LEVELS, level_text
 from asp.literals import complement
+from asp.loading import read_domain
 from asp.refinement import load
+from asp.refinement.reading import read_refinement
 from testbed.environment.fine import RandomStart, fine_core, fine_world
 from testbed.environment.rules import Observability, Rules
 from testbed.environment.situation import Ending
@@ -20,10 +22,19 @@ STATISTICS = {"fine_move": 0.85, "test_fine_loc": 0.9}
 TOLD = {"fine_exo_move": Observability("always")}
 
 
-def trial(name: str, seed: int, zooms: bool = True, told: bool = False) -> list[FineTrace]:
-    """Plays a trial to its end, which has to be an achieved goal."""
+def texts(name: str) -> tuple[str, str]:
+    """The coarse text and the fine one of a level, or of the packaged office."""
+    if name == "office":
+        return read_domain("office")[1], read_refinement("office.fine")[1]
     size = LEVELS[name]
-    coarse, fine = level_text(size.rooms, size.rows, size.columns, size.objects)
+    return level_text(size.rooms, size.rows, size.columns, size.objects)
+
+
+def trial(
+    name: str, seed: int, zooms: bool = True, told: bool = False, rate: float = 0.05
+) -> list[FineTrace]:
+    """Plays a trial to its end, which has to be an achieved goal."""
+    coarse, fine = texts(name)
     refinement = load(coarse, "level.al", fine, "level.fine")
     world = fine_world(refinement)
     random = np.random.default_rng(seed)
@@ -31,12 +42,13 @@ def trial(name: str, seed: int, zooms: bool = True, told: bool = False) -> list[
     true = frozenset(world.true_atoms(state))
     sorts = refinement.coarse_signature.sorts
     thing = str(random.choice(sorts["object"]))
-    rooms = [room for room in sorts["room"] if f"loc({thing},{room})" not in true]
+    wanted = sorts.get("secure_room", sorts["room"])
+    rooms = [room for room in wanted if f"loc({thing},{room})" not in true] or ["kitchen"]
     goal = [f"loc({thing},{random.choice(rooms)})"]
     rules = Rules(tuple(goal), steps=1500, observability=TOLD if told else {})
     core = fine_core(refinement, rules, STATISTICS, initial=[state])
     core.reset(seed=seed, trial="trial")
-    adversary = Random(world.exogenous_actions, 0.05)
+    adversary = Random(world.exogenous_actions, rate)
     adversary.reset(seed)
     robot = EitherRobot(zooms=zooms)
     robot.begin(
@@ -87,3 +99,9 @@ def test_also_without_zooming(name: str, seed: int) -> None:
 @pytest.mark.parametrize("seed", range(6))
 def test_also_where_events_are_told(seed: int) -> None:
     trial("L2", seed, told=True)
+
+
+@pytest.mark.parametrize("zooms", [True, False])
+def test_also_where_others_lock_a_room(zooms: bool) -> None:
+    played = [trace for seed in range(6) for trace in trial("office", seed, zooms, rate=0.2)]
+    assert any("unlock(rob1,library)" in trace.plan for trace in played)
