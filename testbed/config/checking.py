@@ -17,7 +17,7 @@ from testbed.config.grounds import grounds
 from testbed.config.levels import ground_findings, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings, ScriptEntry
 from testbed.config.places import Key, Places
-from testbed.config.words import Finding, unknown_atom
+from testbed.config.words import NO_ROBOT, Finding, unknown_atom
 from testbed.environment.errors import StateError
 from testbed.environment.world import World
 
@@ -67,6 +67,8 @@ def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
 
 def _domain_findings(config: ExperimentConfig, description: Description) -> list[Finding]:
     findings = [*_scenarios(config, description), *_observability(config, description)]
+    if not description.robots:
+        findings.append((("domain",), NO_ROBOT))
     if not config.goal:
         findings.append((("goal",), f"should not be empty; for example {GOAL}"))
     for key, owner in _owners(config):

@@ -13,7 +13,7 @@ from asp.signature import Signature
 from asp.spelling import suggestion
 from testbed.config.models import ExperimentConfig
 from testbed.config.places import Key
-from testbed.config.words import Finding, unknown_atom
+from testbed.config.words import NO_ROBOT, Finding, unknown_atom
 from testbed.environment.errors import StateError
 from testbed.environment.sparse import SparseWorld
 from testbed.environment.world import World
@@ -60,7 +60,7 @@ def ground_findings(config: ExperimentConfig, refinement: Refinement) -> Iterato
     """What the descriptions of one level do not allow."""
     coarse, weak = refinement.coarse_signature, refinement.weak_signature
     if not refinement.description.robots:
-        yield ("domain",), "has no robot: nobody sees anything in it; for example: R sees f(X)."
+        yield ("domain",), NO_ROBOT
     yield from _literals(("goal",), config.goal, coarse)
     yield from _patterns(config.draw.goal if not config.goal else (), coarse)
     yield from _known(("observability",), config.observability, _named(weak, "exogenous"))

@@ -11,6 +11,12 @@ from testbed.config.places import Key
 Finding = tuple[Key, str]
 """A key, and one line that says what is wrong with its value."""
 
+NO_ROBOT = (
+    "has no robot: nobody sees anything in it; "
+    "in its section 'sees' write for example: R sees f(X) if robot(R)."
+)
+"""What is wrong with a domain without `sees`: the robot is the one that sees."""
+
 
 def unknown_atom(text: str, known: Sequence[str], what: str) -> str:
     """Say what is wrong with a ground atom that is not among the known ones, and what is right."""

@@ -295,6 +295,18 @@ def test_another_domain_over_a_file_needs_what_belongs_to_it(tmp_path: Path) -> 
     assert (config.observability, config.scenario_settings) == ({}, {})
 
 
+def test_a_domain_in_which_nobody_sees_anything_has_no_robot(tmp_path: Path) -> None:
+    lamp = tmp_path / "lamp.al"
+    text = f"name: tiny\ndomain: {lamp}\ngoal: [lit]\n"
+    lamp.write_text(LAMP.replace("sees\n  R sees lit if robot(R).\n", ""), encoding="utf-8")
+    (line,) = _refusal(tmp_path, text)
+    assert line.startswith("tiny.yaml:2: domain: has no robot: nobody sees anything in it; ")
+    (_, advice) = line.split("write for example: ")
+    assert advice == "R sees f(X) if robot(R)."
+    lamp.write_text(LAMP.replace("R sees lit", advice.partition(" if")[0].replace("f(X)", "lit")))
+    assert load_config(_file(tmp_path, text)).goal == ("lit",)
+
+
 @pytest.mark.parametrize(
     ("goal", "law"),
     [
