@@ -10,9 +10,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
-
 from asp.commentary import scenario_notes
 from asp.loading import read_domain
 from testbed.config import ExperimentConfig
@@ -20,11 +17,11 @@ from testbed.experiment.comparison import comparisons
 from testbed.experiment.level_table import Cells, level_rows
 from testbed.experiment.report.accounts import accounts_of
 from testbed.experiment.report.endings import command_of, failures, slowest
+from testbed.experiment.report.rendering import environment
 from testbed.experiment.report.stories import chapters
 from testbed.experiment.store import REPORT, read_records, replace_text
 from testbed.experiment.summary import write_summary
 from testbed.experiment.tables import Row, headings, rows_of
-from testbed.experiment.wording import counted, in_words
 
 if TYPE_CHECKING:
     from testbed.experiment.table1.analysis import Analysis
@@ -52,7 +49,7 @@ def write_report(folder: Path, config: ExperimentConfig) -> Tables:
         **_trials(folder, config),
         "replay": lambda trial: command_of(folder, trial),
     }
-    replace_text(folder / REPORT, _environment().get_template("page.html.j2").render(parts))
+    replace_text(folder / REPORT, environment().get_template("page.html.j2").render(parts))
     return tables
 
 
@@ -112,16 +109,3 @@ def _trials(folder: Path, config: ExperimentConfig) -> dict[str, Any]:
         "told": sum(len(chapter.stories) for chapter in told),
         "chapters": told,
     }
-
-
-def _atoms(text: str) -> Markup:
-    """Text that breaks at its spaces alone, and not inside of an atom."""
-    return Markup(" ").join(Markup('<span class="atom">{}</span>').format(a) for a in text.split())
-
-
-def _environment() -> Environment:
-    loader = PackageLoader("testbed.experiment.report", "templates")
-    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"atoms": _atoms, "counted": counted, "in_words": in_words}
-    environment.trim_blocks = environment.lstrip_blocks = True
-    return environment
