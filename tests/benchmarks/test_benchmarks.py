@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import decisions, driver, growth, memory, mutation, peers, worlds
+from benchmarks import decisions, driver, growth, memory, mutation, peers, trials, worlds
 from benchmarks.__main__ import main
 from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS
 from benchmarks.sheets import Row, Sheet
-from benchmarks.trials import SCENARIOS
+from benchmarks.trials import SCENARIOS, Played
+from testbed.experiment.plan import TrialSpec
 
 SETTLED_MB = 5.0
 
@@ -27,12 +28,28 @@ def column(rows: list[Row], name: str) -> list[object]:
     return [row[name] for row in rows]
 
 
-def test_decisions_of_all_scenarios_are_those_of_the_reference() -> None:
+def test_decisions_of_all_scenarios_are_those_of_the_reference(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    played: dict[str, list[str]] = {}
+    specs: dict[str, TrialSpec] = {}
+
+    def play(spec: TrialSpec, side: str) -> Played:
+        played.setdefault(spec.trial, []).append(side)
+        specs[spec.trial] = spec
+        return trials.play(spec, side)
+
+    monkeypatch.setattr(decisions, "play", play)
     sheets = rows_of(decisions.main("small"))
     for name in ("trials", "decisions", "fresh"):
         assert column(sheets[name], "scenario") == list(SCENARIOS)
     assert all(column(sheets["trials"], "agree"))
     assert all(column(sheets["decisions"], "decisions"))
+    measured = {trial for trial, sides in played.items() if "reference" in sides}
+    warm = played.keys() - measured
+    assert {specs[trial].scenario for trial in warm} == set(SCENARIOS), "grounding is not measured"
+    assert all(played[trial] == ["fast", "fast", "reference"] for trial in measured)
+    assert {specs[t].initial for t in warm}.isdisjoint(specs[t].initial for t in measured)
 
 
 def test_growth_has_every_point_and_the_sides_agree() -> None:
