@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from itertools import product
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.knowing import Inferred, Known, Theory
-from asp.levels import LevelSize
+from asp.levels import LevelSize, level_text
 from asp.quick import Quick
-from asp.refinement import load
+from asp.refinement import load, load_refinement
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts
 
+TABLETOP = str(Path(__file__).parent / "refinement" / "tabletop.fine")
 SMALL = of_size(LevelSize(2, 1, 2, ((2, 2),)), "small")
 THEORY, QUICK = Theory(SMALL), Quick(SMALL)
 CELLS = [cell for room in ("room1", "room2") for cell in SMALL.components[room]]
@@ -59,8 +61,15 @@ def test_step_by_step_or_all_at_once(history: list[list[str]]) -> None:
         assert THEORY.infer(Known(), history, ABOUT).known == known
 
 
-def test_all_laws_of_the_levels_are_simple() -> None:
-    assert QUICK.is_enough
+@pytest.mark.parametrize("name", ["level.fine", "office.fine", TABLETOP])
+def test_all_laws_of_levels_office_and_tabletop_are_simple(name: str) -> None:
+    assert Quick(load_refinement(name)).is_enough
+
+
+def test_laws_about_what_is_false_are_not_simple() -> None:
+    coarse, fine = level_text(2, 1, 2, ((1, 1),))
+    coarse += "\nfluents\n  inertial free(robot).\nlaws\n  free(R) if -in_hand(R, object1).\n"
+    assert not Quick(load(coarse, "c.al", fine, "c.fine")).is_enough
 
 
 def test_one_component_makes_it_true() -> None:
