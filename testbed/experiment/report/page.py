@@ -46,6 +46,7 @@ def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     parts = {
         **_heading(config, tables),
         **_tables(tables, summary),
+        **_compared(folder, tables, summary),
         **_trials(folder, config),
         "replay": lambda trial: command_of(folder, trial),
     }
@@ -75,10 +76,23 @@ def _tables(tables: Tables, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "columns": headings(tables.rows),
         "rows": tables.rows,
-        "comparisons": [] if tables.table1 else comparisons(summary),
         **(_levels(summary) if tables.levels else {"levels": []}),
         "published": [_published(analysis) for analysis in tables.table1],
     }
+
+
+def _compared(folder: Path, tables: Tables, summary: Mapping[str, Any]) -> dict[str, Any]:
+    """The published experiment has a table of its own for it."""
+    rows = [] if tables.table1 else comparisons(summary)
+    several = any(group["pairs"] > 1 for group in summary["scenarios"].values())
+    panels = _compared_panels(folder) if rows and several else []
+    return {"comparisons": rows, "compared_panels": panels}
+
+
+def _compared_panels(folder: Path) -> list[Any]:
+    from testbed.experiment.report.compared import panels
+
+    return panels(read_records(folder))
 
 
 def _levels(summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,0 +1,86 @@
+"""How two robots compare in a run of one's own: accuracy and ratios with intervals by scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+import numpy as np
+
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.report.figures import Panel, Point, Series, forest
+from testbed.experiment.report.svg import FIRST, SECOND
+from testbed.experiment.summary import BASELINE, INTENTIONAL, MEASURES, Outline
+from testbed.experiment.table1.statistics import Estimate, mean, proportion
+from testbed.experiment.wording import in_words, place
+
+LEAST = 2
+"""Pairs of a scenario from which on an interval says something."""
+
+Pair = tuple[Outline, Outline]
+"""The intentional robot's trial and the traditional one's."""
+
+
+def panels(records: Iterable[TrialRecord]) -> list[Panel]:
+    """A figure of the accuracies and one for each ratio; none without pairs to compare."""
+    groups = {name: pairs for name, pairs in _groups(records).items() if len(pairs) >= LEAST}
+    if not groups:
+        return []
+    rows = list(groups)
+    shares = [
+        _series(INTENTIONAL, FIRST, groups, lambda pairs: _share(own for own, _ in pairs)),
+        _series(BASELINE, SECOND, groups, lambda pairs: _share(own for _, own in pairs), "s"),
+    ]
+    ratios = [
+        forest(f"compared-{name}", _title(name), rows, [_ratios(groups, measure)])
+        for name, measure in MEASURES.items()
+    ]
+    return [forest("compared-correct", "correct", rows, shares, share=True), *ratios]
+
+
+def _title(measure: str) -> str:
+    return f"{in_words(measure)}, {BASELINE} / {INTENTIONAL}"
+
+
+def _groups(records: Iterable[TrialRecord]) -> dict[str, list[Pair]]:
+    """Pairs of which both trials ended by themselves, by scenario or level."""
+    waiting: dict[tuple[str, str], dict[str, Outline]] = {}
+    for record in records:
+        key = (place(record.scenario, record.level), record.pair)
+        waiting.setdefault(key, {})[record.robot] = Outline(record)
+    groups: dict[str, list[Pair]] = {}
+    for (name, _), own in waiting.items():
+        if INTENTIONAL in own and BASELINE in own:
+            pair = own[INTENTIONAL], own[BASELINE]
+            groups.setdefault(name, []).extend([pair] * all(trial.ended for trial in pair))
+    return groups
+
+
+def _ratios(groups: Mapping[str, list[Pair]], measure: Callable[[Outline], float]) -> Series:
+    def estimate(pairs: list[Pair]) -> Estimate | None:
+        ratios = [measure(base) / measure(mind) for mind, base in pairs if measure(mind)]
+        return mean([(np.array(ratios, dtype=float), 1)])
+
+    return _series("ratio", FIRST, groups, estimate)
+
+
+def _share(trials: Iterable[Outline]) -> Estimate | None:
+    return proportion([(np.array([trial.correct for trial in trials], dtype=float), 1)])
+
+
+def _series(
+    label: str,
+    colour: str,
+    groups: Mapping[str, list[Pair]],
+    estimate: Callable[[list[Pair]], Estimate | None],
+    marker: str = "o",
+) -> Series:
+    return Series(label, colour, tuple(_points(groups, estimate)), marker)
+
+
+def _points(
+    groups: Mapping[str, list[Pair]], estimate: Callable[[list[Pair]], Estimate | None]
+) -> Iterator[Point]:
+    for name, pairs in groups.items():
+        known = estimate(pairs)
+        if known is not None:
+            yield Point(name, known.value, known.low, known.high)
