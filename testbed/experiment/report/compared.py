@@ -38,7 +38,7 @@ def panels(records: Iterable[TrialRecord]) -> list[Panel]:
 
 
 def _title(measure: str) -> str:
-    return f"{in_words(measure)}, {BASELINE} / {INTENTIONAL}"
+    return f"{in_words(measure)}, ratio"
 
 
 def _groups(records: Iterable[TrialRecord]) -> dict[str, list[Pair]]:
