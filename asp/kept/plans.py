@@ -10,10 +10,14 @@ from asp.kept.clock import standing_still
 from asp.kept.control import State
 from asp.kept.independence import Independence, symmetric_pairs
 from asp.kept.planner import Planner
+from asp.kept.recent import Recent
 from asp.literals import arguments, ground, is_positive, name
 from asp.loading import analyse, parse_description
 from asp.restriction import narrowed, restrict, without_exogenous
 from asp.translation import translate_source
+
+MOST_PARTS = 16
+"""Of how many parts of a domain planners are kept: those that were used last."""
 
 
 class Plans:
@@ -30,7 +34,7 @@ class Plans:
         self._name = Path(file).stem
         description = parse_description(text, file)
         self._independence = Independence(description, self._source, self._signature)
-        self._planners: dict[frozenset[str], Planner] = {}
+        self._planners: Recent[frozenset[str], Planner] = Recent(MOST_PARTS)
 
     def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None.
@@ -58,22 +62,20 @@ class Plans:
         return self._planner(view.dropped).reachable(view.state, view.goal)
 
     def _planner(self, dropped: frozenset[str]) -> Planner:
-        if dropped not in self._planners:
-            with standing_still():
-                self._planners[dropped] = self._make_planner(dropped)
-        return self._planners[dropped]
+        return self._planners.get(dropped, lambda: self._make_planner(dropped))
 
     def _make_planner(self, dropped: frozenset[str]) -> Planner:
-        source = restrict(without_exogenous(self._source, self._signature), dropped)
-        signature = narrowed(self._signature, dropped)
-        return Planner(
-            ground_description(source, signature, self._name),
-            translate_source(source, signature),
-            [
-                [constant for constant in members if constant not in dropped]
-                for members in self._independence.classes
-            ],
-        )
+        with standing_still():
+            source = restrict(without_exogenous(self._source, self._signature), dropped)
+            signature = narrowed(self._signature, dropped)
+            return Planner(
+                ground_description(source, signature, self._name),
+                translate_source(source, signature),
+                [
+                    [constant for constant in members if constant not in dropped]
+                    for members in self._independence.classes
+                ],
+            )
 
 
 class _View:

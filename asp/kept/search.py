@@ -12,7 +12,11 @@ from functools import cached_property
 from math import prod
 
 from asp.kept.operators import Encoding
+from asp.kept.recent import Recent
 from asp.kept.statesets import Space, StateSet
+
+MOST_SPACES = 16
+"""How many spaces of an encoding are kept: those that were used last."""
 
 Condition = tuple[int, int, bool]
 
@@ -138,7 +142,7 @@ class Spaces:
         self._encoding = encoding
         self._sizes = [len(values) for values in encoding.domains]
         self._most = most_states
-        self._made: dict[tuple[int, ...], Space] = {}
+        self._kept: Recent[tuple[int, ...], Space] = Recent(MOST_SPACES)
         self.exact = prod(self._sizes) <= most_states
 
     def bounds(self, true: Collection[str], goal: Iterable[str]) -> Bounds | None:
@@ -151,10 +155,9 @@ class Spaces:
         return Bounds([self._space(some) for some in variables], state, wanted)
 
     def _space(self, variables: tuple[int, ...]) -> Space:
-        if variables not in self._made:
-            operators = self._encoding.operators
-            self._made[variables] = Space(self._sizes, operators, variables)
-        return self._made[variables]
+        return self._kept.get(
+            variables, lambda: Space(self._sizes, self._encoding.operators, variables)
+        )
 
     def _chosen(self, wanted: Iterable[int]) -> list[tuple[int, ...]]:
         """All variables, or several sets in which each wanted one occurs beside the busiest."""

@@ -10,7 +10,15 @@ from clingo import Symbol
 from asp.description import Description
 from asp.kept.control import KeptControl, State, goal_externals
 from asp.kept.narrow import SHORTEST, candidates
+from asp.kept.recent import Recent
 from asp.solving import fact, is_satisfiable, solving
+
+MOST_LENGTHS = 40
+"""Of how many lengths of plans controls are kept: those that were used last.
+
+Where no search gives the length they are asked one after the other, from 1 to that of the plan:
+were fewer kept than a plan has actions, each decision would ground all of them again.
+"""
 
 _LEAST_HORIZON = 8
 
@@ -27,8 +35,8 @@ class SharedPrograms:
         self._actions = description.agent_actions
         self._program = program
         self._facts = tuple(facts)
-        self._planning: dict[int, KeptControl] = {}
-        self._following: dict[int, KeptControl] = {}
+        self._planning: Recent[int, KeptControl] = Recent(MOST_LENGTHS)
+        self._following: Recent[int, KeptControl] = Recent(MOST_LENGTHS)
 
     def first_plan(
         self,
@@ -38,9 +46,7 @@ class SharedPrograms:
         symmetric: Iterable[tuple[str, str]],
     ) -> tuple[str, ...] | None:
         """The first plan of this length in the order of declaration, or None."""
-        if length not in self._planning:
-            self._planning[length] = self._made("kept_planning", length)
-        kept = self._planning[length]
+        kept = self._planning.get(length, lambda: self._made("kept_planning", length))
         ordered = (fact("symmetric", *pair) for pair in symmetric)
         kept.switch_on(SHORTEST, *goal_externals(goal), *ordered)
         start = kept.assume_state(state, 0)
@@ -52,9 +58,7 @@ class SharedPrograms:
     def succeeds(self, state: State, goal: tuple[str, ...], plan: Sequence[str]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then."""
         horizon = horizon_of(plan)
-        if horizon not in self._following:
-            self._following[horizon] = self._made("kept_following", horizon)
-        kept = self._following[horizon]
+        kept = self._following.get(horizon, lambda: self._made("kept_following", horizon))
         follows = (fact("follows", action, step) for step, action in enumerate(plan))
         kept.switch_on(*goal_externals(goal), *follows)
         start = kept.assume_state(state, 0)
