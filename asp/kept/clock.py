@@ -1,4 +1,4 @@
-"""A clock of reasoning that stands still while a kept control is grounded."""
+"""A clock of reasoning that stands still while something is made that is then kept."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ _stood_still = 0.0
 
 
 def reasoning_clock() -> float:
-    """Seconds, as `time.perf_counter`, without those spent on grounding kept controls.
+    """Seconds, as `time.perf_counter`, without those spent on making what is kept.
 
-    A control is grounded once in a process, by whichever trial needs it first; counted in, it would
-    make the cost of a trial depend on what was played before.
+    Controls are grounded, and spaces for searches made, once in a process, by whichever trial needs
+    them first; counted in, they would make the cost of a trial depend on what was played before.
+    The limit on a decision counts them (`asp.solving.time_limit`): a robot may take no longer.
     """
     return time.perf_counter() - _stood_still
 

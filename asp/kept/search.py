@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import cached_property
 from math import prod
 
+from asp.kept.clock import standing_still
 from asp.kept.operators import Encoding
 from asp.kept.recent import Recent
 from asp.kept.statesets import Space, StateSet
@@ -155,9 +156,12 @@ class Spaces:
         return Bounds([self._space(some) for some in variables], state, wanted)
 
     def _space(self, variables: tuple[int, ...]) -> Space:
-        return self._kept.get(
-            variables, lambda: Space(self._sizes, self._encoding.operators, variables)
-        )
+        return self._kept.get(variables, lambda: self._make_space(variables))
+
+    def _make_space(self, variables: tuple[int, ...]) -> Space:
+        # Like grounding, which it stands for: made once, not interrupted, no part of reasoning.
+        with standing_still():
+            return Space(self._sizes, self._encoding.operators, variables)
 
     def _chosen(self, wanted: Iterable[int]) -> list[tuple[int, ...]]:
         """All variables, or several sets in which each wanted one occurs beside the busiest."""
