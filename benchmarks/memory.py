@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import os
 import resource
-from collections.abc import Iterator
-from itertools import cycle, islice
+from collections.abc import Callable, Iterator, Sequence
+from itertools import cycle, islice, product
 from pathlib import Path
 
+from benchmarks.offices import book_names, room_names
 from benchmarks.sheets import Row, Sheet, gathered
 from benchmarks.trials import SCENARIOS, play, specs
+from testbed.config import load_config
+from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.registry import make_robot
+from testbed.experiment.trial import play_trial
+from testbed.link.inprocess import InProcessRobot
 
 _STATUS = Path("/proc/self/statm")
 
@@ -17,23 +23,46 @@ TRIALS = {"small": 300, "full": 10_000}
 SAMPLES = 10
 STATES = {"small": 2, "full": 192}
 
+KINDS = ("intentional-checking", "traditional")
+GOALS = {"small": 2, "full": 24}
+STARTS = {"small": 1, "full": 2}
+ROUNDS = {"small": 1, "full": 5}
+
 
 def main(size: str) -> list[Sheet]:
-    """Sheet `memory`: resident memory after so many trials."""
-    notes = (
+    """Sheets `memory` and `goals`: resident memory after so many trials."""
+    same = (
         "scenarios 1 to 6 in turn, from different initial states, nothing forgotten in between;",
         "the first row is after the first trial",
     )
-    title = "Resident memory of one process, link included"
-    return [Sheet("memory", title, gathered(soak(TRIALS[size], STATES[size])), notes)]
+    several = (
+        f"{' and '.join(KINDS)} in turn, {GOALS[size]} goals one after the other, all of them",
+        f"{ROUNDS[size]} times; the domain of the first robot follows from its goal",
+    )
+    pool = list(varied(GOALS[size], STARTS[size]))
+    return [
+        Sheet(
+            "memory",
+            "Resident memory of one process, link included",
+            gathered(soak(TRIALS[size], alike(STATES[size]), lambda spec: play(spec, "fast"))),
+            same,
+        ),
+        Sheet(
+            "goals",
+            "Resident memory of the same process, then, with other goals and robots",
+            gathered(soak(ROUNDS[size] * len(pool), pool, play_any)),
+            several,
+        ),
+    ]
 
 
-def soak(trials: int, states: int) -> Iterator[Row]:
+def soak(
+    trials: int, pool: Sequence[TrialSpec], play_one: Callable[[TrialSpec], object]
+) -> Iterator[Row]:
     """Plays so many trials; a row after the first one and after each tenth of them."""
-    pool = [spec for scenario in SCENARIOS for spec in specs(scenario, states)]
     before: float | None = None
     for number, spec in enumerate(islice(cycle(pool), trials), start=1):
-        play(spec, "fast")
+        play_one(spec)
         if number == 1 or number % (trials // SAMPLES) == 0:
             now = resident_mb()
             yield {
@@ -42,6 +71,39 @@ def soak(trials: int, states: int) -> Iterator[Row]:
                 "growth_mb": None if before is None else now - before,
             }
             before = now
+
+
+def alike(states: int) -> list[TrialSpec]:
+    """Trials of all scenarios with one goal and one robot, each from so many states."""
+    return [spec for scenario in SCENARIOS for spec in specs(scenario, states)]
+
+
+def varied(goals: int, states: int) -> Iterator[TrialSpec]:
+    """Trials of all scenarios with so many goals, each from so many states with each robot."""
+    for goal in islice(_goals(), goals):
+        overrides = [
+            f"robots=[{','.join(KINDS)}]",
+            f"scenarios=[{','.join(SCENARIOS)}]",
+            f"goal=[{','.join(goal)}]",
+            f"limit={states}",
+        ]
+        yield from plan_trials(load_config("office", overrides))
+
+
+def _goals() -> Iterator[tuple[str, ...]]:
+    """Each book in each room, alone, then each pair of books in each pair of rooms."""
+    books, rooms = book_names(2), room_names(4)
+    places = [[f"loc({book},{room})" for room in rooms] for book in books]
+    for alone in places:
+        yield from zip(alone)
+    yield from product(*places)
+
+
+def play_any(spec: TrialSpec) -> None:
+    """One trial with the robot that it names. Raises RuntimeError if it failed."""
+    result = play_trial(spec, InProcessRobot(make_robot))
+    if result.details is not None:
+        raise RuntimeError(result.details)
 
 
 def resident_mb() -> float:

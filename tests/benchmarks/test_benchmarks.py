@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from agents.shared.tools import MOST_DOMAINS
 from benchmarks import decisions, driver, growth, memory, mutation, peers, trials, worlds
 from benchmarks.__main__ import main
 from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS
@@ -73,10 +74,19 @@ def test_peers_find_plans_of_the_same_length() -> None:
 
 
 def test_trial_after_trial_takes_no_more_memory() -> None:
-    rows = list(memory.soak(trials=300, states=2))
+    rows = list(memory.soak(300, memory.alike(2), lambda spec: trials.play(spec, "fast")))
     assert [row["trials"] for row in rows] == [1, *range(30, 301, 30)]
     settled = [float(str(row["growth_mb"])) for row in rows[4:]]
     assert sum(settled) < SETTLED_MB
+
+
+def test_memory_is_also_measured_over_more_goals_than_domains_are_kept() -> None:
+    every = list(memory.varied(memory.GOALS["full"], 1))
+    assert len({spec.setting.goal for spec in every}) > MOST_DOMAINS
+    few = list(memory.varied(memory.GOALS["small"], memory.STARTS["small"]))
+    assert {spec.robot for spec in few} == set(memory.KINDS)
+    rows = list(memory.soak(10, few, memory.play_any))
+    assert [row["trials"] for row in rows] == list(range(1, 11))
 
 
 def test_the_driver_of_a_run_grows_by_what_it_knows_of_each_trial() -> None:
