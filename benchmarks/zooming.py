@@ -17,7 +17,7 @@ from asp.signature import Problems, signature_of
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, quantile, within
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
-from testbed.experiment.published import RATIOS
+from testbed.experiment.levels.published import RATIOS
 
 LIMIT = 200
 NAMES = {"small": ("L1", "L2"), "full": tuple(LEVELS)}

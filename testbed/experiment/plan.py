@@ -19,7 +19,7 @@ from testbed.config.models import ExperimentConfig, KnowledgeKind, Pace
 from testbed.environment.rules import Observability
 from testbed.environment.world import World
 from testbed.experiment.domains import load_world
-from testbed.experiment.drawing import Drawing
+from testbed.experiment.levels.drawing import Drawing
 from testbed.experiment.record import COARSE
 from testbed.experiment.repeating import repeats_of
 

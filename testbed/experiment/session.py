@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.level_table import rich_level_table
+from testbed.experiment.levels.table import rich_level_table
 from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
 from testbed.experiment.registry import known_robots

@@ -10,7 +10,7 @@ from statistics import fmean
 
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
-from testbed.experiment.levels import FineOutline, fine_outline, summarise_level
+from testbed.experiment.levels.analysis import FineOutline, fine_outline, summarise_level
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.store import SUMMARY, read_records, replace_text
 

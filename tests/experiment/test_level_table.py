@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from testbed.experiment.level_table import LEVEL_COLUMNS, level_rows
-from testbed.experiment.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
+from testbed.experiment.levels.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
+from testbed.experiment.levels.table import LEVEL_COLUMNS, level_rows
 from testbed.experiment.record import FineCounts, TrialRecord
 from testbed.experiment.summary import summarise
 from testbed.experiment.tables import headings, rows_of

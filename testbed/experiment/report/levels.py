@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from testbed.experiment.level_table import CONDITIONS
-from testbed.experiment.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
+from testbed.experiment.levels.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
+from testbed.experiment.levels.table import CONDITIONS
 from testbed.experiment.report.figures import Panel, Point, Series, curves
 from testbed.experiment.report.svg import FIRST, SECOND
 

@@ -14,7 +14,7 @@ from asp.commentary import scenario_notes
 from asp.loading import read_domain
 from testbed.config import ExperimentConfig
 from testbed.experiment.comparison import comparisons
-from testbed.experiment.level_table import Cells, level_rows
+from testbed.experiment.levels.table import Cells, level_rows
 from testbed.experiment.report.accounts import accounts_of
 from testbed.experiment.report.endings import command_of, failures, slowest
 from testbed.experiment.report.rendering import environment

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.published import NO_ZOOM, ZOOM
+from testbed.experiment.levels.published import NO_ZOOM, ZOOM
 from testbed.experiment.record import FineCounts
 from testbed.experiment.report import levels, table1
 from testbed.experiment.runner import Tally, run_trials

@@ -7,7 +7,7 @@ from typing import Any
 
 from rich.table import Table
 
-from testbed.experiment.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
+from testbed.experiment.levels.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
 
 LEVEL_COLUMNS = ("level", "reasoning", "achieved", "all", "fine", "coarse", "a refined plan")
 CONDITIONS = {ZOOM: "zoom", NO_ZOOM: "no zoom"}

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import fmean, stdev
 
-from testbed.experiment.published import NO_ZOOM, PARTS, ZOOM
+from testbed.experiment.levels.published import NO_ZOOM, PARTS, ZOOM
 from testbed.experiment.record import FAILURES, FineCounts, TrialRecord
 
 Spread = dict[str, float]
