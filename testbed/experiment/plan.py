@@ -76,7 +76,11 @@ class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
-    """The trials of a configuration in their order: scenario or level, pair, robot."""
+    """The trials of a configuration in their order: scenario or level, pair, robot.
+
+    Which robot of a pair is first follows from the pair's seed: what one of them has prepared can
+    serve the other, which plays after it in the same process.
+    """
     return list(_at_levels(config)) if config.is_fine else _in_scenarios(config)
 
 
@@ -167,7 +171,8 @@ def _specs(
     """The trials of a pair, whose seed path this is: one a robot."""
     seed = trial_seed(config.seed, path)
     logical = [config.seed, path, _without_files(setting, domain)]
-    for robot in config.robots:
+    first = seed % len(config.robots)
+    for robot in (*config.robots[first:], *config.robots[:first]):
         yield TrialSpec(
             trial=_short_hash([*logical, robot]),
             pair=_short_hash(logical),

@@ -127,12 +127,13 @@ def explained(record: TrialRecord) -> list[str]:
 
 
 def rows_of(records: Iterable[TrialRecord]) -> list[Row]:
-    """The rows of a table, in the order in which the records name them first."""
+    """The rows of a table: places as the records name them first, robots by name."""
     rows: dict[tuple[str, str, str], Row] = {}
     for record in records:
         key = (record.scenario, record.level, record.robot)
         rows.setdefault(key, Row(*key)).add(record)
-    return list(rows.values())
+    places = {place: number for number, place in enumerate(dict.fromkeys(k[:2] for k in rows))}
+    return [rows[key] for key in sorted(rows, key=lambda key: (places[key[:2]], key[2]))]
 
 
 def headings(rows: Iterable[Row]) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ def test_a_pair_is_the_same_trial_for_each_robot() -> None:
     assert len(specs) == 2 * 3 * 2
     assert len({spec.trial for spec in specs}) == len(specs)
     for one, other in zip(specs[::2], specs[1::2], strict=True):
-        assert (one.robot, other.robot) == ("intentional", "traditional")
+        assert {one.robot, other.robot} == {"intentional", "traditional"}
         shared = [(s.pair, s.level, s.seed, s.initial, s.setting) for s in (one, other)]
         assert shared[0] == shared[1]
     assert len({spec.pair for spec in specs}) == 6

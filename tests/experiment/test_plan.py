@@ -22,10 +22,18 @@ def test_both_robots_of_a_pair_share_all_but_the_robot() -> None:
     assert len(specs) == 2 * 3 * 2
     assert len({spec.trial for spec in specs}) == len(specs)
     for one, other in zip(specs[::2], specs[1::2], strict=True):
-        assert (one.robot, other.robot) == ("intentional", "traditional")
+        assert {one.robot, other.robot} == {"intentional", "traditional"}
         assert (one.pair, one.seed, one.initial) == (other.pair, other.seed, other.initial)
     assert len({spec.pair for spec in specs}) == 6
     assert len({spec.seed for spec in specs}) == 6
+
+
+def test_each_robot_is_first_in_about_half_of_the_pairs() -> None:
+    first = [spec.robot for spec in plan_trials(load_config("office", ["scenarios=[1]"]))[::2]]
+    assert 70 < first.count("intentional") < 122  # of 192: p < 0.001 outside
+    robots = "robots=[intentional,intentional-checking,traditional]"
+    three = plan_trials(load_config("office", ["scenarios=[1]", robots]))
+    assert {spec.robot for spec in three[::3]} == {spec.robot for spec in three}
 
 
 def test_every_initial_state_is_there_where_no_limit_is() -> None:
