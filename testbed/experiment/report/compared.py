@@ -9,8 +9,8 @@ import numpy as np
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.report.figures import Panel, Point, Series, forest
 from testbed.experiment.report.svg import FIRST, SECOND
+from testbed.experiment.statistics import Estimate, mean, proportion
 from testbed.experiment.summary import BASELINE, INTENTIONAL, MEASURES, Outline
-from testbed.experiment.table1.statistics import Estimate, mean, proportion
 from testbed.experiment.wording import in_words, place
 
 LEAST = 2

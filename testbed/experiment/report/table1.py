@@ -10,13 +10,13 @@ from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
 from testbed.experiment.report.figures import Panel, Point, Series, forest
 from testbed.experiment.report.svg import FIRST, PAPER, SECOND
+from testbed.experiment.statistics import Estimate
 from testbed.experiment.store import read_records
 from testbed.experiment.summary import BASELINE
 from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import MEETINGS, pairs_of
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
 from testbed.experiment.table1.runs import PROTOCOL, minds_of
-from testbed.experiment.table1.statistics import Estimate
 from testbed.experiment.table1.table import HALF_CENT, HALF_PERCENT, HEADINGS, tests_of
 from testbed.experiment.wording import counted
 

@@ -8,11 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from testbed.experiment.table1.classify import NOTHING_TO_DO
-from testbed.experiment.table1.pairing import Pair
-from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
-from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
-from testbed.experiment.table1.statistics import (
+from testbed.experiment.statistics import (
     Strata,
     Test,
     holm,
@@ -22,6 +18,10 @@ from testbed.experiment.table1.statistics import (
     proportion,
     signed_rank,
 )
+from testbed.experiment.table1.classify import NOTHING_TO_DO
+from testbed.experiment.table1.pairing import Pair
+from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
+from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
 
 __all__ = ["RANDOM", "Analysis", "Ratio", "Row", "Table", "analyse"]
 

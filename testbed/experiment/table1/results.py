@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.pairing import Meeting
-from testbed.experiment.table1.statistics import Estimate, Test
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import rich.table
 from rich.markup import escape
 
+from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
-from testbed.experiment.table1.statistics import Estimate, Test
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""

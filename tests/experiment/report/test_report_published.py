@@ -9,11 +9,11 @@ from testbed.experiment.levels.published import NO_ZOOM, ZOOM
 from testbed.experiment.record import FineCounts
 from testbed.experiment.report import levels, table1
 from testbed.experiment.runner import Tally, run_trials
+from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.store import TrialWriter
 from testbed.experiment.summary import write_summary
 from testbed.experiment.table1.analysis import Analysis, Ratio, Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
-from testbed.experiment.table1.statistics import Estimate, Test
 from tests.experiment.samples import a_record
 
 ALWAYS = Estimate(1.0, 0.98, 1.0)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1.analysis import Ratio, Row, Table
 from testbed.experiment.table1.evidence import (
     closeness,
@@ -9,7 +10,6 @@ from testbed.experiment.table1.evidence import (
     published_weights,
 )
 from testbed.experiment.table1.published import ALL, MEASURES, PUBLISHED, SCENARIOS
-from testbed.experiment.table1.statistics import Estimate
 
 
 def test_the_published_rows_weighted_so_give_the_row_of_all() -> None:

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from testbed.experiment.digest import digest
+from testbed.experiment.markdown import markdown
 from testbed.experiment.store import read_records
 from testbed.experiment.table1.analysis import Analysis, Table
-from testbed.experiment.table1.markdown import markdown
 from testbed.experiment.table1.page.drawing import drawing
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
 from testbed.experiment.table1.page.others import arguments, later, unaided

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from testbed.experiment.markdown import markdown
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import Analysis
-from testbed.experiment.table1.markdown import markdown
 from testbed.experiment.table1.published import PUBLISHED, SCENARIOS
 
 

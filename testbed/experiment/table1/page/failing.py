@@ -6,9 +6,9 @@ import shlex
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
+from testbed.experiment.markdown import markdown
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM
-from testbed.experiment.table1.markdown import markdown
 from testbed.experiment.table1.pairing import MEETINGS, Pair
 from testbed.experiment.table1.runs import Run
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.markdown import markdown
 from testbed.experiment.store import flat_config
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM, Row
-from testbed.experiment.table1.markdown import markdown
 from testbed.experiment.table1.page.drawing import percent
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import MEASURES, PUBLISHED

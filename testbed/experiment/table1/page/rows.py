@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from textwrap import fill
 
+from testbed.experiment.markdown import markdown
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM
-from testbed.experiment.table1.markdown import markdown
 from testbed.experiment.table1.pairing import Pair, Side
 from testbed.experiment.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.experiment.table1.table import HEADINGS, number

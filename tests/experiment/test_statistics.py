@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from testbed.experiment.table1.statistics import (
+from testbed.experiment.statistics import (
     Estimate,
     holm,
     mcnemar,
