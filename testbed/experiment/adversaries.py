@@ -7,7 +7,7 @@ import dataclasses
 from agents.adversary.base import Adversary, AdversaryView
 from agents.adversary.scripted import Script, Triggered
 from asp import Description
-from testbed.experiment.plan import TrialSpec
+from testbed.experiment.specs import TrialSpec
 
 __all__ = ["Adversary", "AdversaryView", "make_adversary"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from testbed.environment.rules import Rules
 from testbed.environment.world import World
-from testbed.experiment.plan import Setting
+from testbed.experiment.specs import Setting
 
 
 def known(setting: Setting, world: World, state: int) -> tuple[str, ...]:

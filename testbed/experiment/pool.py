@@ -14,7 +14,7 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 
 from testbed.experiment.interrupts import interrupts_later
-from testbed.experiment.plan import TrialSpec
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import Result, lost_worker
 
 Play = Callable[[TrialSpec], Result]

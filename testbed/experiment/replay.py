@@ -9,9 +9,10 @@ from pathlib import Path
 from asp.spelling import suggestion
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord, logical
 from testbed.experiment.registry import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_config, read_records
 from testbed.experiment.telling import Say, teller_of
 from testbed.experiment.trial import Result, play_trial

@@ -9,10 +9,11 @@ from functools import partial
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.pool import Play, play_all
 from testbed.experiment.record import FAILURES
 from testbed.experiment.registry import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import ERRORS, TrialWriter
 from testbed.experiment.trial import Result, play_trial
 from testbed.link.inprocess import InProcessRobot

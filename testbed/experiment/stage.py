@@ -15,7 +15,7 @@ from testbed.experiment.conditions import known, rules_of
 from testbed.experiment.domains import load_world
 from testbed.experiment.levels.stage import FineStage, fine_part
 from testbed.experiment.oracle import minimal_actions, minimal_units
-from testbed.experiment.plan import Setting, TrialSpec
+from testbed.experiment.specs import Setting, TrialSpec
 from testbed.link.messages import Task
 
 

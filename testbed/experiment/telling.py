@@ -9,7 +9,7 @@ from testbed.environment.dynamics import Dynamics
 from testbed.environment.fine import fine_world
 from testbed.environment.sparse import SparseWorld
 from testbed.experiment.domains import load_world
-from testbed.experiment.plan import Setting
+from testbed.experiment.specs import Setting
 from testbed.experiment.stage import load_ground
 from testbed.experiment.trial import Moment
 from testbed.experiment.wording import explanation

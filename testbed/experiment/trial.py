@@ -13,9 +13,9 @@ import numpy as np
 from testbed.environment.core import NONE, Core
 from testbed.environment.errors import IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
-from testbed.experiment.plan import TrialSpec
 from testbed.experiment.record import FineCounts, TrialRecord
 from testbed.experiment.recorder import FineRecorder, Recorder
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.stage import load_stage
 from testbed.link.errors import RobotLost, RobotStopped
 from testbed.link.exchange import in_one_line

@@ -26,6 +26,24 @@ def test_a_pair_is_the_same_trial_for_each_robot() -> None:
     assert len({spec.pair for spec in specs}) == 6
 
 
+FIRST = {
+    "L1": (206143232, "36aa7963a5d1"),
+    "L2": (3711556231, "16d06064238e"),
+    "L3": (1612959719, "7b1665f063f7"),
+    "L4": (1084462637, "b191579a725b"),
+    "L5": (1259841228, "e59d9e39d399"),
+    "L6": (3951043407, "a3d5fb600b8c"),
+    "L7": (1640123453, "e3b1de25e3b0"),
+    "L8": (4011359611, "a7f796cd15ce"),
+}
+"""Seed and id of the first trial with zooming: stored runs are resumed and replayed by them."""
+
+
+def test_the_published_levels_keep_the_trials_of_stored_runs() -> None:
+    specs = plan_trials(load_config("levels", ["limit=1", "robots=[intentional]"]))
+    assert {spec.level: (spec.seed, spec.trial) for spec in specs} == FIRST
+
+
 def _ids(*overrides: str) -> set[str]:
     return {spec.trial for spec in _specs("levels=[L1]", *overrides)}
 
@@ -61,7 +79,7 @@ def test_a_level_of_the_same_name_and_another_size_has_other_ids() -> None:
 
 
 def test_neither_the_link_nor_a_larger_limit_nor_other_levels_change_an_id() -> None:
-    assert _ids() == _ids("link=zenoh") < _ids("limit=5")
+    assert _ids() == _ids("link=zenoh") == _ids("protocol=null") < _ids("limit=5")
     assert _ids() < {spec.trial for spec in _specs("levels=[L2,L1]")}
 
 

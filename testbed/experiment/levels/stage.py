@@ -14,7 +14,7 @@ from testbed.environment.fine import fine_core, fine_world
 from testbed.environment.world import World
 from testbed.experiment.conditions import known, rules_of
 from testbed.experiment.oracle import Oracle
-from testbed.experiment.plan import FineSetting, Setting, TrialSpec
+from testbed.experiment.specs import FineSetting, Setting, TrialSpec
 from testbed.link.messages import Task
 
 

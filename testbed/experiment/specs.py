@@ -1,0 +1,153 @@
+"""What a trial is: its setting, and the ids and seeds that follow from them.
+
+What a trial's result may depend on is hashed into its id; the link, the number of workers and
+the time allowed for an answer are not (one trial is the same trial wherever its robot runs).
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+
+import msgspec
+import numpy as np
+
+from asp.levels import LevelSize
+from testbed.config.models import ExperimentConfig, KnowledgeKind, Pace
+from testbed.environment.rules import Observability
+
+
+class FineSetting(msgspec.Struct, frozen=True, kw_only=True):
+    """What trials at the fine resolution have of their own.
+
+    `size` is that of a level which is made, `refinement` else the file that refines the domain;
+    `statistics` are probabilities by the name of the action.
+    """
+
+    size: LevelSize | None
+    refinement: str | None
+    statistics: dict[str, float]
+    pace: Pace
+
+
+class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+    """What holds in every trial of one scenario, or at one level, of a configuration.
+
+    `script` is `((step, action), ...)`, or None for the scenario's triggers; `observability` is by
+    the name of the exogenous action.
+    """
+
+    domain: str
+    goal: tuple[str, ...]
+    script: tuple[tuple[int, str], ...] | None
+    observability: dict[str, Observability]
+    knowledge: KnowledgeKind
+    goal_feedback: bool
+    exogenous_while_thinking: bool
+    rate: float | None
+    step_limit: int
+    plan_limit: int
+    decision_s: float | None
+    fine: FineSetting | None = None
+
+
+class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
+    """One trial to play. `initial` holds the atoms true at step 0; all others are false."""
+
+    trial: str
+    pair: str
+    scenario: str
+    level: str
+    seed: int
+    robot: str
+    initial: tuple[str, ...]
+    domain: str
+    setting: Setting
+
+
+def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
+    """The rules of a scenario: its own settings where it has them, else the experiment's."""
+    own = config.settings(scenario)
+    assert own.goal is not None
+    return Setting(
+        domain=config.domain,
+        goal=own.goal,
+        script=None if own.script is None else tuple((e.step, e.action) for e in own.script),
+        observability=config.rules_of_news(),
+        knowledge=config.knowledge,
+        goal_feedback=bool(own.goal_feedback),
+        exogenous_while_thinking=bool(own.exogenous_while_thinking),
+        rate=config.adversary.rate,
+        step_limit=config.limits.steps,
+        plan_limit=config.limits.plan,
+        decision_s=config.limits.decision_s,
+    )
+
+
+def pair_specs(
+    config: ExperimentConfig,
+    scenario: str,
+    level: str,
+    path: Sequence[object],
+    initial: tuple[str, ...],
+    setting: Setting,
+    domain: str,
+) -> Iterator[TrialSpec]:
+    """The trials of a pair, whose seed path this is: one a robot.
+
+    Which robot is first follows from the pair's seed (`playing_order`).
+    """
+    seed = trial_seed(config.seed, path)
+    logical = [config.seed, path, _without_files(setting, domain)]
+    for robot in playing_order(seed, config.robots):
+        yield TrialSpec(
+            trial=_short_hash([*logical, robot]),
+            pair=_short_hash(logical),
+            scenario=scenario,
+            level=level,
+            seed=seed,
+            robot=robot,
+            initial=initial,
+            domain=domain,
+            setting=setting,
+        )
+
+
+def playing_order(seed: int, robots: Sequence[str]) -> tuple[str, ...]:
+    """The robots of a pair in the order in which they play.
+
+    What one of them has prepared can serve the other, which plays after it in the same process.
+    """
+    first = seed % len(robots)
+    return (*robots[first:], *robots[:first])
+
+
+def _without_files(setting: Setting, domain: str) -> object:
+    """The setting as it is hashed: wherever its files lie."""
+    fine = setting.fine and msgspec.structs.replace(setting.fine, refinement=None)
+    return msgspec.to_builtins(msgspec.structs.replace(setting, domain=domain, fine=fine))
+
+
+def generator_of(root: int, path: object) -> np.random.Generator:
+    """What draws the trial at a seed path."""
+    return np.random.default_rng(np.random.SeedSequence(root, spawn_key=seed_words(["draw", path])))
+
+
+def trial_seed(root: int, path: object) -> int:
+    """The seed of the trials at a seed path: 32 bits that follow from the root seed and it."""
+    sequence = np.random.SeedSequence(root, spawn_key=seed_words(path))
+    return int(sequence.generate_state(1)[0])
+
+
+def seed_words(path: object) -> tuple[int, ...]:
+    """A seed path as numbers for a seed sequence."""
+    digest = hashlib.blake2b(_canonical(path), digest_size=16).digest()
+    return tuple(int.from_bytes(digest[i : i + 4], "big") for i in range(0, 16, 4))
+
+
+def _short_hash(value: object) -> str:
+    return hashlib.blake2b(_canonical(value), digest_size=6).hexdigest()
+
+
+def _canonical(value: object) -> bytes:
+    return msgspec.json.encode(value, order="deterministic")
