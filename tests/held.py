@@ -1,4 +1,4 @@
-"""The command line with one robot more: `held` begins no trial while a file `hold` is there.
+"""The command line with one robot more, which a file `hold` stops after a number of trials.
 
 Worker processes import this module as their main one, and so know the robot, too.
 """
@@ -14,14 +14,18 @@ from testbed.experiment import registry
 from testbed.link.messages import Task
 
 HOLD = Path("hold")
+"""Says how many trials the robot of each process may begin; all, where it is not there."""
 
 
 class Held(IntentionalRobot):
-    """An intentional robot that waits until it may begin."""
+    """An intentional robot that waits where it may not begin another trial."""
+
+    begun = 0
 
     def begin(self, task: Task) -> None:
-        while HOLD.exists():
+        while HOLD.exists() and Held.begun >= int(HOLD.read_text()):
             time.sleep(0.01)
+        Held.begun += 1
         super().begin(task)
 
 

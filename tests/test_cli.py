@@ -88,9 +88,9 @@ def test_a_run_can_be_run_again_from_its_folder() -> None:
 
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_an_interrupted_run_keeps_what_is_finished_and_goes_on(workers: str) -> None:
-    arguments = ["run", "quickstart", "scenarios=[2,5]", "robots=[traditional,held]"]
-    arguments += ["link=inprocess", "--workers", workers, "--out"]
-    process = _held(*arguments, "part")
+    arguments = ["run", "quickstart", "scenarios=[2,4,5,6]", "robots=[held]", "link=inprocess"]
+    arguments += ["--workers", workers, "--out"]
+    process = _held(1, *arguments, "part")
     records = Path("part/trials.jsonl")
     while process.poll() is None and not (records.exists() and b"\n" in records.read_bytes()):
         time.sleep(0.01)
@@ -100,20 +100,20 @@ def test_an_interrupted_run_keeps_what_is_finished_and_goes_on(workers: str) -> 
     assert "Traceback" not in errors
     assert "--resume" in output
     kept = records.read_bytes()
-    assert {trial["robot"] for trial in _trials("part")} == {"traditional"}
+    assert 1 <= len(_trials("part")) <= int(workers)
     assert kept.endswith(b"\n")
     Path("hold").unlink()
     for further in (["part", "--resume"], ["whole"]):
         done = subprocess.run([*HELD, *arguments, *further], check=False, capture_output=True)
-        assert done.returncode == 0
+        assert done.returncode == 0, done.stderr
     assert records.read_bytes().startswith(kept)
     assert len(_trials("whole")) == 4
     assert sorted(map(str, _untimed("part"))) == sorted(map(str, _untimed("whole")))
 
 
-def _held(*arguments: str) -> subprocess.Popen[str]:
-    """The command line, in a group of its own, whose robot `held` is stuck."""
-    Path("hold").touch()
+def _held(trials: int, *arguments: str) -> subprocess.Popen[str]:
+    """The command line, in a group of its own, whose robot is stuck after so many trials."""
+    Path("hold").write_text(str(trials))
     return subprocess.Popen(
         [*HELD, *arguments],
         stdout=subprocess.PIPE,
@@ -284,7 +284,7 @@ def test_the_version_is_that_of_the_distribution() -> None:
 
 def test_an_interrupt_while_workers_start_is_as_quiet_as_any() -> None:
     arguments = ["run", "quickstart", "robots=[held]", "link=inprocess", "--workers", "2"]
-    process = _held(*arguments, "--out", "run")
+    process = _held(0, *arguments, "--out", "run")
     while process.poll() is None and not Path("run/trials.jsonl").exists():
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)
