@@ -14,6 +14,7 @@ from testbed.experiment.statistics import (
     mean,
     median,
     proportion,
+    quotient,
     signed_rank,
 )
 
@@ -114,3 +115,28 @@ def test_a_rounded_value_may_lie_half_a_digit_outside() -> None:
     assert estimate.covers(1.104, 0.005)
     assert not estimate.covers(1.106, 0.005)
     assert not estimate.covers(0.89, 0.005)
+
+
+def test_the_interval_of_a_quotient_of_means_is_that_of_the_delta_method() -> None:
+    generator = np.random.default_rng(6)
+    above, below = generator.normal(30.0, 3.0, 400), generator.normal(10.0, 2.0, 300)
+    estimate = quotient(above, below)
+    assert estimate is not None
+    value = above.mean() / below.mean()
+    errors = [(s.std(ddof=1) / s.mean()) ** 2 / len(s) for s in (above, below)]
+    assert estimate.value == pytest.approx(value)
+    width = 2 * 1.96 * value * np.sqrt(sum(errors))
+    assert estimate.high - estimate.low == pytest.approx(width, rel=0.12)
+
+
+def test_a_quotient_of_known_samples() -> None:
+    six, twos = np.array([6.0, 6.0]), np.array([2.0, 2.0, 2.0])
+    assert quotient(six, twos) == Estimate(3.0, 3.0, 3.0)
+    one = quotient(np.array([1.0, 2.0, 9.0]), np.array([4.0]), np.median)
+    assert one is not None
+    assert (one.value, one.low, one.high) == (0.5, 0.25, 2.25)
+
+
+def test_there_is_no_quotient_of_nothing_or_by_nothing() -> None:
+    some, none = np.array([1.0]), np.array([])
+    assert quotient(none, some) is quotient(some, none) is quotient(some, np.array([0.0])) is None
