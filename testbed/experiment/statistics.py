@@ -8,7 +8,7 @@ strata; without labels it draws values, in each stratum by itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -23,7 +23,7 @@ SEED = 1
 
 Values: TypeAlias = NDArray[np.float64]
 Strata: TypeAlias = Sequence[tuple[Values, int]]
-Clusters: TypeAlias = Sequence[Sequence[Hashable]]
+Clusters: TypeAlias = Sequence[Iterable[Hashable]]
 
 
 @dataclass(frozen=True)

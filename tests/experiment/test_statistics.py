@@ -1,5 +1,6 @@
 """Estimates, tests and corrections against known values and plain definitions."""
 
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from testbed.experiment import statistics
 from testbed.experiment.statistics import (
     Estimate,
     holm,
@@ -14,10 +16,10 @@ from testbed.experiment.statistics import (
     mean,
     median,
     proportion,
-    quotient,
     signed_rank,
 )
 
+ESTIMATES = (mean, median, proportion)
 P_VALUES = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=12)
 
 
@@ -80,6 +82,76 @@ def test_where_all_are_right_the_interval_is_the_exact_one() -> None:
     assert mixed.low == pytest.approx(0.4, abs=0.03)
 
 
+@pytest.mark.parametrize("estimate", ESTIMATES)
+@settings(deadline=None, max_examples=25)
+@given(sample=st.lists(st.integers(0, 1), min_size=1, max_size=20), copies=st.integers(2, 5))
+def test_repeats_that_say_nothing_new_make_no_interval_narrower(
+    estimate: Callable[..., Estimate | None], sample: list[int], copies: int
+) -> None:
+    values, labels = np.array(sample, dtype=float), list(range(len(sample)))
+    alone = estimate([(values, 1)])
+    repeated = estimate([(np.repeat(values, copies), 1)], [np.repeat(labels, copies)])
+    assert alone is not None
+    assert repeated is not None
+    assert (repeated.value, repeated.low, repeated.high) == pytest.approx(
+        (alone.value, alone.low, alone.high)
+    )
+
+
+def test_the_interval_of_clusters_is_that_of_their_means() -> None:
+    random = np.random.default_rng(3)
+    own, labels = random.normal(5.0, 1.0, 300), np.repeat(np.arange(300), 4)
+    values = np.repeat(own, 4) + random.normal(0.0, 0.5, 1200)
+    estimate = mean([(values, 1)], [labels])
+    assert estimate is not None
+    means = values.reshape(300, 4).mean(axis=1)
+    error = 1.96 * means.std(ddof=1) / np.sqrt(300)
+    assert estimate.value == pytest.approx(values.mean())
+    assert estimate.high - estimate.low == pytest.approx(2 * error, rel=0.12)
+    as_if_independent = mean([(values, 1)])
+    assert as_if_independent is not None
+    width = as_if_independent.high - as_if_independent.low
+    assert width < 0.65 * (estimate.high - estimate.low)
+
+
+def test_a_cluster_is_drawn_in_all_of_its_strata_at_once() -> None:
+    values, labels = np.arange(30.0), list(range(30))
+    strata = [(values, 2), (-values, 2)]
+    together = mean(strata, [labels, labels])
+    assert together == Estimate(0.0, 0.0, 0.0)
+    apart = mean(strata, [labels, [f"other {label}" for label in labels]])
+    assert apart is not None
+    assert apart.low < -1.0 < 1.0 < apart.high
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.data())
+def test_the_median_of_a_resample_is_that_of_its_values(data: st.DataObject) -> None:
+    values = data.draw(st.lists(st.integers(-5, 5), min_size=1, max_size=12))
+    size = len(values)
+    times = data.draw(st.lists(st.integers(1, 3), min_size=size, max_size=size))
+    labels = data.draw(st.lists(st.integers(0, 3), min_size=size, max_size=size))
+    strata = [
+        (np.array([float(value)]), number) for value, number in zip(values, times, strict=True)
+    ]
+    sample = statistics._sample(strata, [[label] for label in labels])
+    counts = data.draw(
+        st.lists(st.integers(0, 3), min_size=sample.clusters, max_size=sample.clusters).filter(any)
+    )
+    drawn = dict(zip(dict.fromkeys(labels), counts, strict=True))
+    rows = zip(values, times, labels, strict=True)
+    resample = [value for value, number, label in rows for _ in range(number * drawn[label])]
+    weights = np.array([counts])
+    assert statistics._medians(sample, weights) == pytest.approx([np.median(resample)])
+    assert statistics._means(sample, weights) == pytest.approx([np.mean(resample)])
+
+
+def test_the_exact_interval_counts_clusters() -> None:
+    estimate = proportion([(np.ones(200), 1)], [np.repeat(np.arange(50), 4)])
+    assert estimate is not None
+    assert estimate.low == pytest.approx(0.025 ** (1 / 50))
+
+
 def test_mcnemars_test_looks_at_the_pairs_that_differ() -> None:
     first = np.array([True] * 10 + [False] * 2 + [True] * 80 + [False] * 8)
     second = np.array([False] * 10 + [True] * 2 + [True] * 80 + [False] * 8)
@@ -115,28 +187,3 @@ def test_a_rounded_value_may_lie_half_a_digit_outside() -> None:
     assert estimate.covers(1.104, 0.005)
     assert not estimate.covers(1.106, 0.005)
     assert not estimate.covers(0.89, 0.005)
-
-
-def test_the_interval_of_a_quotient_of_means_is_that_of_the_delta_method() -> None:
-    generator = np.random.default_rng(6)
-    above, below = generator.normal(30.0, 3.0, 400), generator.normal(10.0, 2.0, 300)
-    estimate = quotient(above, below)
-    assert estimate is not None
-    value = above.mean() / below.mean()
-    errors = [(s.std(ddof=1) / s.mean()) ** 2 / len(s) for s in (above, below)]
-    assert estimate.value == pytest.approx(value)
-    width = 2 * 1.96 * value * np.sqrt(sum(errors))
-    assert estimate.high - estimate.low == pytest.approx(width, rel=0.12)
-
-
-def test_a_quotient_of_known_samples() -> None:
-    six, twos = np.array([6.0, 6.0]), np.array([2.0, 2.0, 2.0])
-    assert quotient(six, twos) == Estimate(3.0, 3.0, 3.0)
-    one = quotient(np.array([1.0, 2.0, 9.0]), np.array([4.0]), np.median)
-    assert one is not None
-    assert (one.value, one.low, one.high) == (0.5, 0.25, 2.25)
-
-
-def test_there_is_no_quotient_of_nothing_or_by_nothing() -> None:
-    some, none = np.array([1.0]), np.array([])
-    assert quotient(none, some) is quotient(some, none) is quotient(some, np.array([0.0])) is None
