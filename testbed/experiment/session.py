@@ -112,6 +112,8 @@ def _show(console: Console, tables: Tables) -> None:
     for row in tables.rows:
         for note in row.notes():
             _say(console, note)
+    results = counted(sum(row.trials for row in tables.rows), "trial")
+    _say(console, f"digest of {results}, times aside: {tables.digest}")
 
 
 def _show_table1(console: Console, analysis: Analysis) -> None:

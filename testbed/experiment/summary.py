@@ -10,6 +10,7 @@ from statistics import fmean
 
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
+from testbed.experiment.digest import digest
 from testbed.experiment.levels.analysis import FineOutline, fine_outline, summarise_level
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.store import SUMMARY, read_records, replace_text
@@ -42,8 +43,11 @@ Pairs = dict[str, dict[str, Outline]]
 
 
 def write_summary(folder: Path) -> dict[str, object]:
-    """Summarise the records of a run into its `summary.json`, and return what was written."""
-    summary = summarise(read_records(folder))
+    """Summarise the records of a run into its `summary.json`, and return what was written.
+
+    Beside what `summarise` says, `digest` is the one number for all of its results.
+    """
+    summary = {"digest": digest(read_records(folder)), **summarise(read_records(folder))}
     replace_text(folder / SUMMARY, json.dumps(summary, indent=2) + "\n")
     return summary
 

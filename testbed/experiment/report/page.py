@@ -31,8 +31,12 @@ PROTOCOL = "table1"
 
 @dataclass(frozen=True)
 class Tables:
-    """What a run comes to: a row a scenario (or level) and robot, and the published tables."""
+    """What a run comes to: a row a scenario (or level) and robot, and the published tables.
 
+    `digest` is the one number for all of its results.
+    """
+
+    digest: str
     rows: list[Row]
     levels: list[Cells]
     table1: list[Analysis] = field(default_factory=list)
@@ -42,7 +46,8 @@ def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     """Write `summary.json` and `report.html` from the records of a run; its tables."""
     summary = write_summary(folder)
     table1 = _table1(folder, config)
-    tables = Tables(rows_of(read_records(folder)), level_rows(summary), table1)
+    rows = rows_of(read_records(folder))
+    tables = Tables(str(summary["digest"]), rows, level_rows(summary), table1)
     parts = {
         **_heading(config, tables),
         **_tables(tables, summary),
@@ -69,6 +74,7 @@ def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
         "trials": sum(row.trials for row in tables.rows),
         "achieved": sum(row.achieved for row in tables.rows),
         "failed": sum(row.failed for row in tables.rows),
+        "digest": tables.digest,
     }
 
 
