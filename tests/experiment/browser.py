@@ -6,6 +6,7 @@ import os
 import select
 import shutil
 import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -16,12 +17,22 @@ CHROMIUM = next(
 )
 PATIENCE_S = 90.0
 HIGH = 20  # descriptors from here on are not those that the browser reads and writes
+# A program of its own: what subprocess runs between fork and exec may hang where there are threads.
+AS_EXPECTED = """
+import os, sys
+os.dup2(int(sys.argv[1]), 3)
+os.dup2(int(sys.argv[2]), 4)
+os.execv(sys.argv[3], sys.argv[3:])
+"""
 OPTIONS = (
     "--headless=new",
     "--no-sandbox",
     "--disable-gpu",
     "--disable-dev-shm-usage",
     "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
     "--remote-debugging-pipe",
 )
 Event = dict[str, Any]
@@ -33,15 +44,10 @@ class Browser:
     def __init__(self, executable: str, profile: Path) -> None:
         reads, self._to = _pipe()
         self._from, writes = _pipe()
-
-        def as_expected() -> None:
-            os.dup2(reads, 3)
-            os.dup2(writes, 4)
-
+        browser = [executable, *OPTIONS, f"--user-data-dir={profile}"]
         self._process = subprocess.Popen(
-            [executable, *OPTIONS, f"--user-data-dir={profile}"],
-            preexec_fn=as_expected,
-            pass_fds=(3, 4, reads, writes),
+            [sys.executable, "-c", AS_EXPECTED, str(reads), str(writes), *browser],
+            pass_fds=(reads, writes),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
