@@ -2,36 +2,24 @@
 
 The literal translation has a rule for every pair of values that exclude each other, and every pair
 of places that an action cannot lead between. Where a fluent is a function (`asp.kept.patterns`),
-one rule a value says the same. The program has the parts base, state(t) and step(t), and goes with
-the theory `kept_fine`; its answer sets, where a state is complete, are those of the translation.
+one rule a value says the same. The program has the parts base, open, state(t) and step(t), and goes
+with the theory `kept_fine`; its answer sets, where a state is complete, are those of the translation.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 
 from asp import roles, syntax
+from asp.kept.parts import BASE, BEFORE, NOW, OPEN, STATE, STEP, Rule
 from asp.kept.patterns import Function, excluding_place, functions
 from asp.restriction import named, without_exogenous
-from asp.rules import rule, term_text
+from asp.rules import term_text
 from asp.signature import Signature
-
-BASE, STATE, STEP = "base", "state(t)", "step(t)"
-BEFORE, NOW = "t-1", "t"
 
 
 class NotCompactError(ValueError):
     """A description whose laws cannot be put in terms of what is true only."""
-
-
-@dataclass(frozen=True)
-class Rule:
-    """A rule of a part of the program, with the constants that it names."""
-
-    part: str
-    text: str
-    constants: frozenset[str] = frozenset()
 
 
 def compact(source: syntax.Source, signature: Signature) -> tuple[Rule, ...]:
@@ -52,24 +40,22 @@ class _Translation:
         for constraint in self._source.each(syntax.StateConstraint):
             yield from self._constraint(constraint)
         for law in self._source.each(syntax.CausalLaw):
-            sign = "holds" if law.head.positive else "denied"
-            head = f"{sign}({term_text(law.head.atom)},{NOW})"
             occurs = f"occurs({term_text(law.action)},{BEFORE})"
-            yield self._rule(STEP, law, head, [occurs, *self._body(law.body, BEFORE)])
+            yield self._effect(STEP, law, [occurs, *self._body(law.body, BEFORE)])
         yield from self._actions()
 
     def _inertia(self, symbol: syntax.Declaration) -> Iterator[Rule]:
         """What is true at step 0 is chosen; afterwards it stays, unless something else follows."""
         given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
         fluent, sorts = _term(symbol.name, given), _sorts(symbol, given)
-        yield Rule(BASE, rule(f"{{ holds({fluent},0) }}", sorts))
+        gives = self._gives(symbol.name, given)
+        chosen = gives or ("", fluent)
+        yield Rule(OPEN, f"{{ holds({fluent},0) }}", tuple(sorts), gives=chosen)
         stays = [f"holds({fluent},{BEFORE})", f"not denied({fluent},{NOW})"]
-        function = self._functions.get(symbol.name)
-        if function is not None:
-            subject = _term(symbol.name, _without(given, function.place))
-            stays.append(f"not changed({subject},{NOW})")
-            yield from self._function(symbol, given, function)
-        yield Rule(STEP, rule(f"holds({fluent},{NOW})", stays))
+        if gives is not None:
+            stays.append(f"not changed({gives[0]},{NOW})")
+            yield from self._function(symbol, given, self._functions[symbol.name])
+        yield Rule(STEP, f"holds({fluent},{NOW})", tuple(stays), gives=gives)
 
     def _function(
         self, symbol: syntax.Declaration, given: Sequence[str], function: Function
@@ -81,15 +67,22 @@ class _Translation:
         fluent, sorts = _term(symbol.name, given), _sorts(symbol, given)
         others = _without(given, function.place)
         subject, value = _term(symbol.name, others), sorts[function.place]
-        new = [f"holds({fluent},{NOW})", f"not holds({fluent},{BEFORE})"]
-        yield Rule(STEP, rule(f"changed({subject},{NOW})", new))
+        new = (f"holds({fluent},{NOW})", f"not holds({fluent},{BEFORE})")
+        yield Rule(STEP, f"changed({subject},{NOW})", new)
         body = _without(sorts, function.place)
         most = f"2 {{ holds({fluent},{NOW}) : {value} }}"
-        yield Rule(STATE, rule("", [most, *body]))
+        yield Rule(STATE, "", (most, *body))
         if function.total:
-            yield Rule(BASE, rule(f"{{ placed({subject}) }}", body))
+            yield Rule(OPEN, f"{{ placed({subject}) }}", tuple(body))
             some = f"not 1 {{ holds({fluent},0) : {value} }}"
-            yield Rule(BASE, rule("", [f"placed({subject})", some, *body]))
+            yield Rule(OPEN, "", (f"placed({subject})", some, *body))
+
+    def _gives(self, name: str, arguments: Sequence[str]) -> tuple[str, str] | None:
+        """The function that a fluent gives a value, and the fluent, if it is a function's."""
+        function = self._functions.get(name)
+        if function is None:
+            return None
+        return _term(name, _without(arguments, function.place)), _term(name, arguments)
 
     def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
         name = law.head.atom.name
@@ -101,9 +94,17 @@ class _Translation:
                 raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
         function = self._functions.get(name)
         if function is None or excluding_place(law) != function.place:
-            sign = "holds" if law.head.positive else "denied"
-            head = f"{sign}({term_text(law.head.atom)},{NOW})"
-            yield self._rule(STATE, law, head, self._body(law.body, NOW))
+            yield self._effect(STATE, law, self._body(law.body, NOW))
+
+    def _effect(
+        self, part: str, law: syntax.CausalLaw | syntax.StateConstraint, body: Iterable[str]
+    ) -> Rule:
+        """The rule of a law with a fluent for its head."""
+        atom = law.head.atom
+        if not law.head.positive:
+            return self._rule(part, law, f"denied({term_text(atom)},{NOW})", body)
+        gives = self._gives(atom.name, [term.name for term in atom.args])
+        return self._rule(part, law, f"holds({term_text(atom)},{NOW})", body, gives)
 
     def _actions(self) -> Iterator[Rule]:
         """Which actions are enabled: by conditions that each allow them, and others that forbid."""
@@ -126,7 +127,7 @@ class _Translation:
                     f"allowed({n},{action_term},{BEFORE})" for n in allowing.get(symbol.name, ())
                 ]
                 head = f"enabled({action_term},{BEFORE})"
-                yield Rule(STEP, rule(head, [*body, *_sorts(symbol, given)]))
+                yield Rule(STEP, head, (*body, *_sorts(symbol, given)))
 
     def _allowing(self, law: syntax.ExecutabilityCondition) -> list[list[str]] | None:
         """Bodies one of which is true exactly where the law says nothing; None: no such.
@@ -181,7 +182,14 @@ class _Translation:
         name = literal.atom.name
         return "static" if name in self._signature.sorts else self._signature.symbols[name].kind
 
-    def _rule(self, part: str, law: syntax.Statement, head: str, body: Iterable[str]) -> Rule:
+    def _rule(
+        self,
+        part: str,
+        law: syntax.Statement,
+        head: str,
+        body: Iterable[str],
+        gives: tuple[str, str] | None = None,
+    ) -> Rule:
         """The rule, with the sorts of the law's variables."""
         sorts = dict.fromkeys(
             f"{sort}({term.name})"
@@ -194,7 +202,7 @@ class _Translation:
             )
             if term.is_variable
         )
-        return Rule(part, rule(head, [*body, *sorts]), frozenset(named(law)))
+        return Rule(part, head, (*body, *sorts), frozenset(named(law)), gives)
 
 
 def _is_open(guard: syntax.Condition, known: set[str]) -> bool:

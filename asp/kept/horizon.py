@@ -30,6 +30,7 @@ class Horizon:
         constants = {"n": length, "ordered": min(length, _MOST_LEVELS // (len(actions) + 1))}
         with standing_still():
             self.control = ground([program, theory("kept_fine")], constants, ranks)
+            self.control.ground([("open", [])])
             self._initial = _literals(self.control, "holds", 2)
             self._placed = _literals(self.control, "placed", 1)
             self.control.ground(_parts(length))

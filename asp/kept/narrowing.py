@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
 from asp import syntax
-from asp.kept.compact import BASE, STATE, STEP, compact
+from asp.kept.compact import compact
+from asp.kept.parts import BASE, OPEN, STATE, STEP, Rule, plain
 from asp.literals import arguments, ground, is_positive, name
 from asp.signature import Signature
 
@@ -80,13 +81,13 @@ class Narrower:
         )
         return Narrow(sorts, facts, names)
 
-    def program(self, narrow: Narrow) -> str:
-        """The compact program of the narrowed description."""
+    def program(self, narrow: Narrow, wording: Callable[[Rule], Iterable[str]] = plain) -> str:
+        """The compact program of the narrowed description, its rules as `wording` has them."""
         known = narrow.names.keys()
-        parts = {BASE: [], STATE: [], STEP: []}  # type: dict[str, list[str]]
+        parts: dict[str, list[str]] = {BASE: [], OPEN: [], STATE: [], STEP: []}
         for rule in self.rules:
             if rule.constants <= known:
-                parts[rule.part].append(rule.text)
+                parts[rule.part] += wording(rule)
         for sort, members in narrow.sorts:
             parts[BASE].append(f"#defined {sort}/1.")
             parts[BASE] += (f"{sort}({member})." for member in members)

@@ -29,7 +29,7 @@ class Relaxed:
             control.register_observer(clauses)
             for text in (program, theory("kept_fine")):
                 control.add("base", [], text)
-            parts = [("base", []), ("state", [Number(0)]), ("step", [Number(1)])]
+            parts = [("base", []), ("open", []), ("state", [Number(0)]), ("step", [Number(1)])]
             control.ground([*parts, ("state", [Number(1)])])
             self._now = _fluents(control, 0)
             self._graph = _Graph(clauses, self._now, _fluents(control, 1))
