@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
-from testbed.experiment.statistics import BATCH, CONFIDENCE, RESAMPLES, SEED, Estimate, Values
+from testbed.experiment.resampling import BATCH, CONFIDENCE, RESAMPLES, SEED, Values
+from testbed.experiment.statistics import Estimate
 
 
 def of_means(above: Values, below: Values) -> Estimate | None:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from testbed.experiment import statistics
+from testbed.experiment import resampling
 from testbed.experiment.statistics import (
     Estimate,
     holm,
@@ -134,7 +134,7 @@ def test_the_median_of_a_resample_is_that_of_its_values(data: st.DataObject) -> 
     strata = [
         (np.array([float(value)]), number) for value, number in zip(values, times, strict=True)
     ]
-    sample = statistics._sample(strata, [[label] for label in labels])
+    sample = resampling.sample_of(strata, [[label] for label in labels])
     counts = data.draw(
         st.lists(st.integers(0, 3), min_size=sample.clusters, max_size=sample.clusters).filter(any)
     )
@@ -142,8 +142,8 @@ def test_the_median_of_a_resample_is_that_of_its_values(data: st.DataObject) -> 
     rows = zip(values, times, labels, strict=True)
     resample = [value for value, number, label in rows for _ in range(number * drawn[label])]
     weights = np.array([counts])
-    assert statistics._medians(sample, weights) == pytest.approx([np.median(resample)])
-    assert statistics._means(sample, weights) == pytest.approx([np.mean(resample)])
+    assert resampling.medians(sample, weights) == pytest.approx([np.median(resample)])
+    assert resampling.means(sample, weights) == pytest.approx([np.mean(resample)])
 
 
 def test_the_exact_interval_counts_clusters() -> None:
@@ -187,3 +187,30 @@ def test_a_rounded_value_may_lie_half_a_digit_outside() -> None:
     assert estimate.covers(1.104, 0.005)
     assert not estimate.covers(1.106, 0.005)
     assert not estimate.covers(0.89, 0.005)
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(st.integers(-4, 4), min_size=1, max_size=15), st.integers(2, 5))
+def test_repeats_that_say_nothing_new_make_no_test_surer(values: list[int], copies: int) -> None:
+    own, labels = np.array(values, dtype=float), range(len(values))
+    alone = signed_rank(own)
+    repeated = signed_rank(np.repeat(own, copies), np.repeat(labels, copies))
+    assert (alone is None) == (repeated is None)
+    if alone is not None and repeated is not None:
+        assert (repeated.p, repeated.effect) == pytest.approx((alone.p, alone.effect))
+    first, second = own > 1, own < -1
+    once = mcnemar(first, second)
+    often = mcnemar(first.repeat(copies), second.repeat(copies), np.repeat(labels, copies))
+    assert (once is None) == (often is None)
+    if once is not None and often is not None:
+        assert (often.p, often.effect) == pytest.approx((once.p, once.effect))
+
+
+def test_what_goes_both_ways_in_each_cluster_is_no_difference_of_clusters() -> None:
+    values, labels = np.array([1.0, -1.0] * 20), np.repeat(np.arange(20), 2)
+    test = signed_rank(values, labels)
+    assert test is not None
+    assert (test.p, test.effect) == (1.0, 0.0)
+    shares = mcnemar(values > 0, values < 0, labels)
+    assert shares is not None
+    assert (shares.p, shares.effect) == (1.0, 0.0)
