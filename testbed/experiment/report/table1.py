@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
+from testbed.experiment.counting import BASELINE, eventful
 from testbed.experiment.domains import load_world
 from testbed.experiment.report.figures import Panel, Point, Series, forest
 from testbed.experiment.report.svg import FIRST, PAPER, SECOND
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.store import read_records
-from testbed.experiment.summary import BASELINE
 from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import MEETINGS, pairs_of
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
@@ -59,9 +59,9 @@ def analyses(folder: Path, config: ExperimentConfig) -> list[Analysis]:
     """Each robot with activities against the traditional one; nothing for another protocol."""
     if config.protocol != PROTOCOL:
         return []
-    world = load_world(config.domain)
+    world, sure = load_world(config.domain), eventful(config)
     return [
-        analyse(pairs_of(read_records(folder), world, mind, BASELINE), mind, BASELINE)
+        analyse(pairs_of(read_records(folder), world, mind, BASELINE), mind, BASELINE, sure)
         for mind in minds_of(config)
     ]
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO
 from testbed.experiment.statistics import (
+    Clusters,
     Strata,
     Test,
     holm,
@@ -18,7 +20,6 @@ from testbed.experiment.statistics import (
     proportion,
     signed_rank,
 )
-from testbed.experiment.table1.classify import NOTHING_TO_DO
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
 from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
@@ -26,13 +27,15 @@ from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
 __all__ = ["RANDOM", "Analysis", "Ratio", "Row", "Table", "analyse"]
 
 RANDOM = "random"
-NO_EVENT = "no event"
-ONE = "1"
-"""The scenario in which nothing happens."""
+Sample = tuple[Strata, Clusters]
+"""Values by the scenario that was played, and for each value its initial state."""
 
 
-def analyse(pairs: Iterable[Pair], mind: str, base: str) -> Analysis:
-    """Both tables of the pairs of two robots; a table without pairs is None."""
+def analyse(pairs: Iterable[Pair], mind: str, base: str, sure: Collection[str]) -> Analysis:
+    """Both tables of the pairs of two robots; a table without pairs is None.
+
+    In the scenarios of `sure` something exogenous is to happen (`counting.eventful`).
+    """
     known = list(pairs)
     drawn = [pair for pair in known if pair.intended == RANDOM]
     played = [pair for pair in known if pair.intended != RANDOM]
@@ -42,17 +45,19 @@ def analyse(pairs: Iterable[Pair], mind: str, base: str) -> Analysis:
     return Analysis(
         mind=mind,
         base=base,
-        triggered=_table(played, _as_triggered) if played else None,
+        triggered=_table(played, lambda pair: _as_triggered(pair, sure)) if played else None,
         random=_table(drawn, lambda pair: pair.happened) if drawn else None,
         became={name: dict(sorted(counts.items())) for name, counts in became.items()},
     )
 
 
-def _as_triggered(pair: Pair) -> str:
-    """The scenario played; but a pair in which its event never fired is in none."""
-    if pair.happened == NOTHING_TO_DO:
-        return NOTHING_TO_DO
-    return pair.intended if pair.intended == ONE or pair.mind.event is not None else NO_EVENT
+def _as_triggered(pair: Pair, sure: Collection[str]) -> str:
+    """The scenario played; but a pair without its event, or with nothing to do, is in none.
+
+    Failures and goals that nothing achieves are told in the row of their scenario.
+    """
+    reason = pair.apart(sure)
+    return reason if reason in (NO_EVENT, NOTHING_TO_DO) else pair.intended
 
 
 def _table(pairs: Sequence[Pair], scenario_of: Callable[[Pair], str]) -> Table:
@@ -83,8 +88,6 @@ def _without_failures(pairs: Iterable[Pair]) -> list[Pair]:
 
 def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int]) -> Row:
     counted = [pair for pair in pairs if pair.played]
-    minds = np.array([pair.mind.correct for pair in counted], dtype=bool)
-    bases = np.array([pair.base.correct for pair in counted], dtype=bool)
     return Row(
         name=name,
         pairs=len(counted),
@@ -92,38 +95,51 @@ def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int]) -> Row:
         unsolvable=sum(not pair.solvable for pair in pairs),
         out_of_reach=sum(p.mind.out_of_reach or p.base.out_of_reach for p in counted),
         meetings=dict(sorted(Counter(pair.meeting for pair in counted).items())),
-        intentional=proportion(_strata(counted, times, lambda pair: pair.mind.correct)),
-        baseline=proportion(_strata(counted, times, lambda pair: pair.base.correct)),
-        accuracy=mcnemar(minds, bases) if counted else None,
+        intentional=proportion(*_sample(counted, times, lambda pair: pair.mind.correct)),
+        baseline=proportion(*_sample(counted, times, lambda pair: pair.base.correct)),
+        accuracy=_accuracy(_weighted(counted, times)),
         ratios={measure: _ratio(counted, measure, times) for measure in MEASURES},
-        advantage=mean(_strata(counted, times, lambda p: p.mind.correct - p.base.correct)),
+        advantage=mean(*_sample(counted, times, lambda p: p.mind.correct - p.base.correct)),
     )
+
+
+def _accuracy(pairs: Sequence[Pair]) -> Test | None:
+    minds = np.array([pair.mind.correct for pair in pairs], dtype=bool)
+    bases = np.array([pair.base.correct for pair in pairs], dtype=bool)
+    return mcnemar(minds, bases, [pair.state for pair in pairs])
+
+
+def _weighted(pairs: Iterable[Pair], times: Mapping[str, int]) -> list[Pair]:
+    """Each pair as often as it counts: it weighs so in the mean of its initial state."""
+    return [pair for pair in pairs for _ in range(times[pair.intended])]
 
 
 def _ratio(pairs: Sequence[Pair], measure: str, times: Mapping[str, int]) -> Ratio:
     with_ratio = [pair for pair in pairs if pair.mind.measures[measure]]
-    own = _strata(with_ratio, times, lambda p: p.base.measures[measure] / p.mind.measures[measure])
-    differences = [pair.base.measures[measure] - pair.mind.measures[measure] for pair in pairs]
+    own = _sample(with_ratio, times, lambda p: p.base.measures[measure] / p.mind.measures[measure])
+    weighted = _weighted(pairs, times)
+    differences = [pair.base.measures[measure] - pair.mind.measures[measure] for pair in weighted]
     return Ratio(
         pairs=len(with_ratio),
-        mean=mean(own),
-        median=median(own),
-        test=signed_rank(np.array(differences, dtype=float)),
+        mean=mean(*own),
+        median=median(*own),
+        test=signed_rank(np.array(differences, dtype=float), [pair.state for pair in weighted]),
     )
 
 
-def _strata(
+def _sample(
     pairs: Iterable[Pair], times: Mapping[str, int], value: Callable[[Pair], float]
-) -> Strata:
+) -> Sample:
     """By the scenario that was played: each counts as if it had been repeated like the others."""
-    strata: dict[str, list[float]] = {}
+    played: dict[str, list[Pair]] = {}
     for pair in pairs:
-        strata.setdefault(pair.intended, []).append(value(pair))
-    return [(np.array(own, dtype=float), times[name]) for name, own in strata.items()]
+        played.setdefault(pair.intended, []).append(pair)
+    strata = [(np.array([*map(value, own)], dtype=float), times[n]) for n, own in played.items()]
+    return strata, [[pair.state for pair in own] for own in played.values()]
 
 
 def _corrected(rows: Sequence[Row]) -> list[Row]:
-    """The rows with Holm\'s correction over all tests of the table."""
+    """The rows with Holm's correction over all tests of the table."""
     tests = [test for row in rows for test in _tests(row)]
     corrected = iter(holm([test.p for test in tests]))
 

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 from asp import literals as text
 from testbed.environment.world import World
+from testbed.experiment.counting import NOTHING_TO_DO, is_idle
 from testbed.experiment.record import Activity, TrialRecord
 
-NOTHING_TO_DO, UNCLASSIFIED = "nothing to do", "unclassified"
+__all__ = ["NOTHING_TO_DO", "UNCLASSIFIED", "classify", "state_at"]
+
+UNCLASSIFIED = "unclassified"
 FAILURE_TO_EXECUTE = "6"
 
 
@@ -19,8 +22,10 @@ def classify(record: TrialRecord, world: World) -> str:
 
     The record is that of a robot with activities, at the coarse resolution.
     """
+    if is_idle(record):
+        return NOTHING_TO_DO
     if not record.activities:
-        return NOTHING_TO_DO if not record.actions and record.achieved else UNCLASSIFIED
+        return UNCLASSIFIED
     first = record.activities[0]
     whole = _executed(record, first) == len(first.plan)
     if first.stop is not None and whole:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
 from testbed.environment.world import World
+from testbed.experiment.counting import NOTHING_TO_DO, Apart, Standing, why_apart
+from testbed.experiment.outline import MEASURES, Outline, minimal
 from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
-from testbed.experiment.summary import MEASURES, Outline
 from testbed.experiment.table1.classify import classify, state_at
 
 Meeting = Literal["nothing", "same", "same later", "other", "other at once"]
@@ -43,18 +44,32 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Both robots\' trials; `happened` is the scenario read off the intentional robot\'s trial."""
+    """Both robots' trials; `happened` is the scenario read off the intentional robot's trial.
+
+    `state` names the initial state. `minimal` has the least that achieves the goal from there, by
+    the names of measures; nothing where it was not computed.
+    """
 
     intended: str
     happened: str
     solvable: bool
     mind: Side
     base: Side
+    state: str
+    minimal: Mapping[str, int]
 
     @property
     def played(self) -> bool:
         """Whether both trials ended by themselves, and the goal could be achieved at all."""
         return self.solvable and not (self.mind.failed or self.base.failed)
+
+    def apart(self, sure: Collection[str]) -> Apart | None:
+        """Why the pair is not counted under the scenario that was played; `sure` as `why_apart`."""
+        idle, quiet = self.happened == NOTHING_TO_DO, self.mind.event is None
+        mind, base = (
+            Standing(side.failed, self.solvable, idle, quiet) for side in (self.mind, self.base)
+        )
+        return why_apart(self.intended, (mind, base), (mind,), sure)
 
     @property
     def meeting(self) -> Meeting:
@@ -70,7 +85,7 @@ class Pair:
 
 
 def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str) -> Iterator[Pair]:
-    """The pairs of two robots, as they become complete; others\' records are passed over."""
+    """The pairs of two robots, as they become complete; others' records are passed over."""
     waiting: dict[str, tuple[str, str, Side]] = {}
     for record in records:
         if record.robot not in (mind, base):
@@ -82,8 +97,15 @@ def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str)
             continue
         robot, earlier, other = waiting.pop(record.pair)
         minds, bases = (other, side) if robot == mind else (side, other)
-        solvable = record.minimal_actions is not None
-        yield Pair(record.scenario, happened or earlier, solvable, minds, bases)
+        yield Pair(
+            intended=record.scenario,
+            happened=happened or earlier,
+            solvable=record.minimal_actions is not None,
+            mind=minds,
+            base=bases,
+            state=" ".join(record.initial),
+            minimal=minimal(record),
+        )
 
 
 def _side(record: TrialRecord, world: World) -> Side:

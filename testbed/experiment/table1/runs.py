@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
+from testbed.experiment.counting import BASELINE, INTENTIONAL, eventful
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import read_config, read_records
-from testbed.experiment.summary import BASELINE, INTENTIONAL
 from testbed.experiment.table1.analysis import Analysis, analyse
 from testbed.experiment.table1.pairing import Pair, pairs_of
 
@@ -47,7 +47,9 @@ def read_run(folder: Path) -> Run:
     if not any(pairs.values()):
         robots = f"{INTENTIONAL} and {BASELINE}"
         raise StoreError(f"{folder}: has no pairs of {robots} on record")
-    return Run(folder, config, pairs, {m: analyse(p, m, BASELINE) for m, p in pairs.items()})
+    sure = eventful(config)
+    analyses = {mind: analyse(own, mind, BASELINE, sure) for mind, own in pairs.items()}
+    return Run(folder, config, pairs, analyses)
 
 
 def minds_of(config: ExperimentConfig) -> tuple[str, ...]:

@@ -1,17 +1,21 @@
 """Pairs and rows made by hand: what is counted where, and what comes out of it."""
 
+import dataclasses
+from itertools import count
+
 import pytest
 
 from testbed.experiment.domains import load_world
+from testbed.experiment.outline import MEASURES as COMPUTED
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
-from testbed.experiment.summary import MEASURES as COMPUTED
 from testbed.experiment.table1 import table as text
-from testbed.experiment.table1.analysis import Row, Table, analyse
+from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import Meeting, Pair, Side, pairs_of, undone
 from testbed.experiment.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from tests.experiment.samples import a_record
 
 WORLD = load_world("office")
+NUMBERS = count()
 GOAL = ["loc(book1,library)", "loc(book2,library)"]
 START = ["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,kitchen)"]
 
@@ -40,7 +44,13 @@ def _side(
 def _pair(
     intended: str, mind: Side, base: Side, happened: str | None = None, solvable: bool = True
 ) -> Pair:
-    return Pair(intended, happened or intended, solvable, mind, base)
+    """A pair from a state of its own."""
+    state = f"state {next(NUMBERS)}"
+    return Pair(intended, happened or intended, solvable, mind, base, state, {})
+
+
+def _analyse(pairs: list[Pair]) -> Analysis:
+    return analyse(pairs, "m", "b", {"2", "3", "4", "5"})
 
 
 def _named(table: Table | None) -> dict[str, Row]:
@@ -55,14 +65,14 @@ def test_the_measures_are_the_published_columns() -> None:
 
 def test_a_row_has_the_mean_of_the_ratios_and_not_the_ratio_of_the_means() -> None:
     pairs = [_pair("3", _side(1.0), _side(4.0)), _pair("3", _side(10.0), _side(10.0))]
-    ratio = _named(analyse(pairs, "m", "b").triggered)["3"].ratios["actions"]
+    ratio = _named(_analyse(pairs).triggered)["3"].ratios["actions"]
     assert ratio.mean is not None
     assert (ratio.mean.value, ratio.pairs) == (2.5, 2)
 
 
 def test_a_pair_without_a_measure_has_no_ratio_and_counts_for_the_accuracy() -> None:
     pairs = [_pair("3", _side(0.0), _side(4.0)), _pair("3", _side(2.0), _side(1.0, correct=False))]
-    row = _named(analyse(pairs, "m", "b").triggered)["3"]
+    row = _named(_analyse(pairs).triggered)["3"]
     assert (row.pairs, row.ratios["plans"].pairs) == (2, 1)
     assert row.baseline is not None
     assert row.baseline.value == 0.5
@@ -70,7 +80,7 @@ def test_a_pair_without_a_measure_has_no_ratio_and_counts_for_the_accuracy() -> 
 
 def test_what_nobody_failed_in_is_left_after_the_baselines_failures() -> None:
     pairs = [_pair("4", _side(), _side(3.0)), _pair("4", _side(), _side(0.5, correct=False))]
-    rows = _named(analyse(pairs, "m", "b").triggered)
+    rows = _named(_analyse(pairs).triggered)
     for name in ("4" + NO_FAILURES, "all" + NO_FAILURES):
         mean = rows[name].ratios["actions"].mean
         assert mean is not None
@@ -85,7 +95,7 @@ def test_lost_trials_and_goals_that_nothing_achieves_are_counted_apart() -> None
         _pair("3", _side(), _side(failed=True, correct=False)),
         _pair("3", _side(correct=False), _side(correct=False), solvable=False),
     ]
-    row = _named(analyse(pairs, "m", "b").triggered)["3"]
+    row = _named(_analyse(pairs).triggered)["3"]
     assert (row.pairs, row.failed, row.unsolvable) == (1, 2, 1)
     assert row.intentional is not None
     assert row.intentional.value == 1.0
@@ -101,7 +111,7 @@ def test_what_did_not_come_to_its_scenario_is_in_no_row() -> None:
         _pair("random", _side(), _side(), happened="6"),
         _pair("random", _side(), _side(), happened="unclassified"),
     ]
-    analysis = analyse(pairs, "m", "b")
+    analysis = _analyse(pairs)
     triggered, drawn = _named(analysis.triggered), _named(analysis.random)
     assert [triggered[name].pairs for name in ("1", "2", "all")] == [1, 1, 2]
     assert analysis.triggered is not None
@@ -115,14 +125,37 @@ def test_what_did_not_come_to_its_scenario_is_in_no_row() -> None:
 def test_in_the_row_of_all_each_scenario_weighs_as_if_played_equally_often() -> None:
     pairs = [_pair("2", _side(), _side(9.0))]
     pairs += [_pair("3", _side(), _side(1.0)) for _ in range(4)]
-    mean = _named(analyse(pairs, "m", "b").triggered)["all"].ratios["actions"].mean
+    mean = _named(_analyse(pairs).triggered)["all"].ratios["actions"].mean
     assert mean is not None
     assert mean.value == pytest.approx((4 * 9.0 + 4 * 1.0) / 8)
 
 
+def test_pairs_from_one_state_are_one_witness() -> None:
+    pairs = [_pair("3", _side(1.0), _side(2.0 + n)) for n in range(8)]
+    again = [dataclasses.replace(pair) for pair in pairs]
+    alone, both = (_named(_analyse(own).triggered)["3"] for own in (pairs, [*pairs, *again]))
+    assert (alone.pairs, both.pairs) == (8, 16)
+    assert both.ratios == {
+        name: dataclasses.replace(ratio, pairs=16) for name, ratio in alone.ratios.items()
+    }
+    assert (both.intentional, both.baseline) == (alone.intentional, alone.baseline)
+
+
+def test_in_the_tests_of_all_a_pair_weighs_as_in_its_means() -> None:
+    """From each state a pair of 2, which counts three times, and three of 3 the other way round."""
+    pairs = []
+    for _ in range(8):
+        once = _pair("2", _side(1.0), _side(1.5))
+        often = [_pair("3", _side(1.5), _side(1.0)) for _ in range(3)]
+        pairs += [once, *(dataclasses.replace(pair, state=once.state) for pair in often)]
+    test = _named(_analyse(pairs).triggered)["all"].ratios["actions"].test
+    assert test is not None
+    assert (test.p, test.effect) == (1.0, 0.0)
+
+
 def test_the_corrected_p_values_are_those_of_the_whole_table() -> None:
     few = [_pair("3", _side(1.0), _side(2.0 + n)) for n in range(8)]
-    alone = _named(analyse(few, "m", "b").triggered)["3"].ratios["actions"].test
+    alone = _named(_analyse(few).triggered)["3"].ratios["actions"].test
     assert alone is not None
     assert alone.holm is not None
     assert (alone.p, alone.effect) == (pytest.approx(2 / 2**8), 1.0)
@@ -131,7 +164,7 @@ def test_the_corrected_p_values_are_those_of_the_whole_table() -> None:
 
 def test_the_advantage_is_how_much_more_often_the_intentional_robot_is_right() -> None:
     pairs = [_pair("4", _side(), _side(correct=n >= 30)) for n in range(100)]
-    row = _named(analyse(pairs, "m", "b").triggered)["4"]
+    row = _named(_analyse(pairs).triggered)["4"]
     assert row.advantage is not None
     assert row.accuracy is not None
     assert (row.advantage.value, row.accuracy.effect) == (pytest.approx(0.3), pytest.approx(0.3))
@@ -141,7 +174,7 @@ def test_the_advantage_is_how_much_more_often_the_intentional_robot_is_right() -
 
 def test_a_published_value_outside_of_our_interval_is_marked() -> None:
     pairs = [_pair("1", _side(1.0, event=None), _side(1.0, event=None)) for _ in range(30)]
-    table = analyse(pairs, "m", "b").triggered
+    table = _analyse(pairs).triggered
     assert table is not None
     cells = {row[0].strip(): row for row in list(text.rows_of(table))[:3]}
     assert cells["1"][3] == "1.00 [1.00, 1.00]"

@@ -1,0 +1,56 @@
+"""The numbers of a trial that summaries compare."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from testbed.experiment.counting import standing
+from testbed.experiment.record import FAILURES, TrialRecord
+
+
+class Outline:
+    """The numbers of a record: what is held in memory of each trial of a large run.
+
+    `state` names the initial state; `minimal` is the least that achieves the goal from there, by
+    the names of measures.
+    """
+
+    __slots__ = (
+        "achieved",
+        "action_count",
+        "correct",
+        "ended",
+        "execution_units",
+        "minimal",
+        "planning_time_s",
+        "plans",
+        "standing",
+        "state",
+    )
+
+    def __init__(self, record: TrialRecord) -> None:
+        self.standing = standing(record)
+        self.state = " ".join(record.initial)
+        self.minimal = minimal(record)
+        self.ended = record.outcome not in FAILURES
+        self.achieved = record.achieved
+        self.correct = record.correct
+        self.plans = record.plans
+        self.action_count = record.action_count
+        self.execution_units = record.execution_units
+        self.planning_time_s = record.planning_time_s
+
+
+MEASURES: Mapping[str, Callable[[Outline], float]] = {
+    "total_time": lambda row: row.planning_time_s + row.execution_units,
+    "plans": lambda row: row.plans,
+    "planning_time": lambda row: row.planning_time_s,
+    "execution_units": lambda row: row.execution_units,
+    "actions": lambda row: row.action_count,
+}
+
+
+def minimal(record: TrialRecord) -> Mapping[str, int]:
+    """The least that achieves a trial's goal, as far as it is known."""
+    known = {"execution_units": record.minimal_units, "actions": record.minimal_actions}
+    return {name: least for name, least in known.items() if least is not None}
