@@ -104,9 +104,9 @@ def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Con
 
 def _show(console: Console, tables: Tables) -> None:
     console.print(rich_table(tables.rows))
-    if tables.levels:
+    for levels in tables.levels:
         console.print()
-        console.print(rich_level_table(tables.levels))
+        console.print(rich_level_table(levels))
     for analysis in tables.table1:
         _show_table1(console, analysis)
     for row in tables.rows:

@@ -11,7 +11,8 @@ from statistics import fmean
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
 from testbed.experiment.digest import digest
-from testbed.experiment.levels.analysis import FineOutline, fine_outline, summarise_level
+from testbed.experiment.levels.analysis import summarise_levels
+from testbed.experiment.levels.outline import FineOutline, fine_outline
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.store import SUMMARY, read_records, replace_text
 
@@ -55,7 +56,7 @@ def write_summary(folder: Path) -> dict[str, object]:
 def summarise(records: Iterable[TrialRecord]) -> dict[str, object]:
     """Counts, accuracy, ratios (traditional / intentional) and p-values by scenario and by level.
 
-    At a level of the fine resolution come its columns of Tables 2 and 3 (`summarise_level`).
+    At a level of the fine resolution come its columns of Tables 2 and 3 (`summarise_levels`).
     Measures are compared in pairs of which both trials ended by themselves; a pair with an error or
     a lost robot is counted in `failed_pairs`. A ratio is left out of the mean where the intentional
     robot's measure is 0; a measure without any ratio, and a test without any difference, is null.
@@ -70,15 +71,12 @@ def summarise(records: Iterable[TrialRecord]) -> dict[str, object]:
             fine[record.level].append(fine_outline(record, record.fine))
         scenarios[record.scenario][record.pair][record.robot] = Outline(record)
         levels[record.level][record.pair][record.robot] = Outline(record)
+    columns = summarise_levels(fine)
     return {
         "trials": trials,
         "scenarios": {name: _group(pairs) for name, pairs in scenarios.items()},
-        "levels": {name: _group(pairs) | _columns(fine[name]) for name, pairs in levels.items()},
+        "levels": {name: _group(pairs) | columns.get(name, {}) for name, pairs in levels.items()},
     }
-
-
-def _columns(outlines: Sequence[FineOutline]) -> dict[str, object]:
-    return summarise_level(outlines) if outlines else {}
 
 
 def _group(pairs: Pairs) -> dict[str, object]:

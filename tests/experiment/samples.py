@@ -1,9 +1,10 @@
 """Records and types that the tests of this folder share."""
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.record import TrialRecord
+from testbed.experiment.record import FineCounts, TrialRecord
 
 Configure = Callable[..., ExperimentConfig]
 
@@ -25,6 +26,28 @@ def a_record(trial: str = "t1", **values: object) -> TrialRecord:
         "outcome": "achieved",
     }
     return TrialRecord(trial=trial, **(given | values))  # type: ignore[arg-type]
+
+
+def a_level_record(trial: str, robot: str, level: str = "L3", **values: object) -> TrialRecord:
+    """A record of a pair's trial at a level; `fine`, `infer`, `planning`, `diagnosis` are seconds.
+
+    Unless given they are 0.2, 0.1, 0.3 and 0.4; two refined plans are made.
+    """
+    times = {"fine": 0.2, "infer": 0.1, "planning": 0.3, "diagnosis": 0.4}
+    own: Any = times | {key: values.pop(key) for key in times if key in values}
+    achieved = bool(values.get("achieved", True))
+    given: dict[str, object] = {
+        "pair": trial,
+        "robot": robot,
+        "scenario": "levels",
+        "level": level,
+        "fine": FineCounts(plans=2, planning_time_s=own["fine"], infer_time_s=own["infer"]),
+        "correct": achieved,
+        "outcome": "achieved" if achieved else "gave_up",
+        "planning_time_s": own["planning"],
+        "diagnosis_time_s": own["diagnosis"],
+    }
+    return a_record(f"{trial} {robot}", **given | values)
 
 
 def ids(records: Sequence[TrialRecord]) -> list[str]:

@@ -1,89 +1,151 @@
-"""The columns of the levels and their table, from records made by hand."""
-
-from typing import Any
+"""The tables of the levels, from records made by hand."""
 
 import pytest
 
-from testbed.experiment.levels.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
-from testbed.experiment.levels.table import LEVEL_COLUMNS, level_rows
-from testbed.experiment.record import FineCounts, TrialRecord
+from testbed.config import load_config
+from testbed.experiment.levels import comparing
+from testbed.experiment.levels.protocol import paper_of
+from testbed.experiment.levels.published import (
+    NO_ZOOM,
+    OWN,
+    PAPER,
+    PARTS,
+    PUBLISHED,
+    RATIOS,
+    ZOOM,
+    Rounded,
+)
+from testbed.experiment.levels.results import levels_of
+from testbed.experiment.levels.table import (
+    GROWTH,
+    SECONDS,
+    SHARES,
+    effect_rows,
+    growth_rows,
+    level_tables,
+    ratio_rows,
+    rich_level_table,
+    seconds_rows,
+    share_rows,
+)
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.statistics import Estimate
 from testbed.experiment.summary import summarise
 from testbed.experiment.tables import headings, rows_of
-from tests.experiment.samples import a_record
+from tests.experiment.samples import a_level_record, a_record
 
 
-def _level(
-    trial: str, robot: str, achieved: bool = True, in_reach: bool | None = None, **times: float
-) -> TrialRecord:
-    counts = FineCounts(
-        plans=2, planning_time_s=times.get("fine", 0.2), infer_time_s=times.get("infer", 0.1)
-    )
-    return a_record(
-        f"{trial} {robot}",
-        pair=trial,
-        robot=robot,
-        scenario="levels",
-        level="L3",
-        fine=counts,
-        achieved=achieved,
-        outcome="achieved" if achieved else "gave_up",
-        in_reach=in_reach,
-        planning_time_s=times.get("planning", 0.3),
-        diagnosis_time_s=times.get("diagnosis", 0.4),
-    )
+def _levels(*records: TrialRecord) -> comparing.Levels:
+    return levels_of(summarise(records))
 
 
-def _columns(*records: TrialRecord) -> Any:
-    summary: Any = summarise(records)
-    return summary["levels"]["L3"]
+def _both(level: str, number: int = 1, slower: float = 1.0) -> list[TrialRecord]:
+    return [
+        record
+        for index in range(number)
+        for record in (
+            a_level_record(f"{level}{index}", ZOOM, level=level),
+            a_level_record(f"{level}{index}", NO_ZOOM, level=level, fine=0.2 * slower),
+        )
+    ]
 
 
-def test_the_columns_are_means_and_deviations_of_a_trials_reasoning() -> None:
-    columns = _columns(_level("a", ZOOM), _level("b", ZOOM, fine=0.4, planning=0.5))
-    zoom = columns["reasoning"][ZOOM]
-    assert zoom["fine"] == {"mean": pytest.approx(0.4), "sd": pytest.approx(0.02**0.5)}
-    assert zoom["coarse"]["mean"] == pytest.approx(0.8)
-    assert zoom["total"]["mean"] == pytest.approx(1.2)
-    assert zoom["refined_plan"]["mean"] == pytest.approx(0.15)
-    assert (zoom["trials"], zoom["achieved"], zoom["completed"]) == (2, 2, 1.0)
-    assert columns["zoom_ratios"] == dict.fromkeys(PARTS)
-
-
-def test_ratios_are_of_pairs_in_which_both_robots_achieved_the_goal() -> None:
-    columns = _columns(
-        _level("a", ZOOM, fine=0.2),
-        _level("a", NO_ZOOM, fine=0.6),
-        _level("b", ZOOM, fine=0.1),
-        _level("b", NO_ZOOM, fine=0.9, achieved=False),
-        _level("c", NO_ZOOM, fine=5.0),
-    )
-    assert columns["zoom_ratios"]["refined_plan"] == pytest.approx(3.0)
-    assert columns["zoom_ratios"]["fine"] == pytest.approx(0.7 / 0.3)
-    assert columns["zoom_ratios"]["coarse"] == pytest.approx(1.0)
-    assert columns["reasoning"][NO_ZOOM]["completed"] == pytest.approx(2 / 3)
-
-
-def test_a_goal_out_of_reach_is_counted_beside_what_was_achieved() -> None:
-    records = [_level("a", ZOOM), _level("b", ZOOM, achieved=False, in_reach=False)]
-    records.append(_level("c", ZOOM, achieved=False, in_reach=True))
-    assert _columns(*records)["reasoning"][ZOOM]["out_of_reach"] == 1
-    assert level_rows(summarise(records))[0][2] == "1/3, 1 out of reach"
-
-
-def test_the_table_has_the_published_figures_beside_ours() -> None:
-    rows = level_rows(summarise([_level("a", ZOOM), _level("a", NO_ZOOM)]))
+def test_each_condition_has_means_medians_and_the_published_figures() -> None:
+    rows = list(seconds_rows(_levels(*_both("L3")), PAPER))
     assert [row[:3] for row in rows] == [
         ("L3", "zoom", "1/1"),
-        ("L3", "  published", "100 %"),
+        ("L3", "  median", ""),
+        ("L3", "  published", ""),
         ("L3", "no zoom", "1/1"),
-        ("L3", "  published", "65 %"),
-        ("L3", "no zoom / zoom", ""),
+        ("L3", "  median", ""),
         ("L3", "  published", ""),
     ]
-    assert all(len(row) == len(LEVEL_COLUMNS) for row in rows)
-    assert rows[1][3:] == ("11.59 ± 3.88 s", "4.19 ± 1.48 s", "7.40 ± 2.57 s", "560.0 ± 50.0 ms")
+    assert all(len(row) == len(SECONDS) for row in rows)
     assert rows[0][3] == "1.00 ± 0.00 s"
-    assert rows[5][3:] == ("20.07", "55.23", "1.00", "83.49")
+    assert rows[1][3] == "1.00 s"
+    assert rows[2][3:] == ("11.59 ± 3.88 s", "4.19 ± 1.48 s", "7.40 ± 2.57 s", "560.0 ± 50.0 ms")
+
+
+def test_a_goal_out_of_reach_is_told_beside_what_was_achieved() -> None:
+    records = [
+        a_level_record("a", ZOOM),
+        a_level_record("b", ZOOM, achieved=False, in_reach=False),
+        a_level_record("c", ZOOM, achieved=False, in_reach=True),
+    ]
+    assert next(seconds_rows(_levels(*records), PAPER))[2] == "1/3, 1 out of reach"
+
+
+def test_a_share_of_trials_that_ended_alike_has_the_exact_interval() -> None:
+    rows = list(share_rows(_levels(*_both("L3", 10)), PAPER))
+    # Clopper and Pearson: 0.025 ** (1 / 10) = 0.692.
+    assert rows == [
+        ("L3", "zoom", "10", "100.0% [69.2, 100.0]", "100%"),
+        ("L3", "no zoom", "10", "100.0% [69.2, 100.0]", "65% *"),
+    ]
+    assert all(len(row) == len(SHARES) for row in rows)
+
+
+def test_a_published_ratio_that_our_interval_does_not_hold_is_marked() -> None:
+    mean, median, published = ratio_rows(_levels(*_both("L1", 3)), PAPER)
+    assert mean == ("L1", "no zoom / zoom", "3", *["1.00 [1.00, 1.00]"] * 4)
+    assert median == ("L1", "  median", "", *["1.00 [1.00, 1.00]"] * 4)
+    assert published == ("L1", "  published", "", "1.01 *", "1.02 *", "1.00", "1.03 *")
+
+
+def test_growth_is_told_of_each_level_but_the_first() -> None:
+    rows = list(growth_rows(_levels(*_both("L1", 2), *_both("L2", 2, slower=2.0)), PAPER))
+    assert [row[:3] for row in rows[::3]] == [("L2", "zoom", "2"), ("L2", "no zoom", "2")]
+    assert all(len(row) == len(GROWTH) for row in rows)
+    assert rows[3][6] == "2.00 [2.00, 2.00]"
+    assert rows[5][3:] == ("1.71 *", "2.77 *", "1.34 *", "2.38 *")
+
+
+def test_a_published_growth_is_as_exact_as_what_was_rounded_for_it() -> None:
+    grown = PAPER.growth("L2", ZOOM, "refined_plan")
+    assert grown is not None
+    # 0.41 / 0.37 may have been 0.4149 / 0.3651 as well.
+    assert grown.value == pytest.approx(1.108, abs=0.001)
+    assert grown.value + grown.half_digit == pytest.approx(0.415 / 0.365)
+    assert PAPER.growth("L4", NO_ZOOM, "total") is OWN.growth("L2", ZOOM, "total") is None
+
+
+@pytest.mark.parametrize(
+    ("published", "inside"), [(1.29, False), (1.296, True), (1.5, True), (1.71, False)]
+)
+def test_a_published_value_lies_inside_up_to_its_rounding(published: float, inside: bool) -> None:
+    cell = comparing.Cell(Estimate(1.5, 1.3, 1.7), published=Rounded(published))
+    assert cell.inside is inside
+    assert comparing.Cell(Estimate(1.5, 1.3, 1.7)).inside is None
+
+
+def test_a_run_of_ones_own_has_the_same_tables_without_published_figures() -> None:
+    levels = _levels(*_both("L1", 2), *_both("L3", 2))
+    compared, own = level_tables(levels, PAPER), level_tables(levels, OWN)
+    assert [table.title for table in own] == [table.title for table in compared]
+    assert any("published" in row[1] for table in compared for row in table.rows)
+    assert not any("published" in row[1] for table in own for row in table.rows)
+    assert {row[-1] for row in own[1].rows} == {"-"}
+
+
+def test_the_protocol_is_what_the_published_figures_stand_beside() -> None:
+    assert paper_of(load_config("levels")) is PAPER
+    assert paper_of(load_config("levels", ["protocol=null"])) is OWN
+
+
+def test_the_terminal_has_each_interval_below_its_value() -> None:
+    (_, _, ratios) = level_tables(_levels(*_both("L1", 3)), PAPER)
+    shown = rich_level_table(ratios)
+    assert list(shown.columns[3].cells) == ["1.00", "[1.00, 1.00]", "1.01 *"]
+
+
+def test_tests_are_told_where_times_differ() -> None:
+    slower = [record for n in range(8) for record in _both("L1", 1, 2.0 + n)]
+    for index, record in enumerate(slower):
+        record.pair = f"p{index // 2}"
+    ((level, pairs, *cells),) = effect_rows(_levels(*slower))
+    assert (level, pairs) == ("L1", "8")
+    # All eight differences have one sign: 2 / 2 ** 8, of three tests.
+    assert cells == ["+1.00 (p = 0.023)", "+1.00 (p = 0.023)", "-", "+1.00 (p = 0.023)", "-", "-"]
 
 
 def test_totals_of_the_published_figures_are_the_sums_of_their_parts() -> None:
@@ -98,9 +160,9 @@ def test_totals_of_the_published_figures_are_the_sums_of_their_parts() -> None:
 
 
 def test_rows_are_by_level_and_a_run_without_levels_has_no_such_table() -> None:
-    rows = rows_of([_level("a", ZOOM)])
+    rows = rows_of([a_level_record("a", ZOOM)])
     assert headings(rows)[0] == "level"
     assert rows[0].cells()[:2] == ("L3", ZOOM)
     coarse = [a_record("a")]
     assert headings(rows_of(coarse))[0] == "scenario"
-    assert level_rows(summarise(coarse)) == []
+    assert level_tables(_levels(*coarse), PAPER) == []

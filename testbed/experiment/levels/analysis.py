@@ -1,92 +1,154 @@
-"""The columns of Tables 2 and 3 (P 4): reasoning of the trials of a level, by robot.
-
-Seconds of reasoning are those of a whole trial: `coarse` is planning and diagnosis, `fine` refined
-plans and the inference of what came of them, `total` both; `refined_plan` is a trial's mean.
-"""
+"""The columns of Tables 2 and 3 (P 4): reasoning of the trials of a level, by robot, compared."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from statistics import fmean, stdev
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from statistics import fmean, median, stdev
 
-from testbed.experiment.levels.published import NO_ZOOM, PARTS, ZOOM
-from testbed.experiment.record import FAILURES, FineCounts, TrialRecord
+import msgspec
+import numpy as np
 
-Spread = dict[str, float]
+from testbed.experiment import quotient, statistics
+from testbed.experiment.levels.outline import FineOutline
+from testbed.experiment.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM
+from testbed.experiment.levels.results import Compared, Growth, Level, Ratio, Reasoning, Spread
+from testbed.experiment.statistics import Estimate, Test, Values, holm, mcnemar, signed_rank
 
-
-@dataclass(frozen=True, slots=True)
-class FineOutline:
-    """The numbers of one trial at the fine resolution; `seconds` are by the names of PARTS."""
-
-    robot: str
-    pair: str
-    played: bool
-    achieved: bool
-    out_of_reach: bool
-    plans: int
-    actions: int
-    seconds: Mapping[str, float]
+Outlines = Sequence[FineOutline]
+Pair = tuple[FineOutline, FineOutline]
+"""The trial with zooming, and the one without."""
 
 
-def fine_outline(record: TrialRecord, fine: FineCounts) -> FineOutline:
-    """What is held in memory of a record that has counts of the fine resolution."""
-    own = fine.planning_time_s + fine.infer_time_s
-    coarse = record.planning_time_s + record.diagnosis_time_s
-    seconds = {"total": own + coarse, "fine": own, "coarse": coarse}
-    if fine.plans:
-        seconds["refined_plan"] = fine.planning_time_s / fine.plans
-    return FineOutline(
-        robot=record.robot,
-        pair=record.pair,
-        played=record.outcome not in FAILURES,
-        achieved=record.achieved,
-        out_of_reach=record.in_reach is False,
-        plans=fine.plans,
-        actions=fine.actions,
-        seconds=seconds,
+def summarise_levels(levels: Mapping[str, Outlines]) -> dict[str, dict[str, object]]:
+    """The columns of each level, as `Level` has them; p-values are corrected over all of them."""
+    first = _by_robot(levels.get(FIRST, ()))
+    found = {name: _level(name, _by_robot(own), first) for name, own in levels.items()}
+    return {name: msgspec.to_builtins(level) for name, level in _corrected(found).items()}
+
+
+def _by_robot(outlines: Outlines) -> dict[str, list[FineOutline]]:
+    """The two conditions first, other robots as they come."""
+    robots: dict[str, list[FineOutline]] = {ZOOM: [], NO_ZOOM: []}
+    for outline in outlines:
+        robots.setdefault(outline.robot, []).append(outline)
+    return {robot: own for robot, own in robots.items() if own}
+
+
+def _level(name: str, robots: Mapping[str, Outlines], first: Mapping[str, Outlines]) -> Level:
+    pairs = list(_pairs(robots))
+    ratios = {part: _ratio(pairs, part) for part in PARTS}
+    zoomed, whole = (np.array([p[i].achieved for p in pairs], dtype=bool) for i in (0, 1))
+    right, others = (np.array([p[i].correct for p in pairs], dtype=bool) for i in (0, 1))
+    compared = Compared(
+        pairs=len(pairs),
+        completed=_shares(robots, lambda outline: outline.achieved),
+        correct=_shares(robots, lambda outline: outline.correct),
+        ratios=ratios,
+        growth={} if name == FIRST else _growth(robots, first),
+        completed_test=mcnemar(zoomed, whole) if pairs else None,
+        correct_test=mcnemar(right, others) if pairs else None,
+    )
+    means = {part: None if r.mean is None else r.mean.value for part, r in ratios.items()}
+    return Level({robot: _reasoning(own) for robot, own in robots.items()}, means, compared)
+
+
+def _pairs(robots: Mapping[str, Outlines]) -> Iterator[Pair]:
+    whole = {outline.pair: outline for outline in robots.get(NO_ZOOM, ())}
+    for outline in robots.get(ZOOM, ()):
+        if outline.pair in whole:
+            yield outline, whole[outline.pair]
+
+
+def _reasoning(outlines: Outlines) -> Reasoning:
+    played = [outline for outline in outlines if outline.played]
+    return Reasoning(
+        trials=len(outlines),
+        achieved=sum(outline.achieved for outline in outlines),
+        out_of_reach=sum(outline.out_of_reach for outline in outlines),
+        completed=fmean(outline.achieved for outline in outlines),
+        refined_plans=_spread(outline.plans for outline in played),
+        concrete_actions=_spread(outline.actions for outline in played),
+        **{part: _spread(_seconds(played, part)) for part in PARTS},
     )
 
 
-def summarise_level(outlines: Sequence[FineOutline]) -> dict[str, object]:
-    """The columns of a level: `reasoning` by robot, `zoom_ratios` (no zoom / zoom)."""
-    robots = dict.fromkeys(outline.robot for outline in outlines)
-    return {
-        "reasoning": {name: _robot([o for o in outlines if o.robot == name]) for name in robots},
-        "zoom_ratios": {part: _ratio(outlines, part) for part in PARTS},
-    }
-
-
-def _robot(outlines: Sequence[FineOutline]) -> dict[str, object]:
-    """Trials that failed (a lost robot, an error) count as trials, and as not completed."""
-    played = [outline for outline in outlines if outline.played]
-    return {
-        "trials": len(outlines),
-        "achieved": sum(outline.achieved for outline in outlines),
-        "out_of_reach": sum(outline.out_of_reach for outline in outlines),
-        "completed": fmean(outline.achieved for outline in outlines),
-        "refined_plans": _spread(outline.plans for outline in played),
-        "concrete_actions": _spread(outline.actions for outline in played),
-        **{part: _spread(o.seconds[part] for o in played if part in o.seconds) for part in PARTS},
-    }
+def _seconds(outlines: Iterable[FineOutline], part: str) -> Values:
+    """The seconds of a part of the time, of the trials that have it."""
+    return np.array([o.seconds[part] for o in outlines if part in o.seconds], dtype=float)
 
 
 def _spread(values: Iterable[float]) -> Spread | None:
-    """Mean and standard deviation of a sample; None of nothing."""
-    sample = list(values)
+    """None of nothing."""
+    sample = [float(value) for value in values]
     if not sample:
         return None
-    return {"mean": fmean(sample), "sd": stdev(sample) if len(sample) > 1 else 0.0}
+    return Spread(fmean(sample), stdev(sample) if len(sample) > 1 else 0.0, median(sample))
 
 
-def _ratio(outlines: Sequence[FineOutline], part: str) -> float | None:
-    """The mean of no zoom / zoom over the pairs of which both trials achieved their goal."""
-    pairs: dict[str, dict[str, float]] = {}
-    for outline in outlines:
-        if outline.achieved and part in outline.seconds:
-            pairs.setdefault(outline.pair, {})[outline.robot] = outline.seconds[part]
-    ratios = [
-        own[NO_ZOOM] / own[ZOOM] for own in pairs.values() if own.get(ZOOM) and NO_ZOOM in own
+def _shares(
+    robots: Mapping[str, Outlines], value: Callable[[FineOutline], bool]
+) -> dict[str, Estimate]:
+    found = {
+        robot: statistics.proportion([(np.array([value(o) for o in own], dtype=float), 1)])
+        for robot, own in robots.items()
+    }
+    return {robot: share for robot, share in found.items() if share is not None}
+
+
+def _ratio(pairs: Iterable[Pair], part: str) -> Ratio:
+    """Over the pairs of which both trials achieved their goal."""
+    times = [
+        (zoomed.seconds[part], whole.seconds[part])
+        for zoomed, whole in pairs
+        if zoomed.achieved and whole.achieved and zoomed.seconds.get(part) and part in whole.seconds
     ]
-    return fmean(ratios) if ratios else None
+    below, above = (np.array([own[i] for own in times], dtype=float) for i in (0, 1))
+    ratios = [(above / below, 1)]
+    mean, middle = statistics.mean(ratios), statistics.median(ratios)
+    return Ratio(len(times), mean, middle, signed_rank(above - below))
+
+
+def _growth(
+    robots: Mapping[str, Outlines], first: Mapping[str, Outlines]
+) -> dict[str, dict[str, Growth]]:
+    """By robot and part of the time; nothing for a robot that did not play the first level."""
+    return {
+        robot: {part: _times(_played(own, part), _played(first[robot], part)) for part in PARTS}
+        for robot, own in robots.items()
+        if robot in first
+    }
+
+
+def _played(outlines: Outlines, part: str) -> Values:
+    return _seconds((outline for outline in outlines if outline.played), part)
+
+
+def _times(above: Values, below: Values) -> Growth:
+    return Growth(quotient.of_means(above, below), quotient.of_medians(above, below))
+
+
+def _corrected(levels: Mapping[str, Level]) -> dict[str, Level]:
+    """The levels with Holm's correction over all of their tests."""
+    tests = [test for level in levels.values() for test in _tests(level.compared)]
+    corrected = iter(holm([test.p for test in tests]))
+
+    def with_holm(test: Test | None) -> Test | None:
+        return None if test is None else Test(test.p, test.effect, next(corrected))
+
+    replace = msgspec.structs.replace
+
+    def compared(own: Compared) -> Compared:
+        ratios = {p: replace(ratio, test=with_holm(ratio.test)) for p, ratio in own.ratios.items()}
+        completed, correct = with_holm(own.completed_test), with_holm(own.correct_test)
+        return replace(own, ratios=ratios, completed_test=completed, correct_test=correct)
+
+    return {
+        name: replace(level, compared=compared(level.compared)) for name, level in levels.items()
+    }
+
+
+def _tests(compared: Compared) -> list[Test]:
+    """In the order in which they are corrected."""
+    of_ratios = [ratio.test for ratio in compared.ratios.values()]
+    tests = [*of_ratios, compared.completed_test, compared.correct_test]
+    return [test for test in tests if test is not None]

@@ -10,6 +10,7 @@ import msgspec
 from testbed.config.grounds import grounds, level_size
 from testbed.config.models import ExperimentConfig
 from testbed.experiment.levels.drawing import Drawing
+from testbed.experiment.levels.protocol import PROTOCOL
 from testbed.experiment.specs import (
     FineSetting,
     Setting,
@@ -18,9 +19,6 @@ from testbed.experiment.specs import (
     pair_specs,
     setting_of,
 )
-
-PROTOCOL = "levels"
-"""The protocol of trials at the fine resolution; in their records in place of a scenario."""
 
 
 def level_specs(config: ExperimentConfig) -> Iterator[TrialSpec]:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 ZOOM, NO_ZOOM = "intentional", "intentional-nozoom"
 """The robots of the two conditions, by their names here."""
+
+FIRST = "L1"
+"""The level that the others are compared with for growth."""
 
 PARTS = ("total", "fine", "coarse", "refined_plan")
 """Reasoning of a trial, its part at each resolution, and the time of one refined plan."""
@@ -47,3 +50,50 @@ RATIOS: Mapping[str, Mapping[str, float]] = {
     "L3": dict(zip(PARTS, (20.07, 55.23, 1.00, 83.49), strict=True)),
 }
 """No zoom / zoom, over the trials that achieved their goal; nothing is given from L4 on."""
+
+HALF_DIGIT = 0.005
+"""Published seconds and ratios have two decimals, shares whole percents."""
+
+
+@dataclass(frozen=True)
+class Rounded:
+    """A published value, and by how much at most it may differ from what was rounded to it."""
+
+    value: float
+    half_digit: float = HALF_DIGIT
+
+
+@dataclass(frozen=True)
+class Paper:
+    """What the paper gives for the levels of a run; without figures for a run of one's own."""
+
+    conditions: Mapping[tuple[str, str], Published] = field(default_factory=dict)
+    ratios: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    def seconds(self, level: str, robot: str, part: str) -> tuple[float, float] | None:
+        """Mean and standard deviation."""
+        known = self.conditions.get((level, robot))
+        return None if known is None else known.seconds.get(part)
+
+    def completed(self, level: str, robot: str) -> Rounded | None:
+        """The share of the trials that ended with their goal achieved."""
+        known = self.conditions.get((level, robot))
+        return None if known is None else Rounded(known.completed)
+
+    def ratio(self, level: str, part: str) -> Rounded | None:
+        """No zoom / zoom."""
+        known = self.ratios.get(level, {})
+        return Rounded(known[part]) if part in known else None
+
+    def growth(self, level: str, robot: str, part: str) -> Rounded | None:
+        """The mean of a level, divided by that of the first one; both had been rounded."""
+        above, below = self.seconds(level, robot, part), self.seconds(FIRST, robot, part)
+        if above is None or below is None:
+            return None
+        most = (above[0] + HALF_DIGIT) / (below[0] - HALF_DIGIT)
+        return Rounded(above[0] / below[0], most - above[0] / below[0])
+
+
+PAPER = Paper(PUBLISHED, RATIOS)
+OWN = Paper()
+"""For a run that is not made to be compared with the published figures."""

@@ -1,75 +1,180 @@
-"""Tables 2 and 3 of a run: reasoning at each level, beside the published figures."""
+"""Tables 2 and 3 of a run as cells of text, beside the published figures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
-from rich.table import Table
+import rich.table
+from rich.markup import escape
 
-from testbed.experiment.levels.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
+from testbed.experiment.levels import comparing
+from testbed.experiment.levels.comparing import CONDITIONS, Cell, Levels, Line
+from testbed.experiment.levels.published import FIRST, PARTS, Paper
+from testbed.experiment.levels.results import Reasoning, Spread
+from testbed.experiment.statistics import Estimate, Test
 
-LEVEL_COLUMNS = ("level", "reasoning", "achieved", "all", "fine", "coarse", "a refined plan")
-CONDITIONS = {ZOOM: "zoom", NO_ZOOM: "no zoom"}
+HEADINGS = ("all", "fine", "coarse", "a refined plan")
+"""What PARTS are called."""
+
+SECONDS = ("level", "reasoning", "achieved", *HEADINGS)
+SHARES = ("level", "reasoning", "trials", "achieved", "published")
+RATIOS = ("level", "reasoning", "pairs", *HEADINGS)
+GROWTH = ("level", "reasoning", "trials", *HEADINGS)
+TESTS = ("level", "pairs", *HEADINGS, "achieved", "correct")
+MEDIAN, PUBLISHED = "  median", "  published"
+OUTSIDE = " *"
+"""Marks a published value that does not lie in our interval."""
+
 Cells = tuple[str, ...]
 
 
-def level_rows(summary: Mapping[str, Any]) -> list[Cells]:
-    """The rows under LEVEL_COLUMNS: a level's robots, the paper's, and the ratios of both."""
-    return [
-        row
-        for level, group in summary["levels"].items()
-        if "reasoning" in group
-        for row in _level(level, group)
+@dataclass(frozen=True)
+class LevelTable:
+    """One of the tables: its title, the names of its columns, and its rows."""
+
+    title: str
+    columns: Cells
+    rows: tuple[Cells, ...]
+
+
+def level_tables(levels: Levels, paper: Paper) -> list[LevelTable]:
+    """The tables of a run; those without rows are left out."""
+    tables = [
+        LevelTable("Reasoning in a trial", SECONDS, tuple(seconds_rows(levels, paper))),
+        LevelTable("Trials that achieved their goal", SHARES, tuple(share_rows(levels, paper))),
+        LevelTable("No zoom / zoom, over pairs", RATIOS, tuple(ratio_rows(levels, paper))),
+        LevelTable(f"Times that at {FIRST}", GROWTH, tuple(growth_rows(levels, paper))),
     ]
+    return [table for table in tables if table.rows]
 
 
-def _level(level: str, group: Mapping[str, Any]) -> Iterator[Cells]:
-    for robot, columns in group["reasoning"].items():
-        yield (level, CONDITIONS.get(robot, robot), _achieved(columns), *_ours(columns))
-        if (level, robot) in PUBLISHED:
-            paper = PUBLISHED[level, robot]
-            theirs = (_spread(*paper.seconds[p]) if p in paper.seconds else "-" for p in PARTS)
-            yield (level, "  published", f"{100 * paper.completed:.0f} %", *theirs)
-    ratios = group["zoom_ratios"]
-    if any(ratio is not None for ratio in ratios.values()):
-        yield (level, "no zoom / zoom", "", *(_times(ratios[part]) for part in PARTS))
-        if level in RATIOS:
-            yield (level, "  published", "", *(_times(RATIOS[level][part]) for part in PARTS))
+def seconds_rows(levels: Levels, paper: Paper) -> Iterator[Cells]:
+    """For each level and condition means with deviations, medians, and what was published."""
+    for name, level in levels.items():
+        for robot, own in level.reasoning.items():
+            spreads: list[Spread | None] = [getattr(own, part) for part in PARTS]
+            ours = ("-" if s is None else spread(s.mean, s.sd) for s in spreads)
+            yield (name, CONDITIONS.get(robot, robot), achieved(own), *ours)
+            yield (name, MEDIAN, "", *("-" if s is None else seconds(s.median) for s in spreads))
+            theirs = [paper.seconds(name, robot, part) for part in PARTS]
+            if any(theirs):
+                yield (name, PUBLISHED, "", *("-" if t is None else spread(*t) for t in theirs))
 
 
-def _achieved(columns: Mapping[str, Any]) -> str:
+def achieved(own: Reasoning) -> str:
     """How many, and of the others how many had a goal out of reach."""
-    out = f", {columns['out_of_reach']} out of reach" if columns["out_of_reach"] else ""
-    return f"{columns['achieved']}/{columns['trials']}{out}"
+    out = f", {own.out_of_reach} out of reach" if own.out_of_reach else ""
+    return f"{own.achieved}/{own.trials}{out}"
 
 
-def _ours(columns: Mapping[str, Any]) -> Iterator[str]:
-    for part in PARTS:
-        own = columns[part]
-        yield "-" if own is None else _spread(own["mean"], own["sd"])
+def share_rows(levels: Levels, paper: Paper) -> Iterator[Cells]:
+    """For each level and condition the share with its interval, and the published one."""
+    for line in comparing.shares(levels, paper):
+        cells = [text for cell in line.cells for text in (share(cell.ours), _share(cell))]
+        yield (line.level, line.what, str(line.number), *cells)
 
 
-def _spread(mean: float, deviation: float) -> str:
+def ratio_rows(levels: Levels, paper: Paper) -> Iterator[Cells]:
+    """For each level means with intervals, medians, and the published means."""
+    return _of_lines(comparing.ratios(levels, paper))
+
+
+def growth_rows(levels: Levels, paper: Paper) -> Iterator[Cells]:
+    """For each level and condition that of the means, of the medians, and the published ones."""
+    return _of_lines(comparing.growth(levels, paper))
+
+
+def _of_lines(lines: Iterable[Line]) -> Iterator[Cells]:
+    for line in lines:
+        means = (times(cell.ours) for cell in line.cells)
+        yield (line.level, line.what, str(line.number), *means)
+        yield (line.level, MEDIAN, "", *(times(cell.median) for cell in line.cells))
+        if any(cell.published is not None for cell in line.cells):
+            yield (line.level, PUBLISHED, "", *map(_times, line.cells))
+
+
+def effect_rows(levels: Levels) -> Iterator[Cells]:
+    """For each level the effect sizes, with the p-values after Holm's correction."""
+    for name, level in levels.items():
+        own = level.compared
+        if own.pairs:
+            tests = [*(own.ratios[part].test for part in PARTS), own.completed_test]
+            yield (name, str(own.pairs), *map(_effect, [*tests, own.correct_test]))
+
+
+def _effect(test: Test | None) -> str:
+    if test is None or test.holm is None:
+        return "-"
+    chance = "p < 0.001" if test.holm < 0.001 else f"p = {test.holm:.3f}"
+    return f"{test.effect:+.2f} ({chance})"
+
+
+def seconds(value: float) -> str:
     """Seconds as text: in ms where they are few."""
+    return f"{1000 * value:.1f} ms" if value < 1.0 else f"{value:.2f} s"
+
+
+def spread(mean: float, deviation: float) -> str:
+    """Mean and deviation in seconds, both in ms where the mean is short."""
     if mean < 1.0:
         return f"{1000 * mean:.1f} ± {1000 * deviation:.1f} ms"
     return f"{mean:.2f} ± {deviation:.2f} s"
 
 
-def _times(ratio: float | None) -> str:
-    return "-" if ratio is None else f"{ratio:.2f}"
+def share(estimate: Estimate | None) -> str:
+    """A share with its interval, in percent."""
+    if estimate is None:
+        return "-"
+    value, low, high = (100 * end for end in (estimate.value, estimate.low, estimate.high))
+    return f"{value:.1f}% [{low:.1f}, {high:.1f}]"
 
 
-def rich_level_table(rows: Sequence[Cells]) -> Table:
-    """The table for a terminal, with an empty line between levels."""
-    table = Table(*LEVEL_COLUMNS, box=None, padding=(0, 2, 0, 0), collapse_padding=True)
+def times(estimate: Estimate | None) -> str:
+    """A ratio with its interval."""
+    if estimate is None:
+        return "-"
+    return f"{estimate.value:.2f} [{estimate.low:.2f}, {estimate.high:.2f}]"
+
+
+def _share(cell: Cell) -> str:
+    return "-" if cell.published is None else f"{cell.published.value:.0%}{_mark(cell)}"
+
+
+def _times(cell: Cell) -> str:
+    return "-" if cell.published is None else f"{cell.published.value:.2f}{_mark(cell)}"
+
+
+def _mark(cell: Cell) -> str:
+    return "" if cell.inside else OUTSIDE
+
+
+def rich_level_table(shown: LevelTable) -> rich.table.Table:
+    """A table for a terminal, with an empty line between levels; medians are in the report."""
+    table = rich.table.Table(
+        *shown.columns,
+        title=shown.title,
+        title_justify="left",
+        box=None,
+        padding=(0, 2, 0, 0),
+        collapse_padding=True,
+    )
     for column in table.columns:
         column.no_wrap = True
     for column in table.columns[3:]:
         column.justify = "right"
+    rows = [row for row in shown.rows if row[1] != MEDIAN]
     for before, row in zip((None, *rows), rows, strict=False):
         if before is not None and before[0] != row[0]:
             table.add_row()
-        table.add_row(*row)
+        for cells in _narrow(row):
+            table.add_row(*map(escape, cells))
     return table
+
+
+def _narrow(row: Sequence[str]) -> Iterator[Cells]:
+    """The same for few columns of text: each interval below its value."""
+    parts = [cell.partition(" [") for cell in row]
+    yield tuple(value for value, _, _ in parts)
+    if any(bracket for _, bracket, _ in parts):
+        yield tuple(bracket.strip() + rest for _, bracket, rest in parts)

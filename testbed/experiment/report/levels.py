@@ -1,128 +1,183 @@
-"""Tables 2 and 3 as the report shows them: seconds of reasoning by level, above the published."""
+"""Tables 2 and 3 as the report shows them: ours with intervals, above the published figures."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
-from testbed.experiment.levels.published import NO_ZOOM, PARTS, PUBLISHED, RATIOS, ZOOM
-from testbed.experiment.levels.table import CONDITIONS
+from testbed.experiment.levels import comparing
+from testbed.experiment.levels.comparing import CONDITIONS, Cell, Levels
+from testbed.experiment.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM, Paper
+from testbed.experiment.levels.results import Spread
+from testbed.experiment.levels.table import (
+    GROWTH,
+    RATIOS,
+    SECONDS,
+    TESTS,
+    achieved,
+    effect_rows,
+    seconds,
+    spread,
+)
+from testbed.experiment.report import svg
 from testbed.experiment.report.figures import Panel, Point, Series, curves
-from testbed.experiment.report.svg import FIRST, SECOND
 
-COLUMNS = ("level", "reasoning", "achieved", "all", "fine", "coarse", "a refined plan")
+__all__ = ["TESTS", "Line", "Value", "View", "effect_rows", "panels", "views"]
+
+SHARES = ("level", "reasoning", "trials", "achieved")
 TITLES = {
     "total": "all reasoning of a trial",
     "fine": "at the fine resolution",
     "coarse": "at the coarse resolution",
     "refined_plan": "one refined plan",
 }
-LOOKS = {ZOOM: (FIRST, "o"), NO_ZOOM: (SECOND, "s")}
+LOOKS = {ZOOM: (svg.FIRST, "o"), NO_ZOOM: (svg.SECOND, "s")}
 LEAST = 0.1
-RATIO = "no zoom / zoom"
 
 
 @dataclass(frozen=True)
 class Value:
-    """A cell: ours and the published value, either of them "" where there is none."""
+    """A cell: ours, its interval (of a time its deviation), its median, and the published value.
+
+    `inside`: whether our interval holds that; None where it is not asked.
+    """
 
     ours: str
+    interval: str = ""
+    median: str = ""
     published: str = ""
+    inside: bool | None = None
 
 
 @dataclass(frozen=True)
 class Line:
-    """A row of the table; `first` of its level."""
+    """A row of a table; `first` of its level."""
 
     level: str
     reasoning: str
+    number: str
     first: bool
     values: tuple[Value, ...]
 
 
-def lines(summary: Mapping[str, Any]) -> list[Line]:
-    """The rows of the table: of each level its robots, and the ratio of both."""
-    return [
-        Line(level, reasoning, not number, values)
-        for level, group in summary["levels"].items()
-        if "reasoning" in group
-        for number, (reasoning, values) in enumerate(_level(level, group))
+@dataclass(frozen=True)
+class View:
+    """A table: its name in the page, its title, what it says, its columns and rows."""
+
+    name: str
+    title: str
+    note: str
+    columns: tuple[str, ...]
+    lines: tuple[Line, ...]
+
+
+def views(levels: Levels, paper: Paper) -> list[View]:
+    """The tables of a run, those without rows left out."""
+    found = [
+        View(
+            "levels-achieved",
+            "Trials that achieved their goal",
+            "Shares with their intervals, exact ones where all trials ended alike.",
+            SHARES,
+            _lines(comparing.shares(levels, paper), _share),
+        ),
+        View(
+            "levels-ratios",
+            "No zoom / zoom",
+            "Means over the pairs in which both achieved the goal; above 1 zooming saved time.",
+            RATIOS,
+            _lines(comparing.ratios(levels, paper), _times),
+        ),
+        View(
+            "levels-growth",
+            f"Growth from {FIRST}",
+            f"How many times the mean at {FIRST} in the same condition the mean at a level is.",
+            GROWTH,
+            _lines(comparing.growth(levels, paper), _times),
+        ),
+        View(
+            "levels-seconds",
+            "Seconds",
+            "Means and standard deviations. Published ones are of another machine and solver.",
+            SECONDS,
+            tuple(_seconds(levels, paper)),
+        ),
     ]
+    return [view for view in found if view.lines]
 
 
-def _level(level: str, group: Mapping[str, Any]) -> Iterator[tuple[str, tuple[Value, ...]]]:
-    for robot, own in group["reasoning"].items():
-        values = _achieved(level, robot, own), *(_time(level, robot, own, part) for part in PARTS)
-        yield CONDITIONS.get(robot, robot), values
-    ratios, theirs = group["zoom_ratios"], RATIOS.get(level, {})
-    if any(ratio is not None for ratio in ratios.values()):
-        yield RATIO, (Value(""), *(_ratio(ratios[part], theirs.get(part)) for part in PARTS))
+def _lines(lines: Iterable[comparing.Line], value: Callable[[Cell], Value]) -> tuple[Line, ...]:
+    found: list[Line] = []
+    for line in lines:
+        first = not found or found[-1].level != line.level
+        values = tuple(value(cell) for cell in line.cells)
+        found.append(Line(line.level, line.what, str(line.number), first, values))
+    return tuple(found)
 
 
-def _achieved(level: str, robot: str, own: Mapping[str, Any]) -> Value:
-    out = f", {own['out_of_reach']} out of reach" if own["out_of_reach"] else ""
-    paper = PUBLISHED.get((level, robot))
-    published = "" if paper is None else f"{paper.completed:.0%}"
-    return Value(f"{own['achieved']}/{own['trials']}{out}", published)
+def _share(cell: Cell) -> Value:
+    return _value(cell, "{:.1%}", "{:.0%}")
 
 
-def _time(level: str, robot: str, own: Mapping[str, Any], part: str) -> Value:
-    spread, paper = own[part], PUBLISHED.get((level, robot))
-    known = paper is not None and part in paper.seconds
-    return Value(
-        "-" if spread is None else _spread(spread["mean"], spread["sd"]),
-        _spread(*paper.seconds[part]) if paper is not None and known else "",
-    )
+def _times(cell: Cell) -> Value:
+    return _value(cell, "{:.2f}", "{:.2f}")
 
 
-def _ratio(ours: float | None, theirs: float | None) -> Value:
-    return Value("-" if ours is None else f"{ours:.2f}", "" if theirs is None else f"{theirs:.2f}")
+def _value(cell: Cell, form: str, theirs: str) -> Value:
+    published = "" if cell.published is None else theirs.format(cell.published.value)
+    if cell.ours is None:
+        return Value("-", published=published)
+    median = "" if cell.median is None else form.format(cell.median.value)
+    interval = f"{form.format(cell.ours.low)} to {form.format(cell.ours.high)}"
+    return Value(form.format(cell.ours.value), interval, median, published, cell.inside)
 
 
-def _spread(mean: float, deviation: float) -> str:
-    """Seconds as text: in ms where they are few."""
-    if mean < 0.1:
-        return f"{1000 * mean:.1f} ± {1000 * deviation:.1f} ms"
-    return f"{mean:.2f} ± {deviation:.2f} s"
+def _seconds(levels: Levels, paper: Paper) -> Iterator[Line]:
+    for name, level in levels.items():
+        for index, (robot, own) in enumerate(level.reasoning.items()):
+            values = tuple(_time(getattr(own, p), paper.seconds(name, robot, p)) for p in PARTS)
+            yield Line(name, CONDITIONS.get(robot, robot), achieved(own), not index, values)
 
 
-def panels(summary: Mapping[str, Any]) -> list[Panel]:
+def _time(own: Spread | None, theirs: tuple[float, float] | None) -> Value:
+    published = "" if theirs is None else spread(*theirs)
+    if own is None:
+        return Value("-", published=published)
+    return Value(spread(own.mean, own.sd), median=seconds(own.median), published=published)
+
+
+def panels(levels: Levels, paper: Paper) -> list[Panel]:
     """A figure for each part of the time; none where no level was played."""
-    levels = {
-        name: group["reasoning"]
-        for name, group in summary["levels"].items()
-        if "reasoning" in group
-    }
     if not levels:
         return []
     return [
-        curves(f"levels-{part}", TITLES[part], list(levels), list(_series(levels, part)))
+        curves(f"levels-{part}", TITLES[part], list(levels), list(_series(levels, paper, part)))
         for part in PARTS
     ]
 
 
-def _series(levels: Mapping[str, Any], part: str) -> Iterator[Series]:
+def _series(levels: Levels, paper: Paper, part: str) -> Iterator[Series]:
     for robot, (colour, marker) in LOOKS.items():
         label = CONDITIONS[robot]
         ours = tuple(_ours(levels, robot, part))
-        theirs = tuple(_theirs(levels, robot, part))
+        theirs = tuple(_theirs(levels, paper, robot, part))
         yield from [Series(label, colour, ours, marker)] * bool(ours)
         yield from [Series(f"{label}, published", colour, theirs, marker, True)] * bool(theirs)
 
 
-def _ours(levels: Mapping[str, Any], robot: str, part: str) -> Iterator[Point]:
-    for level, robots in levels.items():
-        spread = robots.get(robot, {}).get(part)
-        if spread is not None and spread["mean"] > 0:
-            yield _point(level, spread["mean"], spread["sd"])
+def _ours(levels: Levels, robot: str, part: str) -> Iterator[Point]:
+    for name, level in levels.items():
+        own = level.reasoning.get(robot)
+        found: Spread | None = None if own is None else getattr(own, part)
+        if found is not None and found.mean > 0:
+            yield _point(name, found.mean, found.sd)
 
 
-def _theirs(levels: Mapping[str, Any], robot: str, part: str) -> Iterator[Point]:
-    for level in levels:
-        paper = PUBLISHED.get((level, robot))
-        if paper is not None and part in paper.seconds:
-            yield _point(level, *paper.seconds[part])
+def _theirs(levels: Levels, paper: Paper, robot: str, part: str) -> Iterator[Point]:
+    for name in levels:
+        known = paper.seconds(name, robot, part)
+        if known is not None:
+            yield _point(name, *known)
 
 
 def _point(level: str, mean: float, deviation: float) -> Point:

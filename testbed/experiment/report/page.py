@@ -14,7 +14,9 @@ from asp.commentary import scenario_notes
 from asp.loading import read_domain
 from testbed.config import ExperimentConfig
 from testbed.experiment.comparison import comparisons
-from testbed.experiment.levels.table import Cells, level_rows
+from testbed.experiment.levels.protocol import paper_of
+from testbed.experiment.levels.results import levels_of
+from testbed.experiment.levels.table import LevelTable, level_tables
 from testbed.experiment.report.accounts import accounts_of
 from testbed.experiment.report.endings import command_of, failures, slowest
 from testbed.experiment.report.rendering import environment
@@ -38,7 +40,7 @@ class Tables:
 
     digest: str
     rows: list[Row]
-    levels: list[Cells]
+    levels: list[LevelTable]
     table1: list[Analysis] = field(default_factory=list)
 
 
@@ -47,10 +49,11 @@ def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     summary = write_summary(folder)
     table1 = _table1(folder, config)
     rows = rows_of(read_records(folder))
-    tables = Tables(str(summary["digest"]), rows, level_rows(summary), table1)
+    levels = level_tables(levels_of(summary), paper_of(config))
+    tables = Tables(str(summary["digest"]), rows, levels, table1)
     parts = {
         **_heading(config, tables),
-        **_tables(tables, summary),
+        **_tables(config, tables, summary),
         **_compared(folder, tables, summary),
         **_trials(folder, config),
         "replay": lambda trial: command_of(folder, trial),
@@ -78,11 +81,11 @@ def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
     }
 
 
-def _tables(tables: Tables, summary: Mapping[str, Any]) -> dict[str, Any]:
+def _tables(config: ExperimentConfig, tables: Tables, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {
         "columns": headings(tables.rows),
         "rows": tables.rows,
-        **(_levels(summary) if tables.levels else {"levels": []}),
+        **(_levels(config, summary) if tables.levels else {"levels": []}),
         "published": [_published(analysis) for analysis in tables.table1],
     }
 
@@ -101,10 +104,15 @@ def _compared_panels(folder: Path) -> list[Any]:
     return panels(read_records(folder))
 
 
-def _levels(summary: Mapping[str, Any]) -> dict[str, Any]:
-    from testbed.experiment.report.levels import COLUMNS, lines, panels
+def _levels(config: ExperimentConfig, summary: Mapping[str, Any]) -> dict[str, Any]:
+    from testbed.experiment.report.levels import TESTS, effect_rows, panels, views
 
-    return {"level_columns": COLUMNS, "levels": lines(summary), "level_panels": panels(summary)}
+    levels, paper = levels_of(summary), paper_of(config)
+    return {
+        "levels": views(levels, paper),
+        "level_panels": panels(levels, paper),
+        "level_tests": (TESTS, list(effect_rows(levels))),
+    }
 
 
 def _published(analysis: Analysis) -> dict[str, Any]:

@@ -10,6 +10,8 @@ from pathlib import Path
 from markupsafe import Markup
 
 from testbed.experiment.errors import StoreError
+from testbed.experiment.levels.protocol import paper_of
+from testbed.experiment.levels.results import levels_of
 from testbed.experiment.report import levels, table1
 from testbed.experiment.report.figures import Panel
 from testbed.experiment.report.rendering import environment
@@ -63,11 +65,12 @@ def picture(folder: Path) -> str:
         StoreError: for a folder without a run, or one without such figures.
         ConfigError: where the stored configuration is not valid any more.
     """
-    analyses = table1.analyses(folder, read_config(folder))
+    config = read_config(folder)
+    analyses = table1.analyses(folder, config)
     if analyses:
         label = "Table 1: accuracy and ratios by scenario"
         return _drawn(table1.panels(analyses[0]), TABLE1_KEYS, label)
-    panels = levels.panels(write_summary(folder))
+    panels = levels.panels(levels_of(write_summary(folder)), paper_of(config))
     if not panels:
         raise StoreError(f"{folder}: has no figures; only published experiments have")
     return _drawn(panels, LEVEL_KEYS, "Reasoning time by level, zoom and no zoom")

@@ -5,16 +5,15 @@ from pathlib import Path
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.levels.published import NO_ZOOM, ZOOM
-from testbed.experiment.record import FineCounts
+from testbed.experiment.levels.published import NO_ZOOM, PAPER, ZOOM
+from testbed.experiment.levels.results import levels_of
 from testbed.experiment.report import levels, table1
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.statistics import Estimate, Test
-from testbed.experiment.store import TrialWriter
-from testbed.experiment.summary import write_summary
+from testbed.experiment.summary import summarise
 from testbed.experiment.table1.analysis import Analysis, Ratio, Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
-from tests.experiment.samples import a_record
+from tests.experiment.samples import a_level_record
 
 ALWAYS = Estimate(1.0, 0.98, 1.0)
 
@@ -94,27 +93,33 @@ def test_only_the_protocol_has_the_table(small: Path) -> None:
     assert table1.analyses(small, load_config("office")) == []
 
 
-def _level(folder: Path, *times: tuple[str, float]) -> list[levels.Line]:
-    with TrialWriter(folder) as writer:
-        for number, (robot, seconds) in enumerate(times):
-            fine = FineCounts(plans=2, planning_time_s=seconds)
-            record = a_record(f"t{number}", pair="p", level="L3", robot=robot, fine=fine)
-            writer.append(record)
-    return levels.lines(write_summary(folder))
+def _views(*times: tuple[str, float]) -> dict[str, levels.View]:
+    records = [
+        a_level_record("p", robot, fine=seconds, infer=0.0, planning=0.0, diagnosis=0.0)
+        for robot, seconds in times
+    ]
+    return {view.name: view for view in levels.views(levels_of(summarise(records)), PAPER)}
 
 
-def test_a_level_has_both_conditions_and_their_ratio_above_the_published(tmp_path: Path) -> None:
-    zoom, without, ratio = _level(tmp_path, (ZOOM, 0.05), (NO_ZOOM, 1.0))
-    assert (zoom.level, zoom.reasoning, zoom.first) == ("L3", "zoom", True)
-    assert zoom.values[0] == levels.Value("1/1", "100%")
-    assert zoom.values[2] == levels.Value("50.0 ± 0.0 ms", "4.19 ± 1.48 s")
+def test_a_level_has_both_conditions_and_their_ratio_above_the_published() -> None:
+    views = _views((ZOOM, 0.05), (NO_ZOOM, 1.0))
+    zoom, without = views["levels-seconds"].lines
+    assert (zoom.level, zoom.reasoning, zoom.number, zoom.first) == ("L3", "zoom", "1/1", True)
+    assert zoom.values[1] == levels.Value(
+        "50.0 ± 0.0 ms", median="50.0 ms", published="4.19 ± 1.48 s"
+    )
     assert (without.reasoning, without.first) == ("no zoom", False)
-    assert without.values[0] == levels.Value("1/1", "65%")
-    assert without.values[4] == levels.Value("0.50 ± 0.00 s", "45.98 ± 43.05 s")
-    assert ratio.reasoning == levels.RATIO
-    assert ratio.values[2] == levels.Value("20.00", "55.23")
+    assert without.values[3].published == "45.98 ± 43.05 s"
+    (ratio,) = views["levels-ratios"].lines
+    assert (ratio.reasoning, ratio.number) == ("no zoom / zoom", "1")
+    assert ratio.values[1] == levels.Value("20.00", "20.00 to 20.00", "20.00", "55.23", False)
 
 
-def test_one_condition_has_no_ratio(tmp_path: Path) -> None:
-    (line,) = _level(tmp_path, (ZOOM, 0.05))
-    assert line.reasoning == "zoom"
+def test_shares_of_a_level_stand_with_their_exact_interval() -> None:
+    zoom, without = _views((ZOOM, 0.05), (NO_ZOOM, 1.0))["levels-achieved"].lines
+    assert zoom.values == (levels.Value("100.0%", "2.5% to 100.0%", "", "100%", True),)
+    assert without.values == (levels.Value("100.0%", "2.5% to 100.0%", "", "65%", True),)
+
+
+def test_one_condition_has_no_ratio_and_one_level_no_growth() -> None:
+    assert set(_views((ZOOM, 0.05))) == {"levels-achieved", "levels-seconds"}

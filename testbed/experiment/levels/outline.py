@@ -1,0 +1,54 @@
+"""What is held in memory of a trial at the fine resolution, however large its run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from testbed.experiment.record import FAILURES, FineCounts, TrialRecord
+
+
+@dataclass(frozen=True, slots=True)
+class FineOutline:
+    """The numbers of one trial; `seconds` are by the names of PARTS.
+
+    They are those of the whole trial: `coarse` is planning and diagnosis, `fine` refined plans and
+    the inference of what came of them, `total` both; `refined_plan`, the mean time of one of them,
+    is there where one was made.
+    """
+
+    robot: str
+    pair: str
+    played: bool
+    achieved: bool
+    correct: bool
+    out_of_reach: bool
+    plans: int
+    actions: int
+    tests: int
+    seconds: Mapping[str, float]
+
+
+def fine_outline(record: TrialRecord, fine: FineCounts) -> FineOutline:
+    """What is held of a record that has counts of the fine resolution."""
+    return FineOutline(
+        robot=record.robot,
+        pair=record.pair,
+        played=record.outcome not in FAILURES,
+        achieved=record.achieved,
+        correct=record.correct,
+        out_of_reach=record.in_reach is False,
+        plans=fine.plans,
+        actions=fine.actions,
+        tests=fine.tests,
+        seconds=_seconds(record, fine),
+    )
+
+
+def _seconds(record: TrialRecord, fine: FineCounts) -> dict[str, float]:
+    own = fine.planning_time_s + fine.infer_time_s
+    coarse = record.planning_time_s + record.diagnosis_time_s
+    seconds = {"total": own + coarse, "fine": own, "coarse": coarse}
+    if fine.plans:
+        seconds["refined_plan"] = fine.planning_time_s / fine.plans
+    return seconds
