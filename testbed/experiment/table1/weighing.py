@@ -1,0 +1,105 @@
+"""Table 1 of pairs that do not all weigh the same: shares, accuracies and mean ratios."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
+
+from testbed.experiment.resampling import BATCH, CONFIDENCE, RESAMPLES, SEED, Values
+from testbed.experiment.statistics import Estimate
+from testbed.experiment.table1.pairing import Pair
+from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
+from testbed.experiment.table1.results import Ratio, Row, Table
+
+Weighed = tuple[Pair, float]
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """A table of weighed pairs; `shares` are the parts of scenarios 1 to 5 in its row of all.
+
+    `worth` is how many pairs of one weight say as much as these (Kish's effective sample size).
+    """
+
+    table: Table
+    shares: dict[str, float]
+    worth: float
+
+
+def weighing(pairs: Sequence[Pair], weights: Sequence[float]) -> Weighing:
+    """The table of random pairs, each counted with its weight, if it has any."""
+    counted = [(p, w) for p, w in zip(pairs, weights, strict=True) if p.played and w > 0]
+    inside = [(p, w) for p, w in counted if p.happened in SCENARIOS]
+    whole = sum(w for _, w in inside) or 1.0
+    return Weighing(
+        table=Table(tuple(_row(name, own) for name, own in _rows(inside)), {}),
+        shares={n: sum(w for p, w in inside if p.happened == n) / whole for n in SCENARIOS},
+        worth=sum(w for _, w in counted) ** 2 / (sum(w * w for _, w in counted) or 1.0),
+    )
+
+
+def _rows(inside: Sequence[Weighed]) -> Iterator[tuple[str, list[Weighed]]]:
+    for name in SCENARIOS:
+        yield name, [own for own in inside if own[0].happened == name]
+    yield ALL, list(inside)
+    achieved = [own for own in inside if own[0].base.correct]
+    for name in ("3", "4"):
+        yield name + NO_FAILURES, [own for own in achieved if own[0].happened == name]
+    yield ALL + NO_FAILURES, achieved
+
+
+def _row(name: str, own: Sequence[Weighed]) -> Row:
+    return Row(
+        name=name,
+        pairs=len(own),
+        failed=0,
+        unsolvable=0,
+        out_of_reach=0,
+        meetings={},
+        intentional=_mean(own, lambda pair: pair.mind.correct),
+        baseline=_mean(own, lambda pair: pair.base.correct),
+        accuracy=None,
+        ratios={measure: _ratio(own, measure) for measure in MEASURES},
+    )
+
+
+def _ratio(own: Sequence[Weighed], measure: str) -> Ratio:
+    known = [(pair, weight) for pair, weight in own if pair.mind.measures[measure]]
+    mean = _mean(known, lambda pair: pair.base.measures[measure] / pair.mind.measures[measure])
+    return Ratio(len(known), mean, None, None)
+
+
+def _mean(own: Sequence[Weighed], value: Callable[[Pair], float]) -> Estimate | None:
+    values = np.array([value(pair) for pair, _ in own], dtype=float)
+    weights = np.array([weight for _, weight in own], dtype=float)
+    return weighted_mean(values, weights, [pair.state for pair, _ in own])
+
+
+def weighted_mean(values: Values, weights: Values, clusters: Sequence[Hashable]) -> Estimate | None:
+    """The weighted mean, with its bootstrap interval over clusters; None of nothing.
+
+    Each value has the label of its cluster. A resample draws clusters, each with all it has.
+    """
+    if not len(values):
+        return None
+    labels = {label: number for number, label in enumerate(dict.fromkeys(clusters))}
+    places = np.array([labels[label] for label in clusters], dtype=np.int64)
+    sums, sizes = np.bincount(places, weights * values), np.bincount(places, weights)
+    mean = float(sums.sum() / sizes.sum())
+    if len(labels) == 1 or np.ptp(values) == 0:
+        return Estimate(mean, mean, mean)
+    interval = stats.bootstrap(
+        (sums, sizes),
+        lambda above, below, axis: above.sum(axis=axis) / below.sum(axis=axis),
+        paired=True,
+        vectorized=True,
+        n_resamples=RESAMPLES,
+        batch=BATCH,
+        confidence_level=CONFIDENCE,
+        method="percentile",
+        rng=np.random.default_rng(SEED),
+    ).confidence_interval
+    return Estimate(mean, float(interval.low), float(interval.high))
