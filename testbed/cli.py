@@ -77,7 +77,14 @@ def run(
     out: Annotated[
         Path | None, typer.Option(help="Run folder; without it runs/NAME, numbered if taken.")
     ] = None,
-    workers: Annotated[int, typer.Option(min=1, help="Processes that play trials.")] = 1,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            help="Processes that play trials; without it one a core, and one at most for each "
+            "50 trials.",
+        ),
+    ] = None,
     resume: Annotated[
         bool,
         typer.Option(

@@ -68,6 +68,7 @@ def test_a_run_leaves_everything_in_its_folder_and_a_table_on_the_screen() -> No
     ]
     assert provenance["start"] <= provenance["end"]
     assert provenance["exit"] == 0
+    assert provenance["workers"] == 1
     assert provenance["versions"]["clingo"]
     summary = json.loads(Path("runs/quickstart/summary.json").read_text(encoding="utf-8"))
     assert summary["scenarios"]["2"]["accuracy"] == {"intentional": 1.0, "traditional": 1.0}

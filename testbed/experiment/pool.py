@@ -6,6 +6,7 @@ Workers are spawned: a forked process with an open zenoh session hangs.
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, suppress
@@ -22,6 +23,7 @@ OpenPlayer = Callable[[], AbstractContextManager[Play]]
 
 AHEAD = 4096  # trials that may wait, finished, for an earlier one: what bounds the memory
 EXIT_S = 10.0
+WORTH = 50  # trials for which another process is worth its start
 
 
 def play_all(
@@ -43,6 +45,18 @@ def play_all(
         crew.dismiss(at_once=True)
         raise
     crew.dismiss(at_once=False)
+
+
+def workers_for(trials: int) -> int:
+    """One process a core, but as many only as have `WORTH` trials each; one at least."""
+    return max(1, min(_cores(), trials // WORTH))
+
+
+def _cores() -> int:
+    """Those that this process may use, where the system says it."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 class _Worker:

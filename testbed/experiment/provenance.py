@@ -35,6 +35,7 @@ class Provenance:
             "start": _now(),
             "end": None,
             "exit": None,
+            "workers": None,
             "versions": versions(),
             "platform": {"system": platform.platform(), "machine": platform.machine()},
             "revision": revision(folder),
@@ -44,9 +45,9 @@ class Provenance:
         }
         self._write()
 
-    def close(self, code: int) -> None:
-        """Record the end of the session and its exit code."""
-        self._entry |= {"end": _now(), "exit": code}
+    def close(self, code: int, workers: int) -> None:
+        """Record the end of the session, its exit code and how many processes played."""
+        self._entry |= {"end": _now(), "exit": code, "workers": workers}
         self._write()
 
     def _write(self) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.pool import Play, play_all
+from testbed.experiment.pool import Play, play_all, workers_for
 from testbed.experiment.record import FAILURES
 from testbed.experiment.registry import make_robot
 from testbed.experiment.specs import TrialSpec
@@ -23,20 +23,27 @@ from testbed.link.spawned import spawned_robot
 
 @dataclass
 class Tally:
-    """How a run stands: trials planned, finished, and of these failed; whether it was stopped."""
+    """How a run stands: trials planned, finished, and of these failed; whether it was stopped.
+
+    `workers` are the processes that play what was missing.
+    """
 
     planned: int
     done: int
     failed: int
+    workers: int = 1
     interrupted: bool = False
 
 
 Notify = Callable[[Tally], None]
 
 
-def run_trials(config: ExperimentConfig, folder: Path, workers: int, notify: Notify) -> Tally:
+def run_trials(
+    config: ExperimentConfig, folder: Path, workers: int | None, notify: Notify
+) -> Tally:
     """Play every trial of `config` that `folder` has no record of; append them in their order.
 
+    Without a number of `workers` there are as many as the missing trials are worth.
     An interrupt ends the run early: what was finished is on record, and the tally says so.
     `notify` is called once at the start and after every trial.
 
@@ -47,17 +54,16 @@ def run_trials(config: ExperimentConfig, folder: Path, workers: int, notify: Not
     with TrialWriter(folder) as writer:
         missing = [spec for spec in specs if spec.trial not in writer.done]
         tally = Tally(len(specs), done=len(specs) - len(missing), failed=writer.failed)
+        tally.workers = workers or workers_for(len(missing))
         notify(tally)
         if missing:
-            _play_missing(missing, workers, config, _Filing(folder, writer, tally, notify))
+            _play_missing(missing, config, _Filing(folder, writer, tally, notify))
     return tally
 
 
-def _play_missing(
-    missing: Sequence[TrialSpec], workers: int, config: ExperimentConfig, filing: _Filing
-) -> None:
+def _play_missing(missing: Sequence[TrialSpec], config: ExperimentConfig, filing: _Filing) -> None:
     open_player = partial(player, config.link, config.name, config.limits.answer_s)
-    results = play_all(missing, workers, open_player)
+    results = play_all(missing, filing.tally.workers, open_player)
     try:
         for position, result in results:
             filing.take(position, result)

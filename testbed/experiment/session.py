@@ -42,7 +42,7 @@ def run_session(
     source: str,
     overrides: Sequence[str],
     out: Path | None,
-    workers: int,
+    workers: int | None,
     resume: bool,
     quiet: bool,
 ) -> int:
@@ -58,7 +58,7 @@ def run_session(
     with progress(quiet) as notify:
         tally = run_trials(config, folder, workers, notify)
     code = _exit_code(tally)
-    provenance.close(code)
+    provenance.close(code, tally.workers)
     _conclude(folder, config, tally, _console(quiet))
     return code
 

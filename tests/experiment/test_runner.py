@@ -4,7 +4,7 @@ import os
 import signal
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from multiprocessing import active_children
 from pathlib import Path
@@ -13,7 +13,7 @@ import pytest
 
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.pool import Play, play_all
+from testbed.experiment.pool import WORTH, Play, play_all, workers_for
 from testbed.experiment.record import logical
 from testbed.experiment.registry import make_robot
 from testbed.experiment.runner import Tally, player, run_trials
@@ -144,10 +144,41 @@ def _instant() -> Iterator[Play]:
     yield lambda spec: Result(blank_record(spec))
 
 
+def _instantly(*_: object) -> AbstractContextManager[Play]:
+    return _instant()
+
+
 def test_a_crew_larger_than_its_work_plays_each_trial_once(configure: Configure) -> None:
     specs = plan_trials(configure("scenarios=[1]"))
     played = Counter(position for position, _ in play_all(specs, 5, _instant))
     assert played == {0: 1, 1: 1}
+
+
+@pytest.mark.parametrize("cores", [1, 2, 7])
+def test_there_is_a_worker_a_core_where_each_has_enough_to_play(
+    cores: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("testbed.experiment.pool._cores", lambda: cores)
+    trials = range(10 * WORTH)
+    for n in trials:
+        assert 1 <= workers_for(n) <= cores
+        assert workers_for(n) == 1 or n / workers_for(n) >= WORTH
+        assert workers_for(n) == cores or n / (workers_for(n) + 1) < WORTH
+
+
+@pytest.mark.parametrize(("given", "cores", "used"), [(None, 1, 1), (None, 2, 2), (1, 2, 1)])
+def test_a_run_without_a_number_of_workers_chooses_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: int | None, cores: int, used: int
+) -> None:
+    """The choice is for what is missing: a trial that is left over has one worker."""
+    monkeypatch.setattr("testbed.experiment.pool._cores", lambda: cores)
+    monkeypatch.setattr("testbed.experiment.runner.player", _instantly)
+    config = load_config("office", ["link=inprocess", "scenarios=[1]", f"limit={WORTH}"])
+    assert run_trials(config, tmp_path, given, _ignore).workers == used
+    path = tmp_path / "trials.jsonl"
+    path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[1:]))
+    assert run_trials(config, tmp_path, None, _ignore).workers == 1
+    assert len(list(read_records(tmp_path))) == 2 * WORTH
 
 
 def test_a_caller_that_stops_listening_leaves_no_worker_behind(configure: Configure) -> None:
