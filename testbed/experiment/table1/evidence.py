@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import log
 from statistics import fmean
@@ -11,7 +11,7 @@ from statistics import fmean
 import numpy as np
 from scipy.optimize import nnls  # type: ignore[import-untyped]  # scipy ships no types
 
-from testbed.experiment.table1.analysis import Table
+from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import (
     ALL,
@@ -126,6 +126,28 @@ def closeness(table: Table, rows: Iterable[str] = SCENARIOS) -> Closeness:
                 inside.append(ours.covers(paper.ratios[name], 0.005))
                 distances.append(abs(log(ours.value / paper.ratios[name])))
     return Closeness(sum(inside), len(inside), fmean(distances) if distances else 0.0)
+
+
+@dataclass(frozen=True)
+class Outside:
+    """A published value that does not lie in our interval; `column` is a measure, or `accuracy`."""
+
+    row: str
+    column: str
+    ours: float
+    published: float
+
+
+def outside(table: Iterable[Row], rows: Iterable[str] = SCENARIOS) -> Iterator[Outside]:
+    """The published values that `closeness` does not count as inside."""
+    for row in table:
+        if row.name not in rows:
+            continue
+        paper = PUBLISHED[row.name]
+        means = [(name, row.ratios[name].mean, paper.ratios[name]) for name in WITHOUT_SECONDS]
+        for column, ours, theirs in (*means, ("accuracy", row.baseline, paper.baseline)):
+            if ours is not None and not ours.covers(theirs, 0.005):
+                yield Outside(row.name, column, ours.value, theirs)
 
 
 def plans_made(pairs: Iterable[Pair]) -> Mapping[int, int]:

@@ -12,8 +12,9 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import read_config, read_records
-from testbed.experiment.table1.analysis import Analysis, analyse
+from testbed.experiment.table1.analysis import RANDOM, Analysis, analyse
 from testbed.experiment.table1.pairing import Pair, pairs_of
+from testbed.experiment.table1.redrawing import as_stated, passed_on, weight
 
 PROTOCOL = "table1"
 
@@ -61,3 +62,11 @@ def minds_of(config: ExperimentConfig) -> tuple[str, ...]:
 
 def _pairs(records: Iterable[TrialRecord], config: ExperimentConfig, mind: str) -> list[Pair]:
     return list(pairs_of(records, load_world(config.domain), mind, BASELINE))
+
+
+def released_weights(run: Run, mind: str) -> dict[str, float]:
+    """What random pairs weigh under the released simulator's draw, by this robot's trial."""
+    world, rate = load_world(run.config.domain), run.config.adversary.rate
+    played, other = as_stated(world, RANDOM, rate), passed_on(world, RANDOM, rate)
+    own = (r for r in read_records(run.folder) if r.scenario == RANDOM and r.robot == mind)
+    return {record.trial: weight(record, world, played, other) for record in own}

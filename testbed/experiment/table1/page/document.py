@@ -7,14 +7,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from testbed.experiment.digest import digest
+from testbed.experiment.domains import load_world
 from testbed.experiment.markdown import markdown
 from testbed.experiment.store import read_records
 from testbed.experiment.table1.analysis import Analysis, Table
 from testbed.experiment.table1.page.drawing import drawing
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
+from testbed.experiment.table1.page.hypotheses import Hypothesis, compared, hypotheses, weigh
 from testbed.experiment.table1.page.others import arguments, later, unaided
+from testbed.experiment.table1.page.released import released
 from testbed.experiment.table1.page.rows import row_by_row
-from testbed.experiment.table1.runs import Run
+from testbed.experiment.table1.runs import Run, released_weights
 from testbed.experiment.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
 
 INTRODUCTION = """\
@@ -27,9 +30,10 @@ and how. Nothing in the robots or in the triggers was chosen to come near the pu
 {commands}
 ```
 
-Whoever runs the first command gets the same results: their digest, times aside, is
-`{digest}`. Planning times depend on the machine, and on
-what else it does.
+Whoever runs them gets the same results. Planning times depend on the machine, and on what else it
+does; times aside, the digests of the results, which `testbed run` says at the end, are
+
+{digests}
 
 In each table: our mean with its 95% interval, our median, and the published value, with `*` where
 it does not lie in the interval of our mean. TP is `traditional`, ATI `intentional`; ratios are
@@ -60,14 +64,13 @@ def document(sources: Sources) -> str:
     mind = sources.main.minds[0]
     analysis, pairs = sources.main.analyses[mind], sources.main.pairs[mind]
     parts = [
-        INTRODUCTION.format(
-            commands=_commands(sources), digest=digest(read_records(sources.main.folder))
-        ),
+        INTRODUCTION.format(commands=_commands(sources), digests=_digests(sources)),
         *_tables(analysis),
         drawing(analysis),
         blindness(pairs),
-        row_by_row(pairs),
-        *([] if sources.later is None else [later(sources.later)]),
+        row_by_row(pairs, load_world(sources.main.config.domain)),
+        *_hypotheses(sources, mind),
+        *([] if sources.later is None else [later(sources.later, pairs)]),
         failures(sources.main, mind),
         meetings(pairs),
         *([] if sources.unaided is None else [unaided(sources.unaided)]),
@@ -76,9 +79,35 @@ def document(sources: Sources) -> str:
     return "\n".join(parts)
 
 
+def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
+    """What random pairs would come to otherwise, where there are any."""
+    main = sources.main
+    if main.analyses[mind].random is None:
+        return
+    weights = released_weights(main, mind)
+    yield released(weigh(main.pairs[mind], lambda pair: weights[pair.mind.trial]))
+    found = hypotheses(main.pairs[mind], main.config.goal, weights)
+    if sources.later is not None:
+        own = weigh(sources.later.pairs[mind], lambda _: 1.0)
+        found.append(Hypothesis(f"rate {sources.later.config.adversary.rate}", own))
+    yield compared(found)
+
+
+def _digests(sources: Sources) -> str:
+    rows = [
+        (f"`runs/{run.config.name}`", f"`{digest(read_records(run.folder))}`")
+        for run in _runs(sources)
+    ]
+    return markdown(("run", "digest"), rows)
+
+
+def _runs(sources: Sources) -> list[Run]:
+    return [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
+
+
 def _commands(sources: Sources) -> str:
-    runs = [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
-    lines = [f"$ testbed run {shlex.join(arguments(run.config))} --workers 2" for run in runs]
+    configs = [run.config for run in _runs(sources)]
+    lines = [f"$ testbed run {shlex.join(arguments(own))} --workers 2" for own in configs]
     options = [
         f"--{option} runs/{run.config.name}"
         for option, run in (("unaided", sources.unaided), ("later", sources.later))

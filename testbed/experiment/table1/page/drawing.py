@@ -5,7 +5,9 @@ from __future__ import annotations
 from testbed.experiment.markdown import markdown
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import Analysis
-from testbed.experiment.table1.published import PUBLISHED, SCENARIOS
+from testbed.experiment.table1.classify import UNCLASSIFIED
+from testbed.experiment.table1.page.text import paragraph, percent
+from testbed.experiment.table1.published import ALL, PUBLISHED, SCENARIOS
 
 
 def drawing(analysis: Analysis) -> str:
@@ -14,11 +16,7 @@ def drawing(analysis: Analysis) -> str:
     return f"""\
 ## Which way of drawing explains the published table
 
-The published row `all` is not the average of the five rows with equal weights: that would have a
-total time of {_even_time():.2f} in place of 1.00, and {_even_accuracy()} in place of 74%. It *is*
-an average of them with other weights, found by least squares, from which no column differs by more
-than {misfit:.3f}. Beside these weights the shares of the scenarios among our pairs (triggered, each
-is played equally often, and its event does not fire in all):
+{_averaged(misfit)}
 
 {_weights(analysis, weights)}
 
@@ -30,7 +28,27 @@ distance is the mean of |ln(ours / published)| over the three ratios:
 What the pairs came to be, read off what ATI did:
 
 {_became(analysis)}
+
+No rule of classification fits in {unclassified(analysis)} of these pairs.
 """
+
+
+def unclassified(analysis: Analysis) -> int:
+    """How many pairs, of whatever was played, are of no scenario by the rules."""
+    return sum(counts.get(UNCLASSIFIED, 0) for counts in analysis.became.values())
+
+
+def _averaged(misfit: float) -> str:
+    """Which average of the published rows the published row of all is."""
+    row = PUBLISHED[ALL]
+    return paragraph(
+        "The published row `all` is not the average of the five rows with equal weights: that "
+        f"would have a total time of {_even_time():.2f} in place of {row.ratios['total_time']:.2f},"
+        f" and {_even_accuracy()} in place of {percent(row.baseline)}. With other weights, found "
+        f"by least squares, no column of the average differs from it by more than {misfit:.3f}. "
+        "Beside these weights the shares of the scenarios among our pairs (triggered, each is "
+        "played equally often, and its event does not fire in all):"
+    )
 
 
 def _even_time() -> float:
@@ -39,11 +57,6 @@ def _even_time() -> float:
 
 def _even_accuracy() -> str:
     return percent(sum(PUBLISHED[name].baseline for name in SCENARIOS) / len(SCENARIOS))
-
-
-def percent(share: float) -> str:
-    """A share in whole percents."""
-    return f"{100 * share:.0f}%"
 
 
 def _weights(analysis: Analysis, weights: dict[str, float]) -> str:

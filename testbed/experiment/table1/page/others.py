@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.domains import load_world
 from testbed.experiment.markdown import markdown
 from testbed.experiment.store import flat_config
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM, Row
-from testbed.experiment.table1.page.drawing import percent
+from testbed.experiment.table1.page.text import paragraph, percent
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
 from testbed.experiment.table1.runs import PROTOCOL, Run
@@ -29,8 +30,8 @@ def _value(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def later(run: Run) -> str:
-    """The same random pairs with events that come later."""
+def later(run: Run, main: Sequence[Pair]) -> str:
+    """The same random pairs with events that come later than in the main run."""
     table = run.analyses[run.minds[0]].random
     if table is None:
         return ""
@@ -42,16 +43,29 @@ def later(run: Run) -> str:
     return f"""\
 ## If random events came later
 
-In the released simulator a random event is tried with probability 0.92 at each action, so that it
-mostly comes beside the first, when nothing that the robot delivered can be undone yet. How much
-depends on that is seen with {run.config.adversary.rate} in its place, all else being equal. This is
-no attempt at agreement; the tables above stand. The shares of the scenarios, beside those that the
-published rows ask for, say whether later events could be what the published table is made of:
+{_first(main, run)}
 
 {markdown(columns, rows)}
 
 Shares of the scenarios 1 to 5: {shares}; published {weights}.
 """
+
+
+def _first(main: Sequence[Pair], run: Run) -> str:
+    """How often the event comes beside the first action, and by which probability."""
+    came = [len(p.mind.before) == 1 for p in main if p.intended == RANDOM and p.mind.event]
+    triggers = load_world(run.config.domain).description.triggers
+    stated = min(t.probability for t in triggers if t.scenario == RANDOM)
+    often = percent(sum(came) / len(came)) if came else "none"
+    return paragraph(
+        f"A random event is tried with probability {stated} at each action, as in the released "
+        f"simulator: in {often} of the pairs that have one it comes beside the first, when nothing "
+        "that the robot delivered can be undone yet. How much depends on that is seen with "
+        f"{run.config.adversary.rate} in its place, all else being equal. This is no attempt at "
+        "agreement; the tables above stand. The shares of the scenarios, beside those that the "
+        "published rows ask for, say whether later events could be what the published table is "
+        "made of:"
+    )
 
 
 def _accuracy(row: Row) -> tuple[str, ...]:
