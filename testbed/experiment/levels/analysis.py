@@ -20,10 +20,14 @@ Pair = tuple[FineOutline, FineOutline]
 
 
 def summarise_levels(levels: Mapping[str, Outlines]) -> dict[str, dict[str, object]]:
-    """The columns of each level, as `Level` has them; p-values are corrected over all of them."""
+    """The columns of each level as a summary holds them."""
+    return {name: msgspec.to_builtins(level) for name, level in analyse(levels).items()}
+
+
+def analyse(levels: Mapping[str, Outlines]) -> dict[str, Level]:
+    """The columns of each level; p-values are corrected over the tests of all of them."""
     first = _by_robot(levels.get(FIRST, ()))
-    found = {name: _level(name, _by_robot(own), first) for name, own in levels.items()}
-    return {name: msgspec.to_builtins(level) for name, level in _corrected(found).items()}
+    return _corrected({name: _level(name, _by_robot(own), first) for name, own in levels.items()})
 
 
 def _by_robot(outlines: Outlines) -> dict[str, list[FineOutline]]:
