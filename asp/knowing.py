@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 from clingo import Symbol
 
 from asp.inference import inference_program
+from asp.kept.recent import Recent
 from asp.literals import arguments, atom, is_positive
 from asp.refinement import Refinement
 from asp.restriction import narrowed, restrict
@@ -44,7 +44,7 @@ class Theory:
 
     def __init__(self, refinement: Refinement) -> None:
         self._refinement = refinement
-        self._program = lru_cache(maxsize=_REMEMBERED)(self._make_program)
+        self._programs: Recent[frozenset[str], str] = Recent(_REMEMBERED)
 
     def infer(
         self, known: Known, seen: Sequence[Collection[str]], about: Collection[str]
@@ -58,7 +58,9 @@ class Theory:
         literals = [*known.true, *known.false, *(literal for step in seen for literal in step)]
         wholes = self._refinement.wholes
         named = (wholes.get(name, name) for literal in literals for name in arguments(literal))
-        texts = [self._program(frozenset([*about, *named])), theory("fine_inference")]
+        whole = frozenset([*about, *named])
+        program = self._programs.get(whole, lambda: self._make_program(whole))
+        texts = [program, theory("fine_inference")]
         facts = [*_known(known), *_seen(seen)]
         for most in range(len(literals) + 1):
             control = ground(texts, {"now": len(seen), "most": most}, facts)

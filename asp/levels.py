@@ -10,9 +10,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from importlib.resources import files
 from itertools import pairwise
+
+from asp.loading import MOST_TEXTS
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ LEVELS: Mapping[str, LevelSize] = {
 Pairs = Iterator[tuple[str, str]]
 
 
-@cache
+@lru_cache(maxsize=MOST_TEXTS)
 def level_text(
     rooms: int, rows: int, columns: int, objects: tuple[tuple[int, int], ...]
 ) -> tuple[str, str]:

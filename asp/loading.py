@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache, lru_cache
+from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
 
@@ -14,8 +14,11 @@ from asp.grounding import ground_description
 from asp.parser import parse
 from asp.signature import Problems, Signature, signature_of
 
+MOST_TEXTS = 32
+"""Of how many texts the description is remembered: those that were read last."""
 
-@lru_cache(maxsize=16)
+
+@lru_cache(maxsize=MOST_TEXTS)
 def analyse(text: str, file: str = "<text>") -> tuple[syntax.Source, Signature]:
     """Parses and checks a text, each of the last few once.
 
@@ -31,7 +34,7 @@ def analyse(text: str, file: str = "<text>") -> tuple[syntax.Source, Signature]:
     return source, signature
 
 
-@cache
+@lru_cache(maxsize=MOST_TEXTS)
 def parse_description(text: str, file: str = "<text>") -> Description:
     """The ground description of an AL_d text. Raises SourceError."""
     source, signature = analyse(text, file)

@@ -11,6 +11,8 @@ from functools import _lru_cache_wrapper
 from multiprocessing.connection import Connection
 from typing import TypeVar
 
+from asp.kept.recent import Answers
+
 T = TypeVar("T")
 
 _ANSWERS = ("asp.kept", "agents.")
@@ -53,6 +55,9 @@ def forget() -> None:
     """
     for remembered in _memories():
         remembered.cache_clear()
+    for found in gc.get_objects():
+        if isinstance(found, Answers):
+            found.forget()
 
 
 def _memories() -> list[_lru_cache_wrapper[object]]:

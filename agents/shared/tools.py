@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from dataclasses import dataclass
 
 from agents.shared.knowledge import Knowledge
 from asp.kept.explanations import Explanations
 from asp.kept.plans import Plans
 from asp.kept.reach import Reach
+from asp.kept.recent import Recent
 from asp.kept.transitions import Transitions
 from asp.kept.windows import Windows
 
@@ -27,7 +27,7 @@ class Tools:
 MOST_DOMAINS = 16
 """Of how many domains controls are kept: those that were used last."""
 
-_TOOLS: OrderedDict[str, Tools] = OrderedDict()
+_TOOLS: Recent[str, Tools] = Recent(MOST_DOMAINS)
 
 
 def tools_of(knowledge: Knowledge) -> Tools:
@@ -35,24 +35,23 @@ def tools_of(knowledge: Knowledge) -> Tools:
 
     A robot whose domain follows from its goal has as many domains as goals.
     """
-    if knowledge.program not in _TOOLS:
-        while len(_TOOLS) >= MOST_DOMAINS:
-            _TOOLS.popitem(last=False)
-        description, program, ranks = knowledge.description, knowledge.program, knowledge.ranks
-        fluents = description.fluents
-        plans = Plans(description.source, f"{description.name}.al")
-        _TOOLS[knowledge.program] = Tools(
-            Transitions(program, fluents, ranks),
-            Explanations(
-                program,
-                fluents,
-                description.exogenous_actions,
-                [default.name for default in description.defaults],
-                (*ranks, *knowledge.start),
-            ),
-            Windows(program, fluents, description.inertial, description.exogenous_actions, ranks),
-            plans,
-            Reach(description, program, plans),
-        )
-    _TOOLS.move_to_end(knowledge.program)
-    return _TOOLS[knowledge.program]
+    return _TOOLS.get(knowledge.program, lambda: _made(knowledge))
+
+
+def _made(knowledge: Knowledge) -> Tools:
+    description, program, ranks = knowledge.description, knowledge.program, knowledge.ranks
+    fluents = description.fluents
+    plans = Plans(description.source, f"{description.name}.al")
+    return Tools(
+        Transitions(program, fluents, ranks),
+        Explanations(
+            program,
+            fluents,
+            description.exogenous_actions,
+            [default.name for default in description.defaults],
+            (*ranks, *knowledge.start),
+        ),
+        Windows(program, fluents, description.inertial, description.exogenous_actions, ranks),
+        plans,
+        Reach(description, program, plans),
+    )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
 
 import clingo
 from clingo import Symbol
@@ -11,11 +10,14 @@ from clingo import Symbol
 from asp.description import Causal, Constraint, Description
 from asp.kept.control import KeptControl, State
 from asp.kept.plans import Plans
+from asp.kept.recent import Answers
 from asp.literals import atom, is_positive
 from asp.solving import answer_sets, core, fact, ground, is_satisfiable, symbol, theory
 
 _MOST_STATES = 2_000
-_REMEMBERED = 1_000
+
+MOST_ANSWERS, MOST_ORIGINS = 1_000, 16
+"""How many answers are remembered, and of how many states what can be reached from there."""
 
 
 class Reach:
@@ -33,14 +35,17 @@ class Reach:
         self._program = program
         self._plans = plans
         self._kept: KeptControl | None = None
-        self._all_from = lru_cache(maxsize=16)(self._explore)
-        self.out_of_reach = lru_cache(maxsize=_REMEMBERED)(self._out_of_reach)
+        self._answers: Answers[tuple[State, tuple[str, ...]], bool] = Answers(MOST_ANSWERS)
+        self._all_from: Answers[State, frozenset[State] | None] = Answers(MOST_ORIGINS)
 
-    def _out_of_reach(self, state: State, goal: tuple[str, ...]) -> bool:
+    def out_of_reach(self, state: State, goal: tuple[str, ...]) -> bool:
         """Whether it is proved that no plan leads from the state to the goal.
 
         Raises TimeLimitError.
         """
+        return self._answers.get((state, goal), lambda: self._is_proved(state, goal))
+
+    def _is_proved(self, state: State, goal: tuple[str, ...]) -> bool:
         return self._contradictory(goal) or self._relaxed(state, goal) or self._looked(state, goal)
 
     def hindrance(self, state: State, action: str) -> tuple[str, ...]:
@@ -82,7 +87,7 @@ class Reach:
         reachable = self._plans.reachable(state, goal)
         if reachable is not None:
             return not reachable
-        states = self._all_from(state)
+        states = self._all_from.get(state, lambda: self._explore(state))
         return states is not None and not any(
             all((atom(literal) in other) == is_positive(literal) for literal in goal)
             for other in states

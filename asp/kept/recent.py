@@ -32,3 +32,16 @@ class Recent(Generic[Key, Value]):
 
     def __len__(self) -> int:
         return len(self._kept)
+
+
+class Answers(Recent[Key, Value]):
+    """The answers that were asked for last, which may be forgotten at any time.
+
+    Unlike `functools.lru_cache` over a method it has no reference to what it belongs to. A cycle of
+    references keeps controls in memory until the garbage collector comes by, which counts objects
+    and knows nothing of the size of a control.
+    """
+
+    def forget(self) -> None:
+        """All answers are found anew."""
+        self._kept.clear()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property, lru_cache
 from itertools import product
 
 from asp import syntax
@@ -14,7 +14,7 @@ from asp.cycles import check_cycles, may_have_cycles
 from asp.description import Description
 from asp.errors import SourceError
 from asp.literals import arguments, atom, complement, ground, is_positive, name
-from asp.loading import analyse, parse_description
+from asp.loading import MOST_TEXTS, analyse, parse_description
 from asp.parser import parse
 from asp.refinement.facts import Facts
 from asp.refinement.language import parse_fine
@@ -113,7 +113,7 @@ class Refinement:
         return tuple(ground(self.counterparts[name(coarse)], args) for args in parts)
 
 
-@cache
+@lru_cache(maxsize=MOST_TEXTS)
 def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> Refinement:
     """The refinement of a coarse AL_d text by the text of a refinement. Raises SourceError."""
     coarse, signature = analyse(coarse_text, coarse_file)

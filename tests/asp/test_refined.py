@@ -133,7 +133,7 @@ def test_no_more_is_kept_than_was_asked_for() -> None:
 
 def test_plans_are_the_same_where_little_is_kept() -> None:
     draw, planner = random.Random(3), _planner(level("L2"))
-    forgetful = FinePlanner(level("L2").weak, level("L2").weak_signature, most_steps=1)
+    forgetful = FinePlanner(level("L2").weak, level("L2").weak_signature, horizons=Horizons(1))
     for _ in range(20):
         start, goal = drawn_state(level("L2"), draw), drawn_goal(level("L2"), draw)
         assert forgetful.plan(start, goal, LIMIT) == planner.plan(start, goal, LIMIT)

@@ -3,22 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from functools import cache
 
-from asp.knowing import Known, Theory
+from agents.intentional.executor.means import means_of
+from asp.knowing import Known
 from asp.literals import arguments, atom, complement
-from asp.quick import Quick
 from asp.refinement import Refinement
-
-
-@cache
-def _quick(refinement: Refinement) -> Quick:
-    return Quick(refinement)
-
-
-@cache
-def _theory(refinement: Refinement) -> Theory:
-    return Theory(refinement)
 
 
 class FineBelief:
@@ -30,8 +19,8 @@ class FineBelief:
     def __init__(self, refinement: Refinement, literals: Iterable[str]) -> None:
         """`literals` are known to begin with."""
         self._refinement = refinement
-        self._quick = _quick(refinement)
-        self._theory = _theory(refinement)
+        means = means_of(refinement)
+        self._quick, self._theory = means.quick, means.theory
         self.known = Known()
         self.see(literals)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Sequence
 
-from agents.intentional.executor.laws import conditions, direct_effects
 from agents.intentional.executor.looking import Looking
 from agents.intentional.executor.mind import Mind
 from asp.literals import arguments, atom, complement, is_positive
@@ -43,7 +42,7 @@ class Execution:
         with mind.tally.planning():
             self._relevant = relevant(mind.refinement.coarse, transition, mind.goal)
             self._effects = fine_goal(mind.refinement, transition, self._relevant).effects
-            self._direct = direct_effects(mind.refinement).get(action, frozenset())
+            self._direct = mind.means.direct_effects.get(action, frozenset())
             things = mind.looked_for(self._relevant)
         self._looking = Looking(mind, before, after, things)
         every = mind.refinement.coarse_signature.constants
@@ -125,7 +124,7 @@ class Execution:
         and of no other: to go to a room a robot need not find there what it expected.
         """
         about = frozenset(arguments(self.action))
-        needed = conditions(self._mind.refinement).get(self.action, frozenset())
+        needed = self._mind.means.conditions.get(self.action, frozenset())
         return tuple(
             group
             for fluent in sorted(self._before)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from functools import cache
 from itertools import product
 
 from asp import roles, syntax
@@ -99,7 +98,6 @@ class Tests:
                 yield _instance(law.head.atom, {**binding, **dict(zip(free, values, strict=True))})
 
 
-@cache
 def conditions(refinement: Refinement) -> Mapping[str, frozenset[str]]:
     """The fluents on which it depends whether a coarse action is possible."""
     found: dict[str, frozenset[str]] = {}
@@ -109,7 +107,6 @@ def conditions(refinement: Refinement) -> Mapping[str, frozenset[str]]:
     return found
 
 
-@cache
 def direct_effects(refinement: Refinement) -> Mapping[str, frozenset[str]]:
     """What causal laws say that a coarse action may bring about."""
     found: dict[str, frozenset[str]] = {}

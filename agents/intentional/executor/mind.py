@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from functools import cache
 
 from agents.intentional.executor.belief import FineBelief
 from agents.intentional.executor.coarse import CoarseDiagram
-from agents.intentional.executor.laws import Effects, Tests
+from agents.intentional.executor.means import means_of
 from agents.intentional.executor.tally import Tally
 from asp.fine_plans import FineStart, NoPlan
-from asp.kept.clock import standing_still
-from asp.kept.refined import FinePlanner, LiteralPlanner, fine_planner
 from asp.literals import arguments, atom, is_positive, name
 from asp.refinement import Refinement
-from asp.refinement.refining import shared_places
 from asp.refinement.zooming import fine_constants
 from testbed.link.messages import Percept, Task
 
@@ -37,8 +33,9 @@ class Mind:
         self.decision_s = task.decision_s
         self.zooms = zooms
         self.tally = Tally()
-        self.tests = _tests(refinement, coarse.robot)
-        self.effects = _effects(refinement)
+        self.means = means_of(refinement)
+        self.tests = self.means.tests(coarse.robot)
+        self.effects = self.means.effects
         self.belief = FineBelief(refinement, ())
         self.plain: frozenset[str] = frozenset()
         self.shown: frozenset[str] = frozenset()
@@ -116,9 +113,8 @@ class Mind:
         constants = zoom | fine_constants(self.refinement, zoom)
         start = FineStart(self.belief.known.true | self._inertial(), candidates)
         limit = sum(len(self.refinement.components[constant]) for constant in zoom) + 1
-        planner = _planner(self.refinement)
         try:
-            found = planner.plan(start, goal, limit, constants if self.zooms else None)
+            found = self.means.planner.plan(start, goal, limit, constants if self.zooms else None)
         except ValueError:  # the goal is about something that is elsewhere
             return None
         return None if isinstance(found, NoPlan) else found
@@ -137,7 +133,7 @@ class Mind:
     def looked_for(self, wholes: Iterable[str]) -> frozenset[str]:
         """What is tested for of some coarse constants: one component, where they share a place."""
         components = (self.refinement.components[whole] for whole in wholes)
-        shares = bool(_shared(self.refinement))
+        shares = self.means.shares_places
         return frozenset(part for parts in components for part in (parts[:1] if shares else parts))
 
     def _is_fine(self, literal: str) -> bool:
@@ -146,24 +142,3 @@ class Mind:
     def _is_plain(self, literal: str) -> bool:
         symbols = self.refinement.coarse_signature.symbols
         return name(literal) in symbols and not self.is_magnified(literal)
-
-
-@cache
-def _planner(refinement: Refinement) -> FinePlanner | LiteralPlanner:
-    with standing_still():
-        return fine_planner(refinement.weak, refinement.weak_signature)
-
-
-@cache
-def _effects(refinement: Refinement) -> Effects:
-    return Effects(refinement)
-
-
-@cache
-def _tests(refinement: Refinement, robot: str) -> Tests:
-    return Tests(refinement, robot)
-
-
-@cache
-def _shared(refinement: Refinement) -> frozenset[tuple[str, int]]:
-    return shared_places(refinement.weak)

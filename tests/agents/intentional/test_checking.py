@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
 
 import pytest
@@ -15,6 +14,7 @@ from agents.intentional.controller import IntentionalRobot
 from agents.shared import tools
 from agents.shared.knowledge import knowledge
 from agents.shared.tools import Tools, tools_of
+from asp.kept.recent import Recent
 from asp.loading import parse_description
 from testbed.experiment.oracle import minimal_actions
 from testbed.link.messages import Task
@@ -157,8 +157,7 @@ def test_its_task_is_the_task_with_what_it_has_to_be_sure_of() -> None:
 def test_of_many_goals_only_the_last_domains_keep_their_controls(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(tools, "MOST_DOMAINS", 2)
-    monkeypatch.setattr(tools, "_TOOLS", OrderedDict())
+    monkeypatch.setattr(tools, "_TOOLS", Recent(2))
     initial = WORLD.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
     kept = list[Tools]()
     for room in ("office2", "library", "office2", "kitchen", "office2", "library"):

@@ -1,0 +1,81 @@
+"""What is made once of a refinement, and serves every trial in it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+
+from agents.intentional.executor.laws import Effects, Tests, conditions, direct_effects
+from asp.kept.clock import standing_still
+from asp.kept.horizons import Horizons
+from asp.kept.recent import Recent
+from asp.kept.refined import MOST_STEPS, FinePlanner, LiteralPlanner, fine_planner
+from asp.knowing import Theory
+from asp.quick import Quick
+from asp.refinement import Refinement
+from asp.refinement.refining import shared_places
+
+MOST_REFINEMENTS = 16
+"""Of how many refinements this is kept: those that were used last."""
+
+
+class Means:
+    """Planner, inferences and laws of one refinement, each made when it is first asked for."""
+
+    def __init__(self, refinement: Refinement, horizons: Horizons) -> None:
+        """`horizons` has the controls of concrete plans, of other refinements too."""
+        self._refinement = refinement
+        self._horizons = horizons
+        self._tests: dict[str, Tests] = {}
+
+    @cached_property
+    def planner(self) -> FinePlanner | LiteralPlanner:
+        """Plans of concrete actions."""
+        refinement = self._refinement
+        with standing_still():
+            return fine_planner(refinement.weak, refinement.weak_signature, self._horizons)
+
+    @cached_property
+    def quick(self) -> Quick:
+        """Inferences where the laws are simple."""
+        return Quick(self._refinement)
+
+    @cached_property
+    def theory(self) -> Theory:
+        """Inferences by `fine_inference.lp`."""
+        return Theory(self._refinement)
+
+    @cached_property
+    def effects(self) -> Effects:
+        """The direct effects of concrete actions and of events."""
+        return Effects(self._refinement)
+
+    def tests(self, robot: str) -> Tests:
+        """The tests of a robot."""
+        if robot not in self._tests:
+            self._tests[robot] = Tests(self._refinement, robot)
+        return self._tests[robot]
+
+    @cached_property
+    def shares_places(self) -> bool:
+        """Whether the components of anything are always in the same place."""
+        return bool(shared_places(self._refinement.weak))
+
+    @cached_property
+    def conditions(self) -> Mapping[str, frozenset[str]]:
+        """Of each coarse action, the fluents on which it depends whether it is possible."""
+        return conditions(self._refinement)
+
+    @cached_property
+    def direct_effects(self) -> Mapping[str, frozenset[str]]:
+        """Of each coarse action, what causal laws say that it may bring about."""
+        return direct_effects(self._refinement)
+
+
+_HORIZONS = Horizons(MOST_STEPS)
+_MEANS: Recent[Refinement, Means] = Recent(MOST_REFINEMENTS)
+
+
+def means_of(refinement: Refinement) -> Means:
+    """The means of a refinement, made when they are first asked for."""
+    return _MEANS.get(refinement, lambda: Means(refinement, _HORIZONS))

@@ -1,0 +1,70 @@
+"""What is kept of refinements: of the last ones, within one bound, and freed at once."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from weakref import ref
+
+import pytest
+
+from agents.intentional.executor import means
+from agents.intentional.executor.means import Means, means_of
+from agents.intentional.refined import RefinedRobot
+from asp.kept.horizon import Horizon
+from asp.kept.horizons import Horizons
+from asp.kept.recent import Recent
+from asp.levels import level_text
+from asp.refinement import Refinement, load
+from tests.agents.intentional.executor.stage import TEXTS, play
+
+GOAL = ["loc(object1,room2)"]
+CELLS = range(2, 6)
+
+
+def _row(cells: int) -> Refinement:
+    """Two rooms of so many cells in a row, and one object."""
+    coarse, fine = level_text(2, 1, cells, ((1, 1),))
+    refinement = load(coarse, "stage.al", fine, "stage.fine")
+    TEXTS[refinement] = fine
+    return refinement
+
+
+def _played(refinement: Refinement) -> ref[Means]:
+    """The means with which an object was taken from one room to the next."""
+    initial = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]
+    assert play(RefinedRobot(), refinement, initial, GOAL).achieved
+    return ref(means_of(refinement))
+
+
+@pytest.fixture
+def uncollected() -> Iterator[None]:
+    """Without the garbage collector: what is freed has no reference left."""
+    gc.collect()
+    gc.disable()
+    yield
+    gc.enable()
+
+
+@pytest.mark.usefixtures("uncollected")
+def test_of_many_refinements_the_last_ones_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(means, "_MEANS", Recent(2))
+    kept = [_played(_row(cells)) for cells in CELLS]
+    assert [found() is None for found in kept] == [True, True, False, False]
+    assert means_of(_row(CELLS[-1])) is kept[-1]()
+
+
+def test_controls_of_all_refinements_have_one_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    horizons = Horizons(20)
+    monkeypatch.setattr(means, "_HORIZONS", horizons)
+    monkeypatch.setattr(means, "_MEANS", Recent(len(CELLS)))
+    gc.collect()
+    before = len(_horizons())
+    for cells in CELLS:
+        _played(_row(cells))
+        assert len(horizons) == 1 or horizons.size <= 20
+        assert len(_horizons()) - before == len(horizons)
+
+
+def _horizons() -> list[Horizon]:
+    return [found for found in gc.get_objects() if isinstance(found, Horizon)]

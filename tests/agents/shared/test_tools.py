@@ -1,0 +1,86 @@
+"""Controls of many domains: no more are kept than the bound, and what goes is gone at once."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from typing import TypeVar
+from weakref import ref
+
+import pytest
+
+from agents.intentional.checking import CheckingRobot, to_be_sure
+from agents.shared import tools
+from agents.shared.knowledge import knowledge
+from agents.shared.tools import Tools, tools_of
+from asp.description import Description
+from asp.kept.control import KeptControl
+from asp.kept.recent import Recent
+from asp.loading import MOST_TEXTS, parse_description
+from testbed.link.messages import Task
+from tests.agents.intentional.lives import OFFICE, live
+
+T = TypeVar("T")
+
+DOMAIN, SOURCE, WORLD = OFFICE.domain, OFFICE.source, OFFICE.world
+INITIAL = WORLD.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
+OUT_OF_REACH = ["loc(book1,library)", "loc(book1,office1)"]
+GOALS = (["loc(rob1,office2)"], ["loc(book1,library)"], OUT_OF_REACH, ["loc(rob1,library)"])
+
+
+@pytest.fixture
+def uncollected() -> Iterator[None]:
+    """Without the garbage collector: what is freed has no reference left."""
+    gc.collect()
+    gc.disable()
+    yield
+    gc.enable()
+
+
+@pytest.mark.usefixtures("uncollected")
+def test_a_domain_that_is_not_kept_any_more_leaves_no_control(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(tools, "_TOOLS", Recent(1))
+    kept, controls = list[ref[Tools]](), list[int]()
+    for goal in (*GOALS, *GOALS):
+        kept.append(_played(goal))
+        controls.append(len(_alive(KeptControl)))
+    *gone, last = kept
+    assert last() is not None
+    assert [tools() for tools in gone] == [None] * len(gone)
+    assert controls[: len(GOALS)] == controls[len(GOALS) :], "no more than each has by itself"
+
+
+def test_of_many_texts_the_last_descriptions_are_remembered() -> None:
+    for number in range(2 * MOST_TEXTS):
+        text = SOURCE.replace("library", f"vault{number}")
+        assert f"locked(vault{number})" in parse_description(text, "many.al").fluents
+    gc.collect()
+    vaults = [d for d in _alive(Description) if any("vault" in f for f in d.fluents)]
+    assert 0 < len(vaults) <= MOST_TEXTS
+
+
+def _played(goal: list[str]) -> ref[Tools]:
+    """The tools that a robot that checks had for its goal."""
+    live(CheckingRobot(), INITIAL, goal, feedback=False)
+    return ref(tools_of(knowledge(DOMAIN, _source(goal))))
+
+
+def _source(goal: list[str]) -> str:
+    known = [*WORLD.literals(INITIAL)]
+    task = Task(
+        trial="t",
+        robot="r",
+        domain=DOMAIN,
+        source=SOURCE,
+        goal=goal,
+        initial=known,
+        plan_limit=9,
+        seed=0,
+    )
+    return to_be_sure(task).source
+
+
+def _alive(kind: type[T]) -> list[T]:
+    return [found for found in gc.get_objects() if isinstance(found, kind)]
