@@ -139,5 +139,7 @@ def test_only_cells_with_both_values_are_counted() -> None:
         Cell(ours),
         Cell(None, published=Rounded(2.0)),
     )
-    counted = evidence.inside([Line("L1", "zoom", 1, cells), Line("L2", "zoom", 1, cells[:1])])
+    counted = evidence.inside(
+        [Line("L1", "zoom", ZOOM, 1, cells), Line("L2", "zoom", ZOOM, 1, cells[:1])]
+    )
     assert (counted.inside, counted.values) == (2, 3)

@@ -135,6 +135,7 @@ def test_the_protocol_is_what_the_published_figures_stand_beside() -> None:
 def test_the_terminal_has_each_interval_below_its_value() -> None:
     (_, _, ratios) = level_tables(_levels(*_both("L1", 3)), PAPER)
     shown = rich_level_table(ratios)
+    assert shown.title == "No zoom / zoom, over pairs (*: outside of our interval)"
     assert list(shown.columns[3].cells) == ["1.00", "[1.00, 1.00]", "1.01 *"]
 
 

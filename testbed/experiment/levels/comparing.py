@@ -33,10 +33,14 @@ class Cell:
 
 @dataclass(frozen=True)
 class Line:
-    """A row of a table: a level, what is compared there, over how many trials or pairs."""
+    """A row of a table: a level, what is compared there, over how many trials or pairs.
+
+    `robot` is the condition whose figures these are; "" where both are compared.
+    """
 
     level: str
     what: str
+    robot: str
     number: int
     cells: tuple[Cell, ...]
 
@@ -47,7 +51,7 @@ def shares(levels: Levels, paper: Paper) -> Iterator[Line]:
         for robot, share in level.compared.completed.items():
             cell = Cell(share, published=paper.completed(name, robot))
             trials = level.reasoning[robot].trials
-            yield Line(name, CONDITIONS.get(robot, robot), trials, (cell,))
+            yield Line(name, CONDITIONS.get(robot, robot), robot, trials, (cell,))
 
 
 def ratios(levels: Levels, paper: Paper) -> Iterator[Line]:
@@ -57,7 +61,7 @@ def ratios(levels: Levels, paper: Paper) -> Iterator[Line]:
         pairs = max(ratio.pairs for ratio in own.values())
         if pairs:
             cells = (Cell(own[p].mean, own[p].median, paper.ratio(name, p)) for p in PARTS)
-            yield Line(name, RATIO, pairs, tuple(cells))
+            yield Line(name, RATIO, "", pairs, tuple(cells))
 
 
 def growth(levels: Levels, paper: Paper) -> Iterator[Line]:
@@ -68,4 +72,4 @@ def growth(levels: Levels, paper: Paper) -> Iterator[Line]:
             grown = (own[part] for part in PARTS)
             cells = (Cell(g.mean, g.median, p) for g, p in zip(grown, published, strict=True))
             trials = level.reasoning[robot].trials
-            yield Line(name, CONDITIONS.get(robot, robot), trials, tuple(cells))
+            yield Line(name, CONDITIONS.get(robot, robot), robot, trials, tuple(cells))

@@ -23,8 +23,8 @@ RATIOS = ("level", "reasoning", "pairs", *HEADINGS)
 GROWTH = ("level", "reasoning", "trials", *HEADINGS)
 TESTS = ("level", "pairs", *HEADINGS, "achieved", "correct")
 MEDIAN, PUBLISHED = "  median", "  published"
-OUTSIDE = " *"
-"""Marks a published value that does not lie in our interval."""
+OUTSIDE, MARKED = " *", " (*: outside of our interval)"
+"""How a published value is marked that does not lie in our interval, and what the mark says."""
 
 Cells = tuple[str, ...]
 
@@ -64,8 +64,12 @@ def seconds_rows(levels: Levels, paper: Paper) -> Iterator[Cells]:
 
 def achieved(own: Reasoning) -> str:
     """How many, and of the others how many had a goal out of reach."""
-    out = f", {own.out_of_reach} out of reach" if own.out_of_reach else ""
-    return f"{own.achieved}/{own.trials}{out}"
+    return f"{own.achieved}/{own.trials}{out_of_reach(own)}"
+
+
+def out_of_reach(own: Reasoning) -> str:
+    """How many trials ended with their goal out of reach, after their number, where there are."""
+    return f", {own.out_of_reach} out of reach" if own.out_of_reach else ""
 
 
 def share_rows(levels: Levels, paper: Paper) -> Iterator[Cells]:
@@ -153,7 +157,7 @@ def rich_level_table(shown: LevelTable) -> rich.table.Table:
     """A table for a terminal, with an empty line between levels; medians are in the report."""
     table = rich.table.Table(
         *shown.columns,
-        title=shown.title,
+        title=shown.title + (MARKED if _marked(shown) else ""),
         title_justify="left",
         box=None,
         padding=(0, 2, 0, 0),
@@ -170,6 +174,10 @@ def rich_level_table(shown: LevelTable) -> rich.table.Table:
         for cells in _narrow(row):
             table.add_row(*map(escape, cells))
     return table
+
+
+def _marked(shown: LevelTable) -> bool:
+    return any(cell.endswith(OUTSIDE) for row in shown.rows for cell in row)
 
 
 def _narrow(row: Sequence[str]) -> Iterator[Cells]:

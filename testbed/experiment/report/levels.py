@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from testbed.experiment.levels import comparing
-from testbed.experiment.levels.comparing import CONDITIONS, Cell, Levels
+from testbed.experiment.levels.comparing import CONDITIONS, RATIO, Cell, Levels
 from testbed.experiment.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM, Paper
 from testbed.experiment.levels.results import Spread
 from testbed.experiment.levels.table import (
     GROWTH,
+    HEADINGS,
     RATIOS,
-    SECONDS,
     TESTS,
-    achieved,
     effect_rows,
+    out_of_reach,
     seconds,
     spread,
 )
 from testbed.experiment.report import svg
-from testbed.experiment.report.figures import Panel, Point, Series, curves
+from testbed.experiment.report.figures import Panel, Point, Series, curves, forest
 
-__all__ = ["TESTS", "Line", "Value", "View", "effect_rows", "panels", "views"]
+__all__ = ["TESTS", "Line", "Value", "View", "effect_rows", "panels", "ratio_panels", "views"]
 
-SHARES = ("level", "reasoning", "trials", "achieved")
+REASONING = ("level", "reasoning", "trials", "achieved", *HEADINGS)
 TITLES = {
     "total": "all reasoning of a trial",
     "fine": "at the fine resolution",
@@ -75,52 +75,38 @@ def views(levels: Levels, paper: Paper) -> list[View]:
     """The tables of a run, those without rows left out."""
     found = [
         View(
-            "levels-achieved",
-            "Trials that achieved their goal",
-            "Shares with their intervals, exact ones where all trials ended alike.",
-            SHARES,
-            _lines(comparing.shares(levels, paper), _share),
+            "levels-seconds",
+            "Trials that achieved their goal, and seconds",
+            "Shares with their intervals, exact ones where all trials ended alike; means and "
+            "standard deviations of times. Published times are of another machine and solver.",
+            REASONING,
+            tuple(_seconds(levels, paper)),
         ),
         View(
             "levels-ratios",
             "No zoom / zoom",
             "Means over the pairs in which both achieved the goal; above 1 zooming saved time.",
             RATIOS,
-            _lines(comparing.ratios(levels, paper), _times),
+            _lines(comparing.ratios(levels, paper)),
         ),
         View(
             "levels-growth",
             f"Growth from {FIRST}",
             f"How many times the mean at {FIRST} in the same condition the mean at a level is.",
             GROWTH,
-            _lines(comparing.growth(levels, paper), _times),
-        ),
-        View(
-            "levels-seconds",
-            "Seconds",
-            "Means and standard deviations. Published ones are of another machine and solver.",
-            SECONDS,
-            tuple(_seconds(levels, paper)),
+            _lines(comparing.growth(levels, paper)),
         ),
     ]
     return [view for view in found if view.lines]
 
 
-def _lines(lines: Iterable[comparing.Line], value: Callable[[Cell], Value]) -> tuple[Line, ...]:
+def _lines(lines: Iterable[comparing.Line]) -> tuple[Line, ...]:
     found: list[Line] = []
     for line in lines:
         first = not found or found[-1].level != line.level
-        values = tuple(value(cell) for cell in line.cells)
+        values = tuple(_value(cell, "{:.2f}", "{:.2f}") for cell in line.cells)
         found.append(Line(line.level, line.what, str(line.number), first, values))
     return tuple(found)
-
-
-def _share(cell: Cell) -> Value:
-    return _value(cell, "{:.1%}", "{:.0%}")
-
-
-def _times(cell: Cell) -> Value:
-    return _value(cell, "{:.2f}", "{:.2f}")
 
 
 def _value(cell: Cell, form: str, theirs: str) -> Value:
@@ -133,10 +119,15 @@ def _value(cell: Cell, form: str, theirs: str) -> Value:
 
 
 def _seconds(levels: Levels, paper: Paper) -> Iterator[Line]:
-    for name, level in levels.items():
-        for index, (robot, own) in enumerate(level.reasoning.items()):
-            values = tuple(_time(getattr(own, p), paper.seconds(name, robot, p)) for p in PARTS)
-            yield Line(name, CONDITIONS.get(robot, robot), achieved(own), not index, values)
+    """The lines of the shares have the same order: by level and condition."""
+    before = None
+    for line in comparing.shares(levels, paper):
+        own = levels[line.level].reasoning[line.robot]
+        times = (_time(getattr(own, p), paper.seconds(line.level, line.robot, p)) for p in PARTS)
+        (share,) = (_value(cell, "{:.1%}", "{:.0%}") for cell in line.cells)
+        number = f"{own.trials}{out_of_reach(own)}"
+        yield Line(line.level, line.what, number, line.level != before, (share, *times))
+        before = line.level
 
 
 def _time(own: Spread | None, theirs: tuple[float, float] | None) -> Value:
@@ -153,6 +144,28 @@ def panels(levels: Levels, paper: Paper) -> list[Panel]:
     return [
         curves(f"levels-{part}", TITLES[part], list(levels), list(_series(levels, paper, part)))
         for part in PARTS
+    ]
+
+
+def ratio_panels(levels: Levels, paper: Paper) -> list[Panel]:
+    """A figure for each of the ratios that zooming is about; none where no pair was played."""
+    lines = list(comparing.ratios(levels, paper))
+    if not lines:
+        return []
+    rows = [line.level for line in lines]
+    return [
+        forest(f"levels-ratio-{part}", f"{RATIO}, {TITLES[part]}", rows, _compared(lines, part))
+        for part in ("total", "refined_plan")
+    ]
+
+
+def _compared(lines: Iterable[comparing.Line], part: str) -> list[Series]:
+    cells = [(line.level, line.cells[PARTS.index(part)]) for line in lines]
+    ours = tuple(Point(n, c.ours.value, c.ours.low, c.ours.high) for n, c in cells if c.ours)
+    theirs = tuple(Point(n, c.published.value) for n, c in cells if c.published)
+    return [
+        Series(RATIO, svg.SECOND, ours, "s"),
+        *[Series("published", svg.PAPER, theirs, "D", True)] * bool(theirs),
     ]
 
 

@@ -105,12 +105,12 @@ def _compared_panels(folder: Path) -> list[Any]:
 
 
 def _levels(config: ExperimentConfig, summary: Mapping[str, Any]) -> dict[str, Any]:
-    from testbed.experiment.report.levels import TESTS, effect_rows, panels, views
+    from testbed.experiment.report.levels import TESTS, effect_rows, panels, ratio_panels, views
 
     levels, paper = levels_of(summary), paper_of(config)
     return {
         "levels": views(levels, paper),
-        "level_panels": panels(levels, paper),
+        "level_panels": [*panels(levels, paper), *ratio_panels(levels, paper)],
         "level_tests": (TESTS, list(effect_rows(levels))),
     }
 

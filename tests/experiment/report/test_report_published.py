@@ -5,9 +5,10 @@ from pathlib import Path
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.levels.published import NO_ZOOM, PAPER, ZOOM
+from testbed.experiment.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
 from testbed.experiment.levels.results import levels_of
 from testbed.experiment.report import levels, table1
+from testbed.experiment.report.figures import Panel
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.summary import summarise
@@ -104,22 +105,33 @@ def _views(*times: tuple[str, float]) -> dict[str, levels.View]:
 def test_a_level_has_both_conditions_and_their_ratio_above_the_published() -> None:
     views = _views((ZOOM, 0.05), (NO_ZOOM, 1.0))
     zoom, without = views["levels-seconds"].lines
-    assert (zoom.level, zoom.reasoning, zoom.number, zoom.first) == ("L3", "zoom", "1/1", True)
-    assert zoom.values[1] == levels.Value(
+    assert (zoom.level, zoom.reasoning, zoom.number, zoom.first) == ("L3", "zoom", "1", True)
+    assert zoom.values[0] == levels.Value("100.0%", "2.5% to 100.0%", "", "100%", True)
+    assert zoom.values[2] == levels.Value(
         "50.0 ± 0.0 ms", median="50.0 ms", published="4.19 ± 1.48 s"
     )
     assert (without.reasoning, without.first) == ("no zoom", False)
-    assert without.values[3].published == "45.98 ± 43.05 s"
+    assert (without.values[0].published, without.values[0].inside) == ("65%", True)
+    assert without.values[4].published == "45.98 ± 43.05 s"
     (ratio,) = views["levels-ratios"].lines
     assert (ratio.reasoning, ratio.number) == ("no zoom / zoom", "1")
     assert ratio.values[1] == levels.Value("20.00", "20.00 to 20.00", "20.00", "55.23", False)
-
-
-def test_shares_of_a_level_stand_with_their_exact_interval() -> None:
-    zoom, without = _views((ZOOM, 0.05), (NO_ZOOM, 1.0))["levels-achieved"].lines
-    assert zoom.values == (levels.Value("100.0%", "2.5% to 100.0%", "", "100%", True),)
-    assert without.values == (levels.Value("100.0%", "2.5% to 100.0%", "", "65%", True),)
+    for view in views.values():
+        assert {len(line.values) for line in view.lines} == {len(view.columns) - 3}
 
 
 def test_one_condition_has_no_ratio_and_one_level_no_growth() -> None:
-    assert set(_views((ZOOM, 0.05))) == {"levels-achieved", "levels-seconds"}
+    assert set(_views((ZOOM, 0.05))) == {"levels-seconds"}
+
+
+def _ratio_figures(paper: Paper, *robots: str) -> list[Panel]:
+    records = [a_level_record("p", robot) for robot in robots]
+    return levels.ratio_panels(levels_of(summarise(records)), paper)
+
+
+def test_ratios_are_drawn_beside_the_published_ones_where_there_are() -> None:
+    for paper, drawn in ((PAPER, True), (OWN, False)):
+        panels = _ratio_figures(paper, ZOOM, NO_ZOOM)
+        assert len({panel.name for panel in panels}) == len(panels) == 2
+        assert all(("var(--paper)" in panel.svg) is drawn for panel in panels)
+    assert _ratio_figures(PAPER, ZOOM) == []
