@@ -3,7 +3,7 @@
 The literal translation has a rule for every pair of values that exclude each other, and every pair
 of places that an action cannot lead between. Where a fluent is a function (`asp.kept.patterns`),
 one rule a value says the same. The program has the parts base, open, state(t) and step(t), and goes
-with the theory `kept_fine`; its answer sets, where a state is complete, are those of the translation.
+with the theory `kept_fine`; its answer sets, where a state is complete, are the translation's.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from asp import roles, syntax
-from asp.kept.parts import BASE, BEFORE, NOW, OPEN, STATE, STEP, Rule
+from asp.kept.parts import ACTION, BASE, BEFORE, NOW, OPEN, STATE, STEP, Rule
 from asp.kept.patterns import Function, excluding_place, functions
 from asp.restriction import named, without_exogenous
 from asp.rules import term_text
@@ -127,7 +127,8 @@ class _Translation:
                     f"allowed({n},{action_term},{BEFORE})" for n in allowing.get(symbol.name, ())
                 ]
                 head = f"enabled({action_term},{BEFORE})"
-                yield Rule(STEP, head, (*body, *_sorts(symbol, given)))
+                gives = ACTION, action_term
+                yield Rule(STEP, head, (*body, *_sorts(symbol, given)), gives=gives)
 
     def _allowing(self, law: syntax.ExecutabilityCondition) -> list[list[str]] | None:
         """Bodies one of which is true exactly where the law says nothing; None: no such.

@@ -12,7 +12,7 @@ from asp.kept.clock import standing_still
 from asp.literals import atom, is_positive
 from asp.solving import ground, solving, symbol, theory
 
-_MOST_LEVELS = 32_767  # of decisions, that clasp tells apart
+MOST_LEVELS = 32_767  # of decisions, that clasp tells apart
 
 
 class Horizon:
@@ -27,13 +27,13 @@ class Horizon:
         self._length = length
         ranks = [Function("rank", [symbol(a), Number(n)]) for n, a in enumerate(actions)]
         ranks.append(Function("ranks", [Number(len(actions))]))
-        constants = {"n": length, "ordered": min(length, _MOST_LEVELS // (len(actions) + 1))}
+        constants = {"n": length, "ordered": min(length, MOST_LEVELS // (len(actions) + 1))}
         with standing_still():
             self.control = ground([program, theory("kept_fine")], constants, ranks)
             self.control.ground([("open", [])])
             self._initial = _literals(self.control, "holds", 2)
             self._placed = _literals(self.control, "placed", 1)
-            self.control.ground(_parts(length))
+            self.control.ground(parts(length))
             # The first call prepares the solver, whatever it is asked.
             with solving(self.control):
                 pass
@@ -43,12 +43,9 @@ class Horizon:
         """Assumptions that make these fluents true at step 0 and leave the candidates open.
 
         Of the candidates for the value of each function (`fine_loc(box)`) one is true; all other
-        fluents are false. Raises ValueError for what is no inertial fluent.
+        fluents are false.
         """
         open_ = frozenset(chain(*candidates.values()))
-        unknown = true.union(open_) - self._initial.keys()
-        if unknown:
-            raise ValueError(f"no inertial fluent: {min(unknown)}")
         assumed = [
             number if fluent in true else -number
             for fluent, number in self._initial.items()
@@ -66,7 +63,7 @@ class Horizon:
             elif is_positive(literal):
                 return None
         with solving(self.control, assumptions) as model:
-            return None if model is None else _read(model)
+            return None if model is None else read(model)
 
     def _wanted(self, fluent: str) -> int | None:
         """The solver's literal of a fluent at the last step; None if it cannot hold."""
@@ -85,13 +82,15 @@ def _literals(control: clingo.Control, predicate: str, arity: int) -> dict[str, 
     }
 
 
-def _parts(length: int) -> list[tuple[str, list[Symbol]]]:
+def parts(length: int) -> list[tuple[str, list[Symbol]]]:
+    """The parts of the program that so many steps have, in order."""
     parts: list[tuple[str, list[Symbol]]] = [("state", [Number(0)])]
     for step in range(1, length + 1):
         parts += [("step", [Number(step)]), ("state", [Number(step)])]
     return parts
 
 
-def _read(model: clingo.Model) -> tuple[str, ...]:
+def read(model: clingo.Model) -> tuple[str, ...]:
+    """The actions that occur in a model, in order."""
     steps = sorted((s.arguments[1].number, str(s.arguments[0])) for s in model.symbols(shown=True))
     return tuple(action for _, action in steps)

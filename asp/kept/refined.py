@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import lru_cache, partial
 from itertools import chain
 
 from asp import syntax
 from asp.fine_plans import FinePlan, FineStart, NoPlan, plain_plan
 from asp.kept.compact import NotCompactError
-from asp.kept.horizon import Horizon
+from asp.kept.fine_domain import FineDomain
+from asp.kept.fitted import Problem
 from asp.kept.horizons import Horizons
 from asp.kept.narrowing import Narrow, Narrower
 from asp.kept.patterns import functions, subject
-from asp.kept.relaxed import Relaxed
+from asp.kept.relaxed import Reach
 from asp.kept.sparing import Sparing
 from asp.literals import arguments, ground
 from asp.restriction import narrowed, restrict
 from asp.signature import Signature
 
 _MOST_NARROWED = 1_000
+LARGEST_KEPT = 2_000  # constants times steps of a control
 MOST_STEPS = 100_000  # of constants: some 500 MB of controls
 
 
@@ -29,7 +31,8 @@ class FinePlanner:
 
     What a plan can do without is left out (`Sparing`), what is left gets names by position
     (`Narrower`), so that problems that differ in names only share controls; of these there is one
-    for each length, asked from a lower bound on (`Relaxed`).
+    for each length, asked from a lower bound on (`asp.kept.relaxed`). Problems whose control would
+    be large have one for themselves, which knows where a plan can pass (`asp.kept.fitted`).
     """
 
     def __init__(
@@ -38,11 +41,13 @@ class FinePlanner:
         signature: Signature,
         most: int = 32,
         horizons: Horizons | None = None,
+        largest: int = LARGEST_KEPT,
     ) -> None:
         """`source` has the physics only.
 
         The controls of at most `most` parts of it are kept, as far as `horizons` does, which may
-        be those of other planners too; without, there are up to MOST_STEPS of its own.
+        be those of other planners too; without, there are up to MOST_STEPS of its own. What
+        takes more steps times constants than `largest` gets a control for itself.
         """
         self._constants = signature.constants
         self._functions = functions(source, signature)
@@ -50,7 +55,8 @@ class FinePlanner:
         self._narrower = Narrower(source, signature)
         self._narrow = lru_cache(_MOST_NARROWED)(self._narrower.narrow)
         self._most = most
-        self._kept: OrderedDict[object, _Domain] = OrderedDict()
+        self._largest = largest
+        self._kept: OrderedDict[object, FineDomain] = OrderedDict()
         self._horizons = Horizons(MOST_STEPS) if horizons is None else horizons
 
     def plan(
@@ -82,17 +88,24 @@ class FinePlanner:
         candidates = self._by_function(map(narrow.seen, start.candidates))
         wanted = narrow.seen(goal)
         domain = self._domain(narrow)
-        least = domain.relaxed.bound(chain(true, *candidates.values()), wanted)
-        if least is None:
+        reach = domain.relaxed.reach(chain(true, *candidates.values()), wanted)
+        if reach is None:
             return NoPlan.OUT_OF_REACH
-        for length in range(least, limit + 1):
-            horizon = self._horizons.get(
-                domain, length, len(narrow.names), partial(domain.horizon, length)
-            )
-            plan = horizon.plan(horizon.start(true, candidates), wanted)
+        problem = Problem(true, candidates, wanted)
+        for length in range(reach.least, limit + 1):
+            plan = self._of_length(length, domain, problem, reach)
             if plan is not None:
                 return narrow.back(plan)
         return NoPlan.BEYOND_LIMIT
+
+    def _of_length(
+        self, length: int, domain: FineDomain, problem: Problem, reach: Reach
+    ) -> tuple[str, ...] | None:
+        if length * domain.size > self._largest:
+            return domain.fitted(problem, reach, length)
+        make = partial(domain.horizon, length)
+        horizon = self._horizons.get(domain, length, domain.size, make)
+        return horizon.plan(horizon.start(problem.true, problem.candidates), problem.goal)
 
     def _by_function(self, groups: Iterable[tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
         """The groups of candidates by what they give a value. Raises ValueError."""
@@ -109,27 +122,14 @@ class FinePlanner:
         """Of how many parts of the description controls are kept."""
         return len(self._kept)
 
-    def _domain(self, narrow: Narrow) -> _Domain:
+    def _domain(self, narrow: Narrow) -> FineDomain:
         """What is kept of a narrowed description, used last of all."""
         if narrow.key not in self._kept:
-            program, actions = self._narrower.program(narrow), self._narrower.actions(narrow)
-            self._kept[narrow.key] = _Domain(program, actions)
+            self._kept[narrow.key] = FineDomain(self._narrower, narrow, self._functions)
         self._kept.move_to_end(narrow.key)
         while len(self._kept) > self._most:
             self._horizons.forget(self._kept.popitem(last=False)[1])
         return self._kept[narrow.key]
-
-
-class _Domain:
-    """A narrowed description: its lower bounds, and what controls are made of."""
-
-    def __init__(self, program: str, actions: Sequence[str]) -> None:
-        self.relaxed = Relaxed(program)
-        self._program = program
-        self._actions = actions
-
-    def horizon(self, length: int) -> Horizon:
-        return Horizon(self._program, self._actions, length)
 
 
 class LiteralPlanner:
