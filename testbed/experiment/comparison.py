@@ -6,18 +6,26 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from testbed.experiment.summary import BASELINE, INTENTIONAL, MEASURES
+from testbed.experiment.counting import BASELINE, INTENTIONAL
+from testbed.experiment.optimum import COMPARED
+from testbed.experiment.outline import MEASURES
+from testbed.experiment.pairwise import ACCURACY, COUNTS
+from testbed.experiment.record import COARSE
+from testbed.experiment.wording import chance, in_words
 
 ROBOTS = (INTENTIONAL, BASELINE)
+OPTIMUM = ("scenario", "robot", "trials", *(in_words(measure) for measure in COMPARED))
+LEAST = 2
+"""Pairs from which on a test says something."""
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A value, and how likely such a difference is by chance; "" where nothing differs."""
+    """A value; how large the difference is, and how likely by chance; "" where nothing differs."""
 
     label: str
     value: str
-    chance: str = ""
+    test: str = ""
 
 
 @dataclass(frozen=True)
@@ -40,20 +48,40 @@ def comparisons(summary: Mapping[str, Any]) -> list[Comparison]:
 
 
 def _cells(group: Mapping[str, Any]) -> Iterator[Cell]:
-    chances = group["p_values"] if group["pairs"] - group["failed_pairs"] > 1 else {}
-    failed = group["failed_pairs"]
-    yield Cell("pairs", f"{group['pairs']}, {failed} failed" if failed else str(group["pairs"]))
+    yield Cell("pairs", ", ".join([str(group["pairs"]), *_apart(group)]))
     for robot in ROBOTS:
         share = group["accuracy"].get(robot)
-        chance = _chance(chances.get("accuracy")) if robot == INTENTIONAL else ""
-        yield Cell(f"{robot} correct", "-" if share is None else f"{100 * share:.1f} %", chance)
+        test = _test(group, ACCURACY) if robot == INTENTIONAL else ""
+        yield Cell(f"{robot} correct", "-" if share is None else f"{100 * share:.1f} %", test)
     for measure in MEASURES:
         ratio = group["ratios"][measure]
-        value = "-" if ratio is None else f"{ratio:.2f}"
-        yield Cell(measure.replace("_", " "), value, _chance(chances.get(measure)))
+        yield Cell(in_words(measure), _number(ratio), _test(group, measure))
 
 
-def _chance(p_value: float | None) -> str:
-    if p_value is None:
-        return ""
-    return "p < 0.001" if p_value < 0.001 else f"p = {p_value:.3f}"
+def _apart(group: Mapping[str, Any]) -> Iterator[str]:
+    """How many pairs are counted apart, and why."""
+    for reason, key in COUNTS.items():
+        if group[key]:
+            yield f"{group[key]} {reason}"
+
+
+def _test(group: Mapping[str, Any], name: str) -> str:
+    """Effect and corrected p-value; nothing of a single pair."""
+    p, effect = group["holm"][name], group["effects"][name]
+    return "" if p is None or group["pairs"] < LEAST else f"{effect:+.2f} ({chance(p)})"
+
+
+def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """Under OPTIMUM: how far each robot is from the least that achieves the goal."""
+    levels = [name for name in summary["levels"] if name != COARSE]
+    groups = summary["levels" if levels else "scenarios"].items()
+    return [
+        (name, robot, str(own["trials"]), *(_number(own[measure]) for measure in COMPARED))
+        for name, group in groups
+        for robot, own in sorted(group["optimum"].items())
+        if own["trials"]
+    ]
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2f}"

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rich.table import Table
 
+from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO, Apart
 from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome, TrialRecord
 from testbed.experiment.wording import counted, exception, in_words, of_place, place
 
@@ -22,17 +23,20 @@ COLUMNS = (
     "explained by",
 )
 MOST_COMMON = 3
+NONE_APART: Mapping[str, Apart] = {}
 
 
 @dataclass
 class Row:
     """What the trials of one robot in one scenario, or at one level, come to: sums for means.
 
-    Trials that failed (a lost robot, an error) count as trials and nowhere else.
+    `apart` says of trials with rows of their own that their pairs are compared in none. Trials that
+    failed (a lost robot, an error) count as trials and nowhere else.
     """
 
     scenario: str
     level: str
+    apart: Apart | None
     robot: str
     trials: int = 0
     failed: int = 0
@@ -61,10 +65,17 @@ class Row:
         if record.reason is not None:
             self.reasons[record.reason] += 1
 
+    @property
+    def place(self) -> str:
+        """What the row is called, beside the robot."""
+        if self.apart == NOTHING_TO_DO:
+            return NOTHING_TO_DO
+        return ", ".join([place(self.scenario, self.level), *([self.apart] if self.apart else [])])
+
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the order of `COLUMNS`."""
         return (
-            place(self.scenario, self.level),
+            self.place,
             self.robot,
             self._achieved(),
             self._mean(self.plans),
@@ -76,7 +87,8 @@ class Row:
 
     def notes(self) -> tuple[str, ...]:
         """What is to be known of trials that were played to their end, one line each."""
-        whose = f"{of_place(self.scenario, self.level)}, {self.robot}"
+        where = self.apart or of_place(self.scenario, self.level)
+        whose = f"{where}, {self.robot}"
         if self.trials == 1:
             return tuple(f"{whose}: {reason}" for reason in self.reasons)
         trials = f"of {self.trials} trials"
@@ -126,14 +138,26 @@ def explained(record: TrialRecord) -> list[str]:
     return list(dict.fromkeys([*sorted(exceptions), *(action for _, action in sorted(events))]))
 
 
-def rows_of(records: Iterable[TrialRecord]) -> list[Row]:
-    """The rows of a table: places as the records name them first, robots by name."""
-    rows: dict[tuple[str, str, str], Row] = {}
+def rows_of(records: Iterable[TrialRecord], apart: Mapping[str, Apart] = NONE_APART) -> list[Row]:
+    """The rows of a table: places as the records name them first, robots by name.
+
+    `apart` are the pairs that are not compared (`counting.pairs_apart`). Where the event of their
+    scenario never fired they have rows behind it, where there was nothing to do rows at the end;
+    others stand in their scenario, where it is told how they ended.
+    """
+    rows: dict[tuple[str, str, Apart | None, str], Row] = {}
     for record in records:
-        key = (record.scenario, record.level, record.robot)
+        key = (*_place(record, apart.get(record.pair)), record.robot)
         rows.setdefault(key, Row(*key)).add(record)
     places = {place: number for number, place in enumerate(dict.fromkeys(k[:2] for k in rows))}
-    return [rows[key] for key in sorted(rows, key=lambda key: (places[key[:2]], key[2]))]
+    order = sorted(rows, key=lambda k: (k[2] == NOTHING_TO_DO, places[k[:2]], k[2] or "", k[3]))
+    return [rows[key] for key in order]
+
+
+def _place(record: TrialRecord, reason: Apart | None) -> tuple[str, str, Apart | None]:
+    if reason == NOTHING_TO_DO:
+        return "", record.level, reason
+    return record.scenario, record.level, reason if reason == NO_EVENT else None
 
 
 def headings(rows: Iterable[Row]) -> tuple[str, ...]:
@@ -150,10 +174,10 @@ def rich_table(rows: Sequence[Row]) -> Table:
         column.no_wrap = column.header != "achieved"
     for column in table.columns[3:-1]:
         column.justify = "right"
-    before: tuple[str, str] | None = None
+    before: str | None = None
     for row in rows:
-        if before not in (None, (row.scenario, row.level)):
+        if before not in (None, row.place):
             table.add_row()
-        before = (row.scenario, row.level)
+        before = row.place
         table.add_row(*row.cells())
     return table

@@ -26,6 +26,13 @@ def in_words(name: str) -> str:
     return name.replace("_", " ")
 
 
+def chance(p: float | None) -> str:
+    """A p-value as text."""
+    if p is None:
+        return "-"
+    return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
+
+
 def exception(literal: str) -> str:
     """What holds at step 0 against a default."""
     return f"exception {literal}"

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.record import FineCounts, TrialRecord
+from testbed.experiment.record import Attempt, FineCounts, TrialRecord
 
 Configure = Callable[..., ExperimentConfig]
 
@@ -24,6 +24,8 @@ def a_record(trial: str = "t1", **values: object) -> TrialRecord:
         "finished": True,
         "correct": True,
         "outcome": "achieved",
+        "minimal_actions": 1,
+        "actions": [Attempt(1, "act", True)],
     }
     return TrialRecord(trial=trial, **(given | values))  # type: ignore[arg-type]
 

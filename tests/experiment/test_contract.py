@@ -109,5 +109,12 @@ def test_the_summary_has_every_key(run: Path) -> None:
         assert type(group["pairs"]) is int
         assert set(group["accuracy"]) == {"intentional", "traditional"}
         assert set(group["ratios"]) <= set(group["p_values"])
+        assert set(group["holm"]) == set(group["effects"]) == set(group["p_values"])
+        for count in ("failed_pairs", "incomplete", "unsolvable", "nothing_to_do", "without_event"):
+            assert type(group[count]) is int
+        for own in group["optimum"].values():
+            assert set(own) == {"trials", "execution_units", "actions"}
     assert summary["scenarios"]["5"]["accuracy"] == {"intentional": 1.0, "traditional": 0.0}
-    assert summary["levels"]["coarse"]["pairs"] == 3
+    assert summary["scenarios"]["1"]["accuracy"] == {"intentional": None, "traditional": None}
+    together = summary["levels"]["coarse"]
+    assert (together["pairs"], together["failed_pairs"]) == (2, 1)

@@ -1,11 +1,12 @@
 """The table of a run, its summary and its statistics, from records made by hand."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import pytest
 
-from testbed.experiment.record import At, Explained, TrialRecord
+from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.experiment.record import At, Explained, Occurrence, TrialRecord
 from testbed.experiment.summary import summarise
 from testbed.experiment.tables import COLUMNS, explained, rows_of
 from tests.experiment.samples import a_record
@@ -16,15 +17,16 @@ GAVE_UP: dict[str, Any] = {"achieved": False, "outcome": "gave_up"}
 def _pair(
     number: int, traditional: dict[str, Any], intentional: dict[str, Any]
 ) -> list[TrialRecord]:
-    pair = f"pair {number}"
+    """A pair from a state of its own."""
+    common: dict[str, Any] = {"pair": f"pair {number}", "initial": [f"state {number}"]}
     return [
-        a_record(f"t{number}", pair=pair, robot="traditional", **traditional),
-        a_record(f"i{number}", pair=pair, robot="intentional", **intentional),
+        a_record(f"t{number}", robot="traditional", **common | traditional),
+        a_record(f"i{number}", robot="intentional", **common | intentional),
     ]
 
 
-def _group(records: Sequence[TrialRecord], scenario: str = "1") -> Any:
-    summary: Any = summarise(records)
+def _group(records: Sequence[TrialRecord], scenario: str = "1", sure: Collection[str] = ()) -> Any:
+    summary: Any = summarise(records, sure)
     return summary["scenarios"][scenario]
 
 
@@ -124,6 +126,30 @@ def test_what_was_explained_is_listed_once_in_the_order_of_its_steps() -> None:
     assert row.cells()[-1] == "exception g, z, e, 1 other"
 
 
+def test_pairs_that_are_not_compared_have_rows_of_their_own() -> None:
+    records = [
+        *_pair(1, {"scenario": "3"}, {"scenario": "3"}),
+        *_pair(2, {"scenario": "3"}, {"scenario": "3"}),
+        *_pair(3, {"scenario": "3"}, {"scenario": "3"}),
+        *_pair(4, {"scenario": "4"}, {"scenario": "4"}),
+        *_pair(5, {"scenario": "4"}, {"scenario": "4", "outcome": "error"}),
+    ]
+    apart: dict[str, Apart] = {
+        "pair 1": NO_EVENT,
+        "pair 2": NOTHING_TO_DO,
+        "pair 4": NOTHING_TO_DO,
+        "pair 5": "failed",
+    }
+    rows = rows_of(records, apart)
+    assert [(row.cells()[0], row.trials) for row in rows if row.robot == "intentional"] == [
+        ("3", 1),
+        ("3, no event", 1),
+        ("4", 1),
+        ("nothing to do", 2),
+    ]
+    assert sum(row.trials for row in rows) == len(records)
+
+
 def test_explanations_of_many_trials_come_by_count_then_by_name() -> None:
     told = [["b"], ["c"], ["c", "a"], ["e", "d"]]
     rows = rows_of(
@@ -169,13 +195,104 @@ def test_accuracy_is_the_share_of_correct_trials_of_each_robot() -> None:
     records = [
         *_pair(1, {"correct": False}, {}),
         *_pair(2, {}, {}),
-        a_record("i3", pair="pair 3", correct=False),
+        *_pair(3, {"correct": False}, {"correct": False}),
+        a_record("i4", pair="pair 4", correct=False),
+        a_record("c1", pair="pair 1", robot="intentional-checking"),
     ]
-    assert _group(records)["accuracy"] == {
-        "traditional": pytest.approx(1 / 2),
+    group = _group(records)
+    assert group["accuracy"] == {
+        "traditional": pytest.approx(1 / 3),
         "intentional": pytest.approx(2 / 3),
+        "intentional-checking": 1.0,
     }
-    assert _group(records)["pairs"] == 3
+    assert (group["pairs"], group["incomplete"]) == (3, 1)
+
+
+EVENT = [Occurrence(2, "exo_lock(library)", False)]
+IDLE: dict[str, Any] = {"actions": [], "activities": []}
+
+
+@pytest.mark.parametrize(
+    ("both", "intentional", "key"),
+    [
+        ({"exogenous": EVENT}, {"outcome": "error"}, "failed_pairs"),
+        ({"exogenous": EVENT, "minimal_actions": None}, {}, "unsolvable"),
+        ({"exogenous": EVENT} | IDLE, {}, "nothing_to_do"),
+        ({}, {}, "without_event"),
+        ({"exogenous": EVENT}, {"exogenous": []}, "without_event"),
+        # A failure says more than what did not come to pass before it.
+        ({}, {"outcome": "error"}, "failed_pairs"),
+    ],
+)
+def test_what_compares_nothing_is_counted_apart(
+    both: dict[str, Any], intentional: dict[str, Any], key: str
+) -> None:
+    apart = _pair(1, both | {"action_count": 9}, both | {"action_count": 1} | intentional)
+    counted = _pair(
+        2, {"exogenous": EVENT, "action_count": 6}, {"exogenous": EVENT, "action_count": 2}
+    )
+    group = _group([*apart, *counted], sure={"1"})
+    assert (group["pairs"], group["ratios"]["actions"]) == (1, 3.0)
+    reasons = ("incomplete", "failed_pairs", "unsolvable", "nothing_to_do", "without_event")
+    assert {name: group[name] for name in reasons if group[name]} == {key: 1}
+    alone = _group(apart, sure={"1"})
+    assert alone["accuracy"] == {"traditional": None, "intentional": None}
+    assert set(alone["p_values"].values()) == {None}
+
+
+def test_without_an_event_a_pair_counts_where_none_is_to_happen() -> None:
+    pair = _pair(1, {}, {})
+    assert _group(pair, sure={"2"})["pairs"] == 1
+    assert _group(pair, sure={"1"})["pairs"] == 0
+
+
+def test_one_robot_alone_is_judged_by_its_own_trials() -> None:
+    records = [a_record("a", exogenous=EVENT), a_record("b"), a_record("c", outcome="error")]
+    group = _group(records, sure={"1"})
+    assert (group["pairs"], group["without_event"], group["failed_pairs"]) == (1, 1, 1)
+    assert group["accuracy"] == {"intentional": 1.0}
+    assert set(group["ratios"].values()) == {None}
+
+
+def test_the_optimum_is_of_trials_that_achieved_their_goal() -> None:
+    least = {"minimal_actions": 4, "minimal_units": 40}
+    records = [
+        *_pair(1, least | {"action_count": 8, "execution_units": 60}, least | {"action_count": 4}),
+        *_pair(2, least | {"action_count": 1} | GAVE_UP, least | {"action_count": 6}),
+    ]
+    found = _group(records)["optimum"]
+    assert found["traditional"] == {"trials": 1, "actions": 2.0, "execution_units": 1.5}
+    assert found["intentional"] == {"trials": 2, "actions": 1.25, "execution_units": 0.0}
+    assert _group(_pair(1, {}, {}))["optimum"]["traditional"]["actions"] is None
+
+
+def test_p_values_stand_beside_holms_over_the_whole_summary() -> None:
+    """Two scenarios and both together have 2 tests each: 6 in all."""
+    records = [
+        record
+        for number in range(16)
+        for record in _pair(
+            number,
+            {"action_count": 10 + number, "correct": False, "scenario": "ab"[number % 2]},
+            {"scenario": "ab"[number % 2]},
+        )
+    ]
+    summary: Any = summarise(records)
+    one, both = summary["scenarios"]["a"], summary["levels"]["coarse"]
+    assert one["p_values"]["actions"] == pytest.approx(2 / 2**8)
+    assert both["p_values"]["actions"] < 1e-3
+    # The two of both together are the smallest; of four that are equal the largest counts.
+    assert one["holm"]["actions"] == pytest.approx(4 * 2 / 2**8)
+    assert both["holm"]["accuracy"] == pytest.approx(6 * 2 / 2**16)
+    assert (one["effects"]["actions"], one["effects"]["accuracy"]) == (1.0, 1.0)
+    assert one["holm"]["plans"] is one["effects"]["plans"] is None
+
+
+def test_a_scenario_that_is_the_only_one_is_tested_once() -> None:
+    records = [r for n in range(8) for r in _pair(n, {"action_count": 1 + n}, {})]
+    summary: Any = summarise(records)
+    for group in (summary["scenarios"]["1"], summary["levels"]["coarse"]):
+        assert group["holm"]["actions"] == pytest.approx(2 / 2**8)
 
 
 def test_p_values_are_the_exact_ones() -> None:

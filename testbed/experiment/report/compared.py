@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from testbed.experiment.counting import BASELINE, INTENTIONAL
+from testbed.experiment.outline import MEASURES, Outline
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.report.figures import Panel, Point, Series, forest
 from testbed.experiment.report.svg import FIRST, SECOND
 from testbed.experiment.statistics import Estimate, mean, proportion
-from testbed.experiment.summary import BASELINE, INTENTIONAL, MEASURES, Outline
 from testbed.experiment.wording import in_words, place
 
 LEAST = 2
@@ -20,15 +21,19 @@ Pair = tuple[Outline, Outline]
 """The intentional robot's trial and the traditional one's."""
 
 
-def panels(records: Iterable[TrialRecord]) -> list[Panel]:
-    """A figure of the accuracies and one for each ratio; none without pairs to compare."""
-    groups = {name: pairs for name, pairs in _groups(records).items() if len(pairs) >= LEAST}
+def panels(records: Iterable[TrialRecord], apart: Collection[str]) -> list[Panel]:
+    """A figure of the accuracies and one for each ratio; none without pairs to compare.
+
+    The pairs that are `apart` do not count.
+    """
+    counted = (record for record in records if record.pair not in apart)
+    groups = {name: pairs for name, pairs in _groups(counted).items() if len(pairs) >= LEAST}
     if not groups:
         return []
     rows = list(groups)
     shares = [
-        _series(INTENTIONAL, FIRST, groups, lambda pairs: _share(own for own, _ in pairs)),
-        _series(BASELINE, SECOND, groups, lambda pairs: _share(own for _, own in pairs), "s"),
+        _series(INTENTIONAL, FIRST, groups, lambda pairs: _share([own for own, _ in pairs])),
+        _series(BASELINE, SECOND, groups, lambda pairs: _share([own for _, own in pairs]), "s"),
     ]
     ratios = [
         forest(f"compared-{name}", _title(name), rows, [_ratios(groups, measure)])
@@ -42,7 +47,7 @@ def _title(measure: str) -> str:
 
 
 def _groups(records: Iterable[TrialRecord]) -> dict[str, list[Pair]]:
-    """Pairs of which both trials ended by themselves, by scenario or level."""
+    """The pairs of both robots by scenario or level."""
     waiting: dict[tuple[str, str], dict[str, Outline]] = {}
     for record in records:
         key = (place(record.scenario, record.level), record.pair)
@@ -50,21 +55,22 @@ def _groups(records: Iterable[TrialRecord]) -> dict[str, list[Pair]]:
     groups: dict[str, list[Pair]] = {}
     for (name, _), own in waiting.items():
         if INTENTIONAL in own and BASELINE in own:
-            pair = own[INTENTIONAL], own[BASELINE]
-            groups.setdefault(name, []).extend([pair] * all(trial.ended for trial in pair))
+            groups.setdefault(name, []).append((own[INTENTIONAL], own[BASELINE]))
     return groups
 
 
 def _ratios(groups: Mapping[str, list[Pair]], measure: Callable[[Outline], float]) -> Series:
     def estimate(pairs: list[Pair]) -> Estimate | None:
-        ratios = [measure(base) / measure(mind) for mind, base in pairs if measure(mind)]
-        return mean([(np.array(ratios, dtype=float), 1)])
+        known = [(base, mind) for mind, base in pairs if measure(mind)]
+        ratios = [measure(base) / measure(mind) for base, mind in known]
+        return mean([(np.array(ratios, dtype=float), 1)], [[mind.state for _, mind in known]])
 
     return _series("ratio", FIRST, groups, estimate)
 
 
-def _share(trials: Iterable[Outline]) -> Estimate | None:
-    return proportion([(np.array([trial.correct for trial in trials], dtype=float), 1)])
+def _share(trials: Sequence[Outline]) -> Estimate | None:
+    correct = np.array([trial.correct for trial in trials], dtype=float)
+    return proportion([(correct, 1)], [[trial.state for trial in trials]])
 
 
 def _series(

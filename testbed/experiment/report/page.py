@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 from asp.commentary import scenario_notes
 from asp.loading import read_domain
 from testbed.config import ExperimentConfig
-from testbed.experiment.comparison import comparisons
+from testbed.experiment.comparison import OPTIMUM, comparisons, optima
+from testbed.experiment.counting import Apart, eventful, pairs_apart
 from testbed.experiment.levels.protocol import paper_of
 from testbed.experiment.levels.results import levels_of
 from testbed.experiment.levels.table import LevelTable, level_tables
@@ -46,15 +47,16 @@ class Tables:
 
 def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     """Write `summary.json` and `report.html` from the records of a run; its tables."""
-    summary = write_summary(folder)
-    table1 = _table1(folder, config)
-    rows = rows_of(read_records(folder))
+    table1, sure = _table1(folder, config), eventful(config)
+    summary = write_summary(folder, sure, _numbers(table1))
+    apart = pairs_apart(read_records(folder), sure)
+    rows = rows_of(read_records(folder), apart)
     levels = level_tables(levels_of(summary), paper_of(config))
     tables = Tables(str(summary["digest"]), rows, levels, table1)
     parts = {
         **_heading(config, tables),
         **_tables(config, tables, summary),
-        **_compared(folder, tables, summary),
+        **_compared(folder, tables, summary, apart),
         **_trials(folder, config),
         "replay": lambda trial: command_of(folder, trial),
     }
@@ -68,6 +70,15 @@ def _table1(folder: Path, config: ExperimentConfig) -> list[Analysis]:
     from testbed.experiment.report.table1 import analyses
 
     return analyses(folder, config)
+
+
+def _numbers(analyses: Sequence[Analysis]) -> dict[str, object]:
+    """The published table's part of the summary."""
+    if not analyses:
+        return {}
+    from testbed.experiment.table1.numbers import numbers
+
+    return {PROTOCOL: numbers(analyses)}
 
 
 def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
@@ -90,18 +101,26 @@ def _tables(config: ExperimentConfig, tables: Tables, summary: Mapping[str, Any]
     }
 
 
-def _compared(folder: Path, tables: Tables, summary: Mapping[str, Any]) -> dict[str, Any]:
+def _compared(
+    folder: Path, tables: Tables, summary: Mapping[str, Any], apart: Mapping[str, Apart]
+) -> dict[str, Any]:
     """The published experiment has a table of its own for it."""
     rows = [] if tables.table1 else comparisons(summary)
     several = any(group["pairs"] > 1 for group in summary["scenarios"].values())
-    panels = _compared_panels(folder) if rows and several else []
-    return {"comparisons": rows, "compared_panels": panels}
+    panels = _compared_panels(folder, apart) if rows and several else []
+    distances = [] if tables.table1 else optima(summary)
+    return {
+        "comparisons": rows,
+        "compared_panels": panels,
+        "optimum_columns": OPTIMUM,
+        "optima": distances,
+    }
 
 
-def _compared_panels(folder: Path) -> list[Any]:
+def _compared_panels(folder: Path, apart: Mapping[str, Apart]) -> list[Any]:
     from testbed.experiment.report.compared import panels
 
-    return panels(read_records(folder))
+    return panels(read_records(folder), apart)
 
 
 def _levels(config: ExperimentConfig, summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -122,6 +141,7 @@ def _published(analysis: Analysis) -> dict[str, Any]:
         "robot": analysis.mind,
         "columns": table1.COLUMNS,
         "tests": table1.TESTS,
+        "optimum": table1.OPTIMUM,
         "views": table1.views(analysis),
         "panels": table1.panels(analysis),
         "became": analysis.became,

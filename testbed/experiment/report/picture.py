@@ -15,8 +15,8 @@ from testbed.experiment.levels.results import levels_of
 from testbed.experiment.report import levels, table1
 from testbed.experiment.report.figures import Panel
 from testbed.experiment.report.rendering import environment
-from testbed.experiment.store import read_config
-from testbed.experiment.summary import write_summary
+from testbed.experiment.store import read_config, read_records
+from testbed.experiment.summary import summarise
 
 COLUMNS = 4
 CARD, GAP, HEAD, LEGEND = 292, 12, 32, 34
@@ -70,7 +70,7 @@ def picture(folder: Path) -> str:
     if analyses:
         label = "Table 1: accuracy and ratios by scenario"
         return _drawn(table1.panels(analyses[0]), TABLE1_KEYS, label)
-    panels = levels.panels(levels_of(write_summary(folder)), paper_of(config))
+    panels = levels.panels(levels_of(summarise(read_records(folder))), paper_of(config))
     if not panels:
         raise StoreError(f"{folder}: has no figures; only published experiments have")
     return _drawn(panels, LEVEL_KEYS, "Reasoning time by level, zoom and no zoom")

@@ -13,6 +13,7 @@ from testbed.experiment.report.figures import Panel, Point, Series, forest
 from testbed.experiment.report.svg import FIRST, PAPER, SECOND
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.store import read_records
+from testbed.experiment.table1 import optimum
 from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import MEETINGS, pairs_of
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
@@ -23,6 +24,7 @@ from testbed.experiment.wording import counted
 ACCURACIES = ("TP correct", "ATI correct")
 COLUMNS = ("scenario", "pairs", *HEADINGS, *ACCURACIES)
 TESTS = ("scenario", *HEADINGS, "correct")
+OPTIMUM = optimum.COLUMNS
 TRIGGERED, RANDOM = "triggered", "drawn at random, classified"
 
 
@@ -52,6 +54,7 @@ class View:
     title: str
     lines: tuple[Line, ...]
     tests: tuple[tuple[str, ...], ...]
+    optimum: tuple[tuple[str, ...], ...]
     notes: tuple[str, ...]
 
 
@@ -70,7 +73,13 @@ def views(analysis: Analysis) -> list[View]:
     """The tables of two robots, those without pairs left out."""
     both = ((TRIGGERED, analysis.triggered), (RANDOM, analysis.random))
     return [
-        View(title, tuple(_lines(table)), tuple(tests_of(table)), tuple(_notes(table)))
+        View(
+            title,
+            tuple(_lines(table)),
+            tuple(tests_of(table)),
+            tuple(optimum.rows_of(table, analysis.mind, analysis.base)),
+            tuple(_notes(table)),
+        )
         for title, table in both
         if table is not None
     ]

@@ -20,6 +20,7 @@ from testbed.experiment.statistics import (
     proportion,
     signed_rank,
 )
+from testbed.experiment.table1.optimum import both_optima
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
 from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
@@ -36,7 +37,7 @@ def analyse(pairs: Iterable[Pair], mind: str, base: str, sure: Collection[str]) 
 
     In the scenarios of `sure` something exogenous is to happen (`counting.eventful`).
     """
-    known = list(pairs)
+    known, who = list(pairs), (mind, base)
     drawn = [pair for pair in known if pair.intended == RANDOM]
     played = [pair for pair in known if pair.intended != RANDOM]
     became: dict[str, Counter[str]] = {}
@@ -45,8 +46,8 @@ def analyse(pairs: Iterable[Pair], mind: str, base: str, sure: Collection[str]) 
     return Analysis(
         mind=mind,
         base=base,
-        triggered=_table(played, lambda pair: _as_triggered(pair, sure)) if played else None,
-        random=_table(drawn, lambda pair: pair.happened) if drawn else None,
+        triggered=_table(played, lambda pair: _as_triggered(pair, sure), who) if played else None,
+        random=_table(drawn, lambda pair: pair.happened, who) if drawn else None,
         became={name: dict(sorted(counts.items())) for name, counts in became.items()},
     )
 
@@ -60,14 +61,16 @@ def _as_triggered(pair: Pair, sure: Collection[str]) -> str:
     return reason if reason in (NO_EVENT, NOTHING_TO_DO) else pair.intended
 
 
-def _table(pairs: Sequence[Pair], scenario_of: Callable[[Pair], str]) -> Table:
+def _table(
+    pairs: Sequence[Pair], scenario_of: Callable[[Pair], str], who: tuple[str, str]
+) -> Table:
     groups: dict[str, list[Pair]] = {}
     for pair in pairs:
         groups.setdefault(scenario_of(pair), []).append(pair)
     scenarios = {name: groups[name] for name in sorted(groups) if name.isdigit()}
     played = Counter(pair.intended for pair in pairs)
     times = {name: max(played.values()) // count for name, count in played.items()}
-    rows = _corrected([_row(*named, times) for named in _rows(scenarios)])
+    rows = _corrected([_row(*named, times, who) for named in _rows(scenarios)])
     apart = {name: len(own) for name, own in sorted(groups.items()) if not name.isdigit()}
     return Table(tuple(rows), apart)
 
@@ -86,7 +89,7 @@ def _without_failures(pairs: Iterable[Pair]) -> list[Pair]:
     return [pair for pair in pairs if pair.base.correct or pair.base.failed]
 
 
-def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int]) -> Row:
+def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int], who: tuple[str, str]) -> Row:
     counted = [pair for pair in pairs if pair.played]
     return Row(
         name=name,
@@ -100,6 +103,7 @@ def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int]) -> Row:
         accuracy=_accuracy(_weighted(counted, times)),
         ratios={measure: _ratio(counted, measure, times) for measure in MEASURES},
         advantage=mean(*_sample(counted, times, lambda p: p.mind.correct - p.base.correct)),
+        optimum=dict(zip(who, both_optima(counted, times), strict=True)),
     )
 
 

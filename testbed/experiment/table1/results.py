@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from testbed.experiment.optimum import Optimum
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.pairing import Meeting
 
 
 @dataclass(frozen=True)
 class Ratio:
-    """A measure of the traditional robot, divided by the intentional one\'s.
+    """A measure of the traditional robot, divided by the intentional one's.
 
-    `pairs` have a ratio: the intentional robot\'s measure is not 0. The test compares the measures
+    `pairs` have a ratio: the intentional robot's measure is not 0. The test compares the measures
     themselves; its effect is above 0 where the traditional robot needed more.
     """
 
@@ -29,7 +30,7 @@ class Row:
 
     The test of the accuracies has its effect above 0 where the intentional robot was right more
     often; `advantage` is that difference of the proportions with its interval. `out_of_reach` are
-    goals that could not be achieved any more where a trial ended.
+    goals that could not be achieved any more where a trial ended. `optimum` is by robot.
     """
 
     name: str
@@ -43,6 +44,7 @@ class Row:
     accuracy: Test | None
     ratios: Mapping[str, Ratio]
     advantage: Estimate | None = None
+    optimum: Mapping[str, Optimum] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from rich.markup import escape
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.experiment.wording import chance
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
@@ -53,13 +54,6 @@ def _advantage(row: Row) -> str:
         return "-"
     interval = f"[{difference.low:+.2f}, {difference.high:+.2f}]"
     return f"{difference.value:+.2f} {interval} ({chance(row.accuracy.holm)})"
-
-
-def chance(p: float | None) -> str:
-    """A p-value as text."""
-    if p is None:
-        return "-"
-    return "p < 0.001" if p < 0.001 else f"p = {p:.3f}"
 
 
 def number(value: float | None) -> str:

@@ -1,0 +1,147 @@
+"""The tables of a small run, and its summary: one set of numbers."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from testbed.config import load_config
+from testbed.experiment.report import write_report
+from testbed.experiment.report.table1 import analyses
+from testbed.experiment.runner import run_trials
+from testbed.experiment.store import read_records, write_config
+from testbed.experiment.table1.analysis import Analysis, Row
+from testbed.experiment.table1.published import ALL, MEASURES, PUBLISHED
+
+CONFIG = load_config("table1", ["limit=16", "repeats=2", "scenario_settings={}"])
+INTENDED = ("1", "2", "3", "4", "5")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run with its report."""
+    run = tmp_path_factory.mktemp("numbers")
+    write_config(run, CONFIG)
+    run_trials(CONFIG, run, 1, lambda _: None)
+    write_report(run, CONFIG)
+    return run
+
+
+@pytest.fixture(scope="module")
+def summary(folder: Path) -> Any:
+    return json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def analysis(folder: Path) -> Analysis:
+    (found,) = analyses(folder, CONFIG)
+    return found
+
+
+def _triggered(analysis: Analysis) -> dict[str, Row]:
+    assert analysis.triggered is not None
+    return {row.name: row for row in analysis.triggered.rows}
+
+
+def test_a_scenario_has_the_numbers_of_its_row(summary: Any, analysis: Analysis) -> None:
+    rows = _triggered(analysis)
+    for name in INTENDED:
+        row, group = rows[name], summary["scenarios"][name]
+        assert row.intentional is not None
+        assert row.baseline is not None
+        assert group["pairs"] == row.pairs
+        shares = {"intentional": row.intentional.value, "traditional": row.baseline.value}
+        assert group["accuracy"] == pytest.approx(shares)
+        means = {m: ratio.mean and ratio.mean.value for m, ratio in row.ratios.items()}
+        assert group["ratios"] == pytest.approx(means)
+        tests = {m: ratio.test for m, ratio in row.ratios.items()} | {"accuracy": row.accuracy}
+        for measure, test in tests.items():
+            found = group["p_values"][measure], group["effects"][measure]
+            assert found == ((test.p, test.effect) if test else (None, None))
+        assert group["optimum"] == {robot: own.values() for robot, own in row.optimum.items()}
+
+
+def test_what_is_in_no_row_is_counted_apart_in_the_summary(summary: Any, folder: Path) -> None:
+    (found,) = analyses(folder, CONFIG)
+    assert found.triggered is not None
+    apart = {
+        reason: sum(summary["scenarios"][name][key] for name in INTENDED)
+        for reason, key in (("no event", "without_event"), ("nothing to do", "nothing_to_do"))
+    }
+    assert dict(found.triggered.apart) == apart
+    assert min(apart.values()) > 0
+    pairs = {record.pair for record in read_records(folder) if record.scenario in INTENDED}
+    counted = sum(summary["scenarios"][name]["pairs"] for name in INTENDED)
+    assert counted + sum(apart.values()) == len(pairs)
+
+
+def test_the_random_pairs_are_those_of_the_rows_of_the_other_table(
+    summary: Any, analysis: Analysis
+) -> None:
+    assert analysis.random is not None
+    pairs = sum(row.pairs for row in analysis.random.rows if row.name.isdigit())
+    assert summary["scenarios"]["random"]["pairs"] == pairs
+
+
+def test_the_summary_has_both_tables(summary: Any, analysis: Analysis) -> None:
+    assert set(summary["table1"]) == {"intentional"}
+    tables = summary["table1"]["intentional"]
+    assert tables["became"] == analysis.became
+    for kind, table in (("triggered", analysis.triggered), ("random", analysis.random)):
+        assert table is not None
+        assert tables[kind]["apart"] == table.apart
+        assert list(tables[kind]["rows"]) == [row.name for row in table.rows]
+        for row in table.rows:
+            _compare(tables[kind]["rows"][row.name], row)
+
+
+def _compare(found: Any, row: Row) -> None:
+    counts = ("pairs", "failed", "unsolvable", "out_of_reach", "meetings")
+    assert {key: found[key] for key in counts} == {key: getattr(row, key) for key in counts}
+    for measure, ratio in row.ratios.items():
+        own = found["ratios"][measure]
+        assert own["pairs"] == ratio.pairs
+        for estimate, keys in (
+            (ratio.mean, ("mean", "low", "high")),
+            (ratio.median, ("median", "median_low", "median_high")),
+        ):
+            ours = estimate and (estimate.value, estimate.low, estimate.high)
+            assert tuple(own[key] for key in keys) == (ours or (None, None, None))
+        test = ratio.test and (ratio.test.p, ratio.test.holm, ratio.test.effect)
+        assert (own["p"], own["holm"], own["effect"]) == (test or (None, None, None))
+
+
+def test_a_published_value_says_whether_it_lies_in_our_interval(summary: Any) -> None:
+    rows = summary["table1"]["intentional"]["triggered"]["rows"]
+    for name, paper in PUBLISHED.items():
+        for measure in MEASURES:
+            own = rows[name]["ratios"][measure]
+            assert own["published"] == paper.ratios[measure]
+            _inside(own, own["mean"])
+        for robot, share in (("traditional", paper.baseline), ("intentional", paper.intentional)):
+            own = rows[name]["accuracy"][robot]
+            assert own["published"] == share
+            _inside(own, own["value"])
+    assert "6" not in rows
+    six = summary["table1"]["intentional"]["random"]["rows"].get("6")
+    assert six is None or six["ratios"]["plans"]["inside"] is None
+
+
+def _inside(own: Any, value: float | None) -> None:
+    """Published values have two decimals."""
+    if value is None:
+        assert own["inside"] is None
+    else:
+        assert own["inside"] == (own["low"] - 0.005 <= own["published"] <= own["high"] + 0.005)
+
+
+def test_where_nothing_happens_nobody_needs_more_actions_than_the_fewest(
+    summary: Any,
+) -> None:
+    found = summary["table1"]["intentional"]["triggered"]["rows"]
+    for robot in ("intentional", "traditional"):
+        own = found["1"]["optimum"][robot]
+        assert (own["trials"], own["actions"]) == (found["1"]["pairs"], 1.0)
+        assert own["execution_units"] >= 1.0
+    assert found[ALL]["optimum"]["intentional"]["trials"] == found[ALL]["pairs"]
