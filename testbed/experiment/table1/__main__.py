@@ -21,13 +21,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("folder", type=Path, metavar="DIR", help="run folder of the protocol")
     parser.add_argument("--unaided", type=Path, help="one of a run without goal feedback")
     parser.add_argument("--later", type=Path, help="one of a run whose random events come later")
+    parser.add_argument("--told", type=Path, nargs="*", default=(), help="of benchmarks/told.py")
     given = parser.parse_args(arguments)
     try:
-        sources = Sources(read_run(given.folder), _run(given.unaided), _run(given.later))
+        told = tuple(map(read_run, given.told))
+        runs = (read_run(given.folder), _run(given.unaided), _run(given.later))
+        page = document(Sources(*runs, told))
     except (StoreError, ConfigError, OSError) as error:
         print(error, file=sys.stderr)
         return BAD_INPUT
-    print(document(sources), end="")
+    print(page, end="")
     return 0
 
 

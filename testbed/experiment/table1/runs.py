@@ -70,3 +70,8 @@ def released_weights(run: Run, mind: str) -> dict[str, float]:
     played, other = as_stated(world, RANDOM, rate), passed_on(world, RANDOM, rate)
     own = (r for r in read_records(run.folder) if r.scenario == RANDOM and r.robot == mind)
     return {record.trial: weight(record, world, played, other) for record in own}
+
+
+def told_order(run: Run) -> list[str]:
+    """The order of places in a run of `benchmarks/told.py`, by its name; none: the domain's own."""
+    return run.config.name.split("-")[1:]

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
+from testbed.experiment.errors import StoreError
 from testbed.experiment.markdown import markdown
 from testbed.experiment.store import read_records
 from testbed.experiment.table1.analysis import Analysis, Table
 from testbed.experiment.table1.page.drawing import drawing
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
-from testbed.experiment.table1.page.hypotheses import Hypothesis, compared, hypotheses, weigh
+from testbed.experiment.table1.page.hypotheses import (
+    Hypothesis,
+    compared,
+    hypotheses,
+    told,
+    weigh,
+)
 from testbed.experiment.table1.page.others import arguments, later, unaided
 from testbed.experiment.table1.page.released import released
 from testbed.experiment.table1.page.rows import row_by_row
-from testbed.experiment.table1.runs import Run, released_weights
+from testbed.experiment.table1.pairing import Pair
+from testbed.experiment.table1.runs import Run, released_weights, told_order
 from testbed.experiment.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
 
 INTRODUCTION = """\
@@ -57,6 +65,7 @@ class Sources:
     main: Run
     unaided: Run | None = None
     later: Run | None = None
+    told: tuple[Run, ...] = ()
 
 
 def document(sources: Sources) -> str:
@@ -90,7 +99,16 @@ def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
     if sources.later is not None:
         own = weigh(sources.later.pairs[mind], lambda _: 1.0)
         found.append(Hypothesis(f"rate {sources.later.config.adversary.rate}", own))
-    yield compared(found)
+    for run in sources.told:
+        found += told(told_order(run), _of(main, run, mind, weights), weights)
+    yield compared(found, bool(sources.told))
+
+
+def _of(main: Run, run: Run, mind: str, weights: Mapping[str, float]) -> list[Pair]:
+    """The pairs of a run whose other robot met the same as in the main run."""
+    if any(pair.mind.trial not in weights for pair in run.pairs[mind]):
+        raise StoreError(f"{run.folder}: its pairs are not those of {main.folder}")
+    return run.pairs[mind]
 
 
 def _digests(sources: Sources) -> str:
@@ -102,18 +120,25 @@ def _digests(sources: Sources) -> str:
 
 
 def _runs(sources: Sources) -> list[Run]:
-    return [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
+    played = [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
+    return [*played, *sources.told]
 
 
 def _commands(sources: Sources) -> str:
-    configs = [run.config for run in _runs(sources)]
-    lines = [f"$ testbed run {shlex.join(arguments(own))} --workers 2" for own in configs]
+    main = f"runs/{sources.main.config.name}"
+    played = [run for run in _runs(sources) if run not in sources.told]
+    lines = [f"$ testbed run {shlex.join(arguments(run.config))} --workers 2" for run in played]
+    for run in sources.told:
+        order = " ".join(["", "--order", *told_order(run)]) if told_order(run) else ""
+        lines.append(f"$ python -m benchmarks.told {main} runs/{run.config.name}{order}")
     options = [
         f"--{option} runs/{run.config.name}"
         for option, run in (("unaided", sources.unaided), ("later", sources.later))
         if run is not None
     ]
-    page = " ".join([f"runs/{sources.main.config.name}", *options])
+    if sources.told:
+        options.append(" ".join(["--told", *(f"runs/{run.config.name}" for run in sources.told)]))
+    page = " ".join([main, *options])
     lines.append(f"$ python -m testbed.experiment.table1 {page} > docs/published-and-measured.md")
     return "\n".join(lines)
 
