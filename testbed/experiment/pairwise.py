@@ -71,7 +71,7 @@ def group(pairs: Sequence[Played], robots: Collection[str], sure: Collection[str
     """Of pairs of a run of these robots; `sure` are the eventful scenarios (`counting`)."""
     reasons = [_apart(pair, robots, sure) for pair in pairs]
     counted = [pair for pair, reason in zip(pairs, reasons, strict=True) if reason is None]
-    own = list(dict.fromkeys(robot for pair in pairs for robot in pair.trials))
+    own = [robot for robot in robots if any(robot in pair.trials for pair in pairs)]
     both = [
         (pair.trials[BASELINE], pair.trials[INTENTIONAL])
         for pair in counted

@@ -11,6 +11,7 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.markdown import markdown
 from testbed.experiment.store import read_records
+from testbed.experiment.table1 import optimum
 from testbed.experiment.table1.analysis import Analysis, Table
 from testbed.experiment.table1.page.drawing import drawing
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
@@ -53,7 +54,8 @@ TESTS = """\
 
 Effect sizes (of measures rank-biserial, above 0 where TP needed more; of the accuracy the
 difference of the proportions, above 0 where ATI was right more often), with p-values after Holm's
-correction over the table. There is none where no pair differs.
+correction over the table. What comes from one initial state counts once. There is none where no
+pair differs.
 
 """
 
@@ -80,6 +82,7 @@ def document(sources: Sources) -> str:
         row_by_row(pairs, load_world(sources.main.config.domain)),
         *_hypotheses(sources, mind),
         *([] if sources.later is None else [later(sources.later, pairs)]),
+        optimum.section(analysis),
         failures(sources.main, mind),
         meetings(pairs),
         *([] if sources.unaided is None else [unaided(sources.unaided)]),
