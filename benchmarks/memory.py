@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import resource
 from collections.abc import Callable, Iterator, Sequence
 from itertools import cycle, islice, product
 from pathlib import Path
+
+import clingo
 
 from benchmarks.offices import book_names, room_names
 from benchmarks.sheets import Row, Sheet, gathered
@@ -23,23 +26,26 @@ TRIALS = {"small": 300, "full": 10_000}
 SAMPLES = 10
 STATES = {"small": 2, "full": 192}
 
-KINDS = ("intentional-checking", "traditional")
+KINDS = ("intentional", "intentional-checking", "traditional")
+FINE_KINDS = ("intentional", "intentional-nozoom")
+LEVELS = {"small": ("L1", "L2"), "full": ("L1", "L2", "L3", "L4", "L5", "L6")}
 GOALS = {"small": 2, "full": 24}
-STARTS = {"small": 1, "full": 2}
-ROUNDS = {"small": 1, "full": 5}
+ROUNDS = {"small": 2, "full": 10}
 
 
 def main(size: str) -> list[Sheet]:
     """Sheets `memory` and `goals`: resident memory after so many trials."""
     same = (
         "scenarios 1 to 6 in turn, from different initial states, nothing forgotten in between;",
-        "the first row is after the first trial",
+        "the first row is after the first trial; controls are those of clingo that there are then",
     )
+    pool = list(varied(GOALS[size], LEVELS[size]))
     several = (
-        f"{' and '.join(KINDS)} in turn, {GOALS[size]} goals one after the other, all of them",
-        f"{ROUNDS[size]} times; the domain of the first robot follows from its goal",
+        f"{GOALS[size]} goals one after the other, each with {', '.join(KINDS)} in all",
+        f"scenarios and from one initial state, then {' and '.join(FINE_KINDS)} at one of",
+        f"{', '.join(LEVELS[size])}: {len(pool)} trials, and all of them {ROUNDS[size]} times;",
+        "the domain of the robot that checks follows from its goal",
     )
-    pool = list(varied(GOALS[size], STARTS[size]))
     return [
         Sheet(
             "memory",
@@ -49,7 +55,7 @@ def main(size: str) -> list[Sheet]:
         ),
         Sheet(
             "goals",
-            "Resident memory of the same process, then, with other goals and robots",
+            "Resident memory of the same process, then, with goals, robots and levels that change",
             gathered(soak(ROUNDS[size] * len(pool), pool, play_any)),
             several,
         ),
@@ -69,6 +75,7 @@ def soak(
                 "trials": number,
                 "resident_mb": now,
                 "growth_mb": None if before is None else now - before,
+                "controls": controls(),
             }
             before = now
 
@@ -78,16 +85,25 @@ def alike(states: int) -> list[TrialSpec]:
     return [spec for scenario in SCENARIOS for spec in specs(scenario, states)]
 
 
-def varied(goals: int, states: int) -> Iterator[TrialSpec]:
-    """Trials of all scenarios with so many goals, each from so many states with each robot."""
-    for goal in islice(_goals(), goals):
+def varied(goals: int, levels: Sequence[str]) -> Iterator[TrialSpec]:
+    """So many goals, each in all scenarios and with all robots, a level between one and the next.
+
+    The task of a level is drawn; each time that a level comes up it is another one.
+    """
+    for number, goal in enumerate(islice(_goals(), goals)):
         overrides = [
             f"robots=[{','.join(KINDS)}]",
             f"scenarios=[{','.join(SCENARIOS)}]",
             f"goal=[{','.join(goal)}]",
-            f"limit={states}",
+            "limit=1",
         ]
         yield from plan_trials(load_config("office", overrides))
+        yield from _at_level(levels[number % len(levels)], seed=number)
+
+
+def _at_level(level: str, seed: int) -> Iterator[TrialSpec]:
+    overrides = [f"robots=[{','.join(FINE_KINDS)}]", f"levels=[{level}]", "limit=1"]
+    yield from plan_trials(load_config("levels", [*overrides, f"seed={seed}"]))
 
 
 def _goals() -> Iterator[tuple[str, ...]]:
@@ -112,3 +128,8 @@ def resident_mb() -> float:
         pages = int(_STATUS.read_text(encoding="ascii").split()[1])
         return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+
+
+def controls() -> int:
+    """How many controls of clingo there are in this process."""
+    return sum(isinstance(found, clingo.Control) for found in gc.get_objects())

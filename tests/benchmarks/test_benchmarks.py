@@ -81,12 +81,20 @@ def test_trial_after_trial_takes_no_more_memory() -> None:
 
 
 def test_memory_is_also_measured_over_more_goals_than_domains_are_kept() -> None:
-    every = list(memory.varied(memory.GOALS["full"], 1))
+    every = list(memory.varied(memory.GOALS["full"], memory.LEVELS["full"]))
     assert len({spec.setting.goal for spec in every}) > MOST_DOMAINS
-    few = list(memory.varied(memory.GOALS["small"], memory.STARTS["small"]))
-    assert {spec.robot for spec in few} == set(memory.KINDS)
-    rows = list(memory.soak(10, few, memory.play_any))
-    assert [row["trials"] for row in rows] == list(range(1, 11))
+    assert {spec.robot for spec in every} == {*memory.KINDS, *memory.FINE_KINDS}
+    levels = {spec.level for spec in every if spec.setting.fine is not None}
+    assert levels == set(memory.LEVELS["full"])
+
+
+def test_goals_robots_and_levels_that_change_leave_no_more_controls_behind() -> None:
+    few = list(memory.varied(memory.GOALS["small"], memory.LEVELS["small"]))
+    _, *rows = memory.soak(3 * len(few), few, memory.play_any)
+    first, *later = (row["controls"] for row in rows if int(str(row["trials"])) >= len(few))
+    assert int(str(first)) > 0
+    assert later == [first] * len(later)
+    assert sum(float(str(row["growth_mb"])) for row in rows[-4:]) < SETTLED_MB
 
 
 def test_the_driver_of_a_run_grows_by_what_it_knows_of_each_trial() -> None:
