@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from asp.kept.confining import Values, confined
 from asp.kept.fitted import Problem, fitted_plan
 from asp.kept.horizon import Horizon
 from asp.kept.narrowing import Narrow, Narrower
+from asp.kept.parts import BASE
 from asp.kept.parts import confined as worded
 from asp.kept.patterns import Function
+from asp.kept.playing import in_play, loose
 from asp.kept.relaxed import Reach, Relaxed
 from asp.kept.valued import Valued, valued
+from asp.literals import arguments
 
 
 class FineDomain:
@@ -40,7 +44,17 @@ class FineDomain:
         """The first plan of exactly so many steps, or None; nothing is kept for other problems."""
         steps = confined(reach, self._valued.number, length)
         left = [dict(self._told(values)) for values in steps]
-        return fitted_plan(self._confinable, self._ranks, problem, left)
+        playing = self._loose | in_play(reach, self._valued, steps)
+        facts = [f"{fact}." for fact in self._facts_about(playing)]
+        program = "\n".join([self._confinable, f"#program {BASE}.", *facts])
+        return fitted_plan(program, self._ranks, problem, left)
+
+    def _facts_about(self, constants: Collection[str]) -> Iterator[str]:
+        """What is so at all times of these constants only."""
+        for constant in (*sorted(constants), ""):  # in one order in all processes
+            for fact in self._facts.get(constant, ()):
+                if all(other in constants for other in arguments(fact)):
+                    yield fact
 
     def _told(self, values: Values) -> Iterator[tuple[str, Sequence[str]]]:
         """The functions confined at a step, with the fluents left."""
@@ -50,7 +64,19 @@ class FineDomain:
 
     @cached_property
     def _confinable(self) -> str:
-        return self._narrower.program(self._narrow, worded)
+        return self._narrower.worded(self._narrow, worded)
+
+    @cached_property
+    def _loose(self) -> frozenset[str]:
+        return loose(self._narrower.kept(self._narrow), dict(self._narrow.sorts))
+
+    @cached_property
+    def _facts(self) -> Mapping[str, Sequence[str]]:
+        """By their first constant."""
+        found: dict[str, list[str]] = defaultdict(list)
+        for fact in self.relaxed.facts:
+            found[next(iter(arguments(fact)), "")].append(fact)
+        return found
 
     @cached_property
     def _ranks(self) -> Mapping[str, int]:

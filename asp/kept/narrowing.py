@@ -81,21 +81,26 @@ class Narrower:
         )
         return Narrow(sorts, facts, names)
 
-    def program(self, narrow: Narrow, wording: Callable[[Rule], Iterable[str]] = plain) -> str:
-        """The compact program of the narrowed description, its rules as `wording` has them."""
-        known = narrow.names.keys()
+    def program(self, narrow: Narrow) -> str:
+        """The compact program of the narrowed description."""
+        facts = [f"{sort}({member})." for sort, members in narrow.sorts for member in members]
+        facts += (f"{fact}." for fact in sorted(narrow.facts))
+        return "\n".join([self.worded(narrow, plain), f"#program {BASE}.", *facts])
+
+    def worded(self, narrow: Narrow, wording: Callable[[Rule], Iterable[str]]) -> str:
+        """The rules of the program, without what there is and what is stated of it."""
         parts: dict[str, list[str]] = {BASE: [], OPEN: [], STATE: [], STEP: []}
-        for rule in self.rules:
-            if rule.constants <= known:
-                parts[rule.part] += wording(rule)
-        for sort, members in narrow.sorts:
-            parts[BASE].append(f"#defined {sort}/1.")
-            parts[BASE] += (f"{sort}({member})." for member in members)
+        for rule in self.kept(narrow):
+            parts[rule.part] += wording(rule)
+        parts[BASE] += (f"#defined {sort}/1." for sort, _ in narrow.sorts)
         for symbol in self._signature.symbols.values():
             if symbol.kind == "static":
                 parts[BASE].append(f"#defined {symbol.name}/{len(symbol.sorts)}.")
-        parts[BASE] += (f"{fact}." for fact in sorted(narrow.facts))
         return "\n".join(f"#program {part}.\n" + "\n".join(lines) for part, lines in parts.items())
+
+    def kept(self, narrow: Narrow) -> list[Rule]:
+        """The rules that name nothing else."""
+        return [rule for rule in self.rules if rule.constants <= narrow.names.keys()]
 
     def actions(self, narrow: Narrow) -> list[str]:
         """The agent actions in the order of declaration, in canonical names."""

@@ -22,7 +22,7 @@ class Relaxed:
     """The Horn clauses of one step of a compact program.
 
     `nodes` are those of the fluents before the step, `actions` those of the actions in it,
-    `inertial` the fluents that a start may have.
+    `inertial` the fluents that a start may have, `facts` what is so at all times: sorts, statics.
     """
 
     def __init__(self, program: str) -> None:
@@ -32,12 +32,14 @@ class Relaxed:
             control.register_observer(clauses)
             for text in (program, theory("kept_fine")):
                 control.add("base", [], text)
-            control.ground([("base", []), ("open", [])])
-            self.inertial = frozenset(_atoms(control, "holds", 0))
-            control.ground([("state", [Number(0)]), ("step", [Number(1)]), ("state", [Number(1)])])
-            self.nodes = _atoms(control, "holds", 0)
-            self.actions = _atoms(control, "occurs", 0)
-            later = _atoms(control, "holds", 1)
+            control.ground([("base", [])])
+            self.facts = [str(each.symbol) for each in control.symbolic_atoms]
+            control.ground([("open", [])])
+            self.inertial = frozenset(_atoms(control, "holds")[0])
+            # What follows from what is true after a step follows before the next, too.
+            control.ground([("state", [Number(0)]), ("step", [Number(1)])])
+            self.nodes, later = _atoms(control, "holds")
+            self.actions, _ = _atoms(control, "occurs")
             self.graph = Graph(clauses, self.nodes, later, self.actions.values())
 
     def reach(self, possible: Iterable[str], goal: Iterable[str]) -> Reach | None:
@@ -70,10 +72,10 @@ class Reach:
     least: int
 
 
-def _atoms(control: clingo.Control, predicate: str, step: int) -> dict[str, int]:
-    """The atoms holds(F,step), or occurs(A,step), by fluent or action."""
-    return {
-        str(found.symbol.arguments[0]): found.literal
-        for found in control.symbolic_atoms.by_signature(predicate, 2)
-        if found.symbol.arguments[1].number == step
-    }
+def _atoms(control: clingo.Control, predicate: str) -> tuple[dict[str, int], dict[str, int]]:
+    """The atoms holds(F,I), or occurs(A,I), by fluent or action, of the steps 0 and 1."""
+    found: tuple[dict[str, int], dict[str, int]] = {}, {}
+    for each in control.symbolic_atoms.by_signature(predicate, 2):
+        what, step = each.symbol.arguments
+        found[step.number][str(what)] = each.literal
+    return found
