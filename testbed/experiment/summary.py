@@ -9,6 +9,7 @@ from pathlib import Path
 from testbed.experiment.digest import digest
 from testbed.experiment.levels.analysis import summarise_levels
 from testbed.experiment.levels.outline import FineOutline, fine_outline
+from testbed.experiment.levels.published import OWN, Paper
 from testbed.experiment.outline import Outline
 from testbed.experiment.pairwise import Played, corrected, group
 from testbed.experiment.record import TrialRecord
@@ -16,23 +17,26 @@ from testbed.experiment.store import SUMMARY, read_records, replace_text
 
 
 def write_summary(
-    folder: Path, sure: Collection[str], published: Mapping[str, object]
+    folder: Path, sure: Collection[str], published: Mapping[str, object], paper: Paper
 ) -> dict[str, object]:
     """Summarise the records of a run into its `summary.json`, and return what was written.
 
     Beside what `summarise` says, `digest` is the one number for all of its results; `published` is
     added as it is.
     """
-    number, found = digest(read_records(folder)), summarise(read_records(folder), sure)
+    number, found = digest(read_records(folder)), summarise(read_records(folder), sure, paper)
     summary = {"digest": number, **found, **published}
     replace_text(folder / SUMMARY, json.dumps(summary, indent=2) + "\n")
     return summary
 
 
-def summarise(records: Iterable[TrialRecord], sure: Collection[str] = ()) -> dict[str, object]:
+def summarise(
+    records: Iterable[TrialRecord], sure: Collection[str] = (), paper: Paper = OWN
+) -> dict[str, object]:
     """Counts, accuracy, ratios (traditional / intentional) and tests by scenario and by level.
 
-    At a level of the fine resolution come its columns of Tables 2 and 3 (`summarise_levels`).
+    At a level of the fine resolution come its columns of Tables 2 and 3 (`summarise_levels`), and
+    what the `paper` has of them.
     `sure` are the eventful scenarios: a pair of theirs without its event is counted apart, and so
     is every other that compares nothing (`counting.why_apart`). A ratio is left out of the mean
     where the intentional robot's measure is 0; a measure without any ratio, and a test without any
@@ -51,7 +55,7 @@ def summarise(records: Iterable[TrialRecord], sure: Collection[str] = ()) -> dic
     scenarios, levels = _by_place(pairs)
     groups = [group(own, robots, sure) for own in (*scenarios.values(), *levels.values())]
     values = iter(own.values() for own in corrected(groups))
-    columns = summarise_levels(fine)
+    columns = summarise_levels(fine, paper)
     return {
         "trials": trials,
         "scenarios": {name: next(values) for name in scenarios},

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from testbed.experiment.levels.published import NO_ZOOM, PARTS, ZOOM
+from testbed.experiment.levels.published import NO_ZOOM, PAPER, PARTS, ZOOM
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.summary import summarise
 from tests.experiment.samples import a_level_record
@@ -143,3 +143,27 @@ def test_growth_is_the_mean_at_a_level_divided_by_that_at_the_first() -> None:
     }
     low, high = (growth[ZOOM]["fine"]["mean"][key] for key in ("low", "high"))
     assert 2.0 <= low < 5.0 < high <= 18.0
+
+
+def test_published_values_stand_beside_ours_where_there_are() -> None:
+    records = [
+        a_level_record(f"{level}{number}", robot, level=level)
+        for level in ("L1", "L3", "mine")
+        for number in range(20)
+        for robot in (ZOOM, NO_ZOOM)
+    ]
+    summary: Any = summarise(records, paper=PAPER)
+    published = summary["levels"]["L3"]["published"]
+    # All of 20 alike: the exact interval ends at 0.025 ** (1 / 20) = 0.83.
+    assert published["completed"] == {
+        ZOOM: {"published": 1.0, "inside": True},
+        NO_ZOOM: {"published": 0.65, "inside": False},
+    }
+    assert published["ratios"]["coarse"] == {"published": 1.0, "inside": True}
+    assert published["ratios"]["total"] == {"published": 20.07, "inside": False}
+    assert published["growth"][ZOOM]["coarse"]["published"] == pytest.approx(7.40 / 4.67)
+    assert published["seconds"][NO_ZOOM]["refined_plan"] == {"mean": 45.98, "sd": 43.05}
+    assert "growth" not in summary["levels"]["L1"]["published"]
+    assert "published" not in summary["levels"]["mine"]
+    own: Any = summarise(records)
+    assert not any("published" in level for level in own["levels"].values())

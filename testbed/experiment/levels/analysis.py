@@ -9,8 +9,9 @@ import msgspec
 import numpy as np
 
 from testbed.experiment import quotient, statistics
+from testbed.experiment.levels.numbers import numbers
 from testbed.experiment.levels.outline import FineOutline
-from testbed.experiment.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM
+from testbed.experiment.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM, Paper
 from testbed.experiment.levels.results import Compared, Growth, Level, Ratio, Reasoning, Spread
 from testbed.experiment.statistics import Estimate, Test, Values, holm, mcnemar, signed_rank
 
@@ -19,9 +20,14 @@ Pair = tuple[FineOutline, FineOutline]
 """The trial with zooming, and the one without."""
 
 
-def summarise_levels(levels: Mapping[str, Outlines]) -> dict[str, dict[str, object]]:
-    """The columns of each level as a summary holds them."""
-    return {name: msgspec.to_builtins(level) for name, level in analyse(levels).items()}
+def summarise_levels(levels: Mapping[str, Outlines], paper: Paper) -> dict[str, dict[str, object]]:
+    """The columns of each level as a summary holds them, `published` where something was."""
+    found = analyse(levels)
+    beside = numbers(found, paper)
+    return {
+        name: msgspec.to_builtins(level) | ({"published": beside[name]} if beside[name] else {})
+        for name, level in found.items()
+    }
 
 
 def analyse(levels: Mapping[str, Outlines]) -> dict[str, Level]:

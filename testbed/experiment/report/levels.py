@@ -78,7 +78,7 @@ def views(levels: Levels, paper: Paper) -> list[View]:
             "levels-seconds",
             "Trials that achieved their goal, and seconds",
             "Shares with their intervals, exact ones where all trials ended alike; means and "
-            "standard deviations of times. Published times are of another machine and solver.",
+            "standard deviations of times.",
             REASONING,
             tuple(_seconds(levels, paper)),
         ),

@@ -47,11 +47,11 @@ class Tables:
 
 def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     """Write `summary.json` and `report.html` from the records of a run; its tables."""
-    table1, sure = _table1(folder, config), eventful(config)
-    summary = write_summary(folder, sure, _numbers(table1))
+    table1, sure, paper = _table1(folder, config), eventful(config), paper_of(config)
+    summary = write_summary(folder, sure, _numbers(table1), paper)
     apart = pairs_apart(read_records(folder), sure)
     rows = rows_of(read_records(folder), apart)
-    levels = level_tables(levels_of(summary), paper_of(config))
+    levels = level_tables(levels_of(summary), paper)
     tables = Tables(str(summary["digest"]), rows, levels, table1)
     parts = {
         **_heading(config, tables),
@@ -130,6 +130,7 @@ def _levels(config: ExperimentConfig, summary: Mapping[str, Any]) -> dict[str, A
     return {
         "levels": views(levels, paper),
         "level_panels": [*panels(levels, paper), *ratio_panels(levels, paper)],
+        "level_paper": bool(paper.conditions),
         "level_tests": (TESTS, list(effect_rows(levels))),
     }
 
