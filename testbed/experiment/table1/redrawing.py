@@ -56,8 +56,9 @@ def passed_on(world: World, scenario: str, rate: float | None = None) -> Law:
         taken = _taken(world, state, action)
         shares = []
         for kind, thing in groups:
-            others = [key for key in groups if key[0] == kind and key[1] not in taken]
-            befallen = others if thing in taken and others else [(kind, thing)]
+            # Passing on to all that are free alike is the same as drawing one of them at once.
+            free = [key for key in groups if key[0] == kind and key[1] not in taken]
+            befallen = free or [(kind, thing)]
             for key in befallen:
                 changing = [t for t in groups[key] if _changes(world, state, t.event)]
                 shares += [

@@ -98,6 +98,8 @@ def test_mean_ratios_are_over_pairs_that_have_one() -> None:
     ratios = evidence.mean_ratios(pairs)
     assert ratios["actions"] == pytest.approx((3 / 2 + 2 / 4) / 2)
     assert ratios["plans"] is None
+    pairs = [*pairs, a_pair("3", a_side(actions=2), a_side(actions=0))]
+    assert evidence.mean_ratios(pairs)["actions"] == pytest.approx((3 / 2 + 2 / 4 + 0) / 3)
 
 
 def test_plans_are_counted_by_their_number() -> None:

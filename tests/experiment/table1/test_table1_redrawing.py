@@ -108,6 +108,26 @@ def test_a_trial_weighs_by_all_steps_up_to_its_event() -> None:
     assert weight(record, WORLD, STATED, PASSED_ON) == pytest.approx(nothing**2)
 
 
+def test_each_step_is_weighed_in_the_state_in_which_it_is_taken() -> None:
+    """The second one in a state in which the book that the first one picked up is held."""
+    record = a_record(initial=[HOLDING[0], *HOLDING[2:]])
+    steps = [(2, "pickup(rob1,book1)"), (3, "move(rob1,library)")]
+    record.actions = [Attempt(step, action, True) for step, action in steps]
+    record.exogenous = [Occurrence(3, "exo_move(book2,kitchen)", False)]
+    nothing = (1 - TRIED) / (1 - TRIED + TRIED / 3)
+    assert weight(record, WORLD, STATED, PASSED_ON) == pytest.approx(nothing * 2.0)
+
+
+def test_an_action_that_fails_leaves_the_state_as_it_is() -> None:
+    record = a_record(initial=[HOLDING[0], *HOLDING[2:]])
+    steps = [(2, "pickup(rob1,book2)", False), (3, "move(rob1,library)", True)]
+    record.actions = [Attempt(*step) for step in steps]
+    record.exogenous = [Occurrence(3, "exo_move(book2,kitchen)", False)]
+    first = PASSED_ON(WORLD.state(record.initial), "pickup(rob1,book2)")[NONE]
+    stated = STATED(WORLD.state(record.initial), "pickup(rob1,book2)")[NONE]
+    assert weight(record, WORLD, STATED, PASSED_ON) == pytest.approx(first / stated)
+
+
 def test_what_the_other_law_never_draws_weighs_nothing() -> None:
     record = a_record(initial=HOLDING, actions=[Attempt(2, "move(rob1,library)", True)])
     record.exogenous = [Occurrence(2, "exo_lock(library)", False)]

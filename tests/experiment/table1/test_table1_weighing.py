@@ -51,6 +51,12 @@ def test_what_weighs_nothing_is_not_there() -> None:
     assert _rows(weighing(PAIRS, [0.0, 3.0, 4.0, 5.0]))["3"].pairs == 1
 
 
+def test_lost_trials_are_in_no_row() -> None:
+    lost = a_pair("3", base=a_side(correct=False, failed=True))
+    weighed = weighing([*PAIRS, lost], [1.0, 3.0, 4.0, 5.0, 9.0])
+    assert (_rows(weighed)["3"].pairs, weighed.shares["3"]) == (2, 0.5)
+
+
 def test_equal_weights_give_the_table_itself() -> None:
     table = analyse(PAIRS, "m", "b", set()).random
     assert table is not None
