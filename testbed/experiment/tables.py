@@ -68,9 +68,7 @@ class Row:
     @property
     def place(self) -> str:
         """What the row is called, beside the robot."""
-        if self.apart == NOTHING_TO_DO:
-            return NOTHING_TO_DO
-        return ", ".join([place(self.scenario, self.level), *([self.apart] if self.apart else [])])
+        return self._named(place(self.scenario, self.level))
 
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the order of `COLUMNS`."""
@@ -87,12 +85,16 @@ class Row:
 
     def notes(self) -> tuple[str, ...]:
         """What is to be known of trials that were played to their end, one line each."""
-        where = self.apart or of_place(self.scenario, self.level)
-        whose = f"{where}, {self.robot}"
+        whose = f"{self._named(of_place(self.scenario, self.level))}, {self.robot}"
         if self.trials == 1:
             return tuple(f"{whose}: {reason}" for reason in self.reasons)
         trials = f"of {self.trials} trials"
         return tuple(f"{whose}: {reason} in {n} {trials}" for reason, n in self.reasons.items())
+
+    def _named(self, where: str) -> str:
+        if self.apart == NOTHING_TO_DO:
+            return NOTHING_TO_DO
+        return where if self.apart is None else f"{where}, {self.apart}"
 
     @property
     def _played(self) -> int:

@@ -150,6 +150,15 @@ def test_pairs_that_are_not_compared_have_rows_of_their_own() -> None:
     assert sum(row.trials for row in rows) == len(records)
 
 
+def test_a_note_says_where_its_pairs_are() -> None:
+    records = [a_record(name, reason="why", pair=name) for name in "ab"]
+    rows = rows_of(records, {"a": NO_EVENT, "b": NOTHING_TO_DO})
+    assert [note for row in rows for note in row.notes()] == [
+        "scenario 1, no event, intentional: why",
+        "nothing to do, intentional: why",
+    ]
+
+
 def test_explanations_of_many_trials_come_by_count_then_by_name() -> None:
     told = [["b"], ["c"], ["c", "a"], ["e", "d"]]
     rows = rows_of(
