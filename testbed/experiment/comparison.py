@@ -14,7 +14,7 @@ from testbed.experiment.record import COARSE
 from testbed.experiment.wording import chance, in_words
 
 ROBOTS = (INTENTIONAL, BASELINE)
-OPTIMUM = ("scenario", "robot", "trials", *(in_words(measure) for measure in COMPARED))
+OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in COMPARED))
 LEAST = 2
 """Pairs from which on a test says something."""
 
@@ -72,7 +72,7 @@ def _test(group: Mapping[str, Any], name: str) -> str:
 
 
 def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Under OPTIMUM: how far each robot is from the least that achieves the goal."""
+    """How far each robot is from the least that achieves the goal: scenario or level, OPTIMUM."""
     levels = [name for name in summary["levels"] if name != COARSE]
     groups = summary["levels" if levels else "scenarios"].items()
     return [

@@ -112,7 +112,7 @@ def _compared(
     return {
         "comparisons": rows,
         "compared_panels": panels,
-        "optimum_columns": OPTIMUM,
+        "optimum_columns": (headings(tables.rows)[0], *OPTIMUM),
         "optima": distances,
     }
 
