@@ -21,11 +21,14 @@ LEAST = 2
 
 @dataclass(frozen=True)
 class Cell:
-    """A value; how large the difference is, and how likely by chance; "" where nothing differs."""
+    """A value; below it how large the difference is, and how likely by chance, if anything differs.
+
+    Below the number of pairs: how many are counted apart, and why.
+    """
 
     label: str
     value: str
-    test: str = ""
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ def comparisons(summary: Mapping[str, Any]) -> list[Comparison]:
 
 
 def _cells(group: Mapping[str, Any]) -> Iterator[Cell]:
-    yield Cell("pairs", ", ".join([str(group["pairs"]), *_apart(group)]))
+    yield Cell("pairs", str(group["pairs"]), ", ".join(_apart(group)))
     for robot in ROBOTS:
         share = group["accuracy"].get(robot)
         test = _test(group, ACCURACY) if robot == INTENTIONAL else ""
