@@ -141,10 +141,12 @@ def _scattered(scatters: Iterable[Scatter]) -> str:
     medians = [one.median for one in own]
     split = [(o.zoom_first, o.no_zoom_first) for o in own]
     gained = sum(z is not None and n is not None and z < n for z, n in split)
+    served = 2 * gained > len(own)
     return (
         f"At {both} of {len(own)} levels the mean is above 1 whichever of the two is divided by "
         "the other: scatter alone raises a mean of ratios. The medians lie between "
         f"{times(min(medians))} and {times(max(medians))}. At {gained} of {len(own)} levels the "
-        "robot that plays second needs less time, by these medians: what the first has prepared in "
-        "the same process serves it, too. Which of a pair is first is drawn with its seed."
+        "robot that plays second needs less time, by these medians"
+        f"{': what the first has prepared can serve it, too' if served else ''}. Which of a pair "
+        "is first is drawn with its seed."
     )
