@@ -11,6 +11,7 @@ from statistics import fmean
 import numpy as np
 from scipy.optimize import nnls  # type: ignore[import-untyped]  # scipy ships no types
 
+from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import (
@@ -21,9 +22,11 @@ from testbed.experiment.table1.published import (
     SCENARIOS,
     Published,
 )
+from testbed.experiment.table1.table import HALF_CENT
 
 WITHOUT_SECONDS = ("plans", "execution_units", "actions")
 """The measures that do not depend on how fast a machine or a solver is."""
+ACCURACY = "accuracy"
 
 
 @dataclass(frozen=True)
@@ -112,19 +115,14 @@ class Closeness:
 
 
 def closeness(table: Table, rows: Iterable[str] = SCENARIOS) -> Closeness:
-    """Of these rows, plans, execution units, actions and the traditional robot\'s accuracy."""
-    inside, distances = [], []
-    for row in table.rows:
-        if row.name not in rows:
-            continue
-        paper = PUBLISHED[row.name]
-        if row.baseline is not None:
-            inside.append(row.baseline.covers(paper.baseline, 0.005))
-        for name in WITHOUT_SECONDS:
-            ours = row.ratios[name].mean
-            if ours is not None:
-                inside.append(ours.covers(paper.ratios[name], 0.005))
-                distances.append(abs(log(ours.value / paper.ratios[name])))
+    """Of these rows, plans, execution units, actions and the traditional robot's accuracy."""
+    known = list(_beside(table.rows, rows))
+    distances = [
+        abs(log(ours.value / theirs))
+        for _, column, ours, theirs in known
+        if column != ACCURACY and ours.value
+    ]
+    inside = [ours.covers(theirs, HALF_CENT) for *_, ours, theirs in known]
     return Closeness(sum(inside), len(inside), fmean(distances) if distances else 0.0)
 
 
@@ -140,14 +138,21 @@ class Outside:
 
 def outside(table: Iterable[Row], rows: Iterable[str] = SCENARIOS) -> Iterator[Outside]:
     """The published values that `closeness` does not count as inside."""
-    for row in table:
-        if row.name not in rows:
-            continue
+    for name, column, ours, theirs in _beside(table, rows):
+        if not ours.covers(theirs, HALF_CENT):
+            yield Outside(name, column, ours.value, theirs)
+
+
+def _beside(
+    table: Iterable[Row], rows: Iterable[str]
+) -> Iterator[tuple[str, str, Estimate, float]]:
+    """Row, column, our estimate and the published value, where there are both."""
+    for row in (row for row in table if row.name in rows):
         paper = PUBLISHED[row.name]
         means = [(name, row.ratios[name].mean, paper.ratios[name]) for name in WITHOUT_SECONDS]
-        for column, ours, theirs in (*means, ("accuracy", row.baseline, paper.baseline)):
-            if ours is not None and not ours.covers(theirs, 0.005):
-                yield Outside(row.name, column, ours.value, theirs)
+        for column, ours, theirs in (*means, (ACCURACY, row.baseline, paper.baseline)):
+            if ours is not None:
+                yield row.name, column, ours, theirs
 
 
 def plans_made(pairs: Iterable[Pair]) -> Mapping[int, int]:

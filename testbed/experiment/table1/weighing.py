@@ -9,7 +9,7 @@ import numpy as np
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
 from testbed.experiment.resampling import BATCH, CONFIDENCE, RESAMPLES, SEED, Values
-from testbed.experiment.statistics import Estimate
+from testbed.experiment.statistics import Estimate, proportion
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
 from testbed.experiment.table1.results import Ratio, Row, Table
@@ -59,11 +59,20 @@ def _row(name: str, own: Sequence[Weighed]) -> Row:
         unsolvable=0,
         out_of_reach=0,
         meetings={},
-        intentional=_mean(own, lambda pair: pair.mind.correct),
-        baseline=_mean(own, lambda pair: pair.base.correct),
+        intentional=_share(own, lambda pair: pair.mind.correct),
+        baseline=_share(own, lambda pair: pair.base.correct),
         accuracy=None,
         ratios={measure: _ratio(own, measure) for measure in MEASURES},
     )
+
+
+def _share(own: Sequence[Weighed], right: Callable[[Pair], bool]) -> Estimate | None:
+    """A weighted proportion; where all pairs are alike, the exact interval of equal weights."""
+    estimate = _mean(own, right)
+    if estimate is None or estimate.low < estimate.high:
+        return estimate
+    values = np.array([right(pair) for pair, _ in own], dtype=float)
+    return proportion([(values, 1)], [[pair.state for pair, _ in own]])
 
 
 def _ratio(own: Sequence[Weighed], measure: str) -> Ratio:

@@ -82,10 +82,10 @@ def test_a_told_robot_is_shown_under_either_draw() -> None:
     assert (plain.weighed.worth, weighed.weighed.worth) == (4.0, pytest.approx(16 / 9.5))
 
 
-def _as_published(name: str, factor: float = 1.0) -> Pair:
+def _as_published(name: str, factor: float = 1.0, state: str = "s") -> Pair:
     """A pair whose ratios are the published ones, times a factor."""
     values = {m: factor * PUBLISHED[name].ratios[m] for m in MEASURES}
-    return a_pair(name, base=a_side(PUBLISHED[name].baseline == 1.0, **values))
+    return a_pair(name, base=a_side(PUBLISHED[name].baseline == 1.0, **values), state=state)
 
 
 def _two(first: list[Pair], second: list[Pair]) -> str:
@@ -94,7 +94,8 @@ def _two(first: list[Pair], second: list[Pair]) -> str:
 
 
 def test_the_nearest_one_is_named_with_what_stays_outside_of_it() -> None:
-    exact = [_as_published(name) for name in SCENARIOS]
+    """In each row 20 pairs, of which TP gets all right or none."""
+    exact = [_as_published(name, 1.0, f"s{n}") for name in SCENARIOS for n in range(20)]
     page = " ".join(_two(exact, [_as_published(name, 2.0) for name in SCENARIOS]).split())
     assert "Most published values, 18 of 20, lie inside with `near`" in page
     assert "row 3 accuracy (0.00, published 0.72), row 4 accuracy (0.00, published 0.73)" in page
@@ -126,7 +127,7 @@ def test_the_released_draw_stands_beside_the_published_rows_with_marks() -> None
     page = released(weigh([_as_published("1"), _as_published("2", 2.0)], lambda _: 1.0))
     lines = page.splitlines()
     first = next(n for n, line in enumerate(lines) if line.startswith("| 1 "))
-    assert lines[first].split(" | ")[1:3] == ["50%", "100.0 [100.0, 100.0]"]
+    assert lines[first].split(" | ")[1:3] == ["50%", "100.0 [2.5, 100.0]"]
     assert lines[first + 1] == "|   published | 7% | 100 | 1.00 | 1.00 | 1.00 |"
     assert lines[first + 3] == "|   published | 7% | 100 | 2.63 * | 5.10 * | 3.61 * |"
     assert "as certain\nas 2 pairs of equal weight" in page

@@ -51,6 +51,14 @@ def test_what_weighs_nothing_is_not_there() -> None:
     assert _rows(weighing(PAIRS, [0.0, 3.0, 4.0, 5.0]))["3"].pairs == 1
 
 
+def test_where_all_are_right_the_interval_is_the_exact_one_of_as_many_states() -> None:
+    pairs = [a_pair("1", state=f"s{number % 5}") for number in range(10)]
+    row = _rows(weighing(pairs, [float(n + 1) for n in range(10)]))["1"]
+    assert row.baseline is not None
+    assert row.baseline.value == row.baseline.high == 1.0
+    assert row.baseline.low == pytest.approx(0.025 ** (1 / 5))
+
+
 def test_lost_trials_are_in_no_row() -> None:
     lost = a_pair("3", base=a_side(correct=False, failed=True))
     weighed = weighing([*PAIRS, lost], [1.0, 3.0, 4.0, 5.0, 9.0])
