@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping
 
 from testbed.experiment.counting import standing
@@ -11,8 +12,7 @@ from testbed.experiment.record import FAILURES, TrialRecord
 class Outline:
     """The numbers of a record: what is held in memory of each trial of a large run.
 
-    `state` names the initial state; `minimal` is the least that achieves the goal from there, by
-    the names of measures.
+    `state` names the initial state.
     """
 
     __slots__ = (
@@ -21,7 +21,8 @@ class Outline:
         "correct",
         "ended",
         "execution_units",
-        "minimal",
+        "minimal_actions",
+        "minimal_units",
         "planning_time_s",
         "plans",
         "standing",
@@ -30,8 +31,9 @@ class Outline:
 
     def __init__(self, record: TrialRecord) -> None:
         self.standing = standing(record)
-        self.state = " ".join(record.initial)
-        self.minimal = minimal(record)
+        self.state = state_of(record)
+        self.minimal_actions = record.minimal_actions
+        self.minimal_units = record.minimal_units
         self.ended = record.outcome not in FAILURES
         self.achieved = record.achieved
         self.correct = record.correct
@@ -39,6 +41,12 @@ class Outline:
         self.action_count = record.action_count
         self.execution_units = record.execution_units
         self.planning_time_s = record.planning_time_s
+
+    @property
+    def minimal(self) -> Mapping[str, int]:
+        """The least that achieves the goal, by the names of measures, as far as it is known."""
+        known = {"execution_units": self.minimal_units, "actions": self.minimal_actions}
+        return {name: least for name, least in known.items() if least is not None}
 
 
 MEASURES: Mapping[str, Callable[[Outline], float]] = {
@@ -50,7 +58,6 @@ MEASURES: Mapping[str, Callable[[Outline], float]] = {
 }
 
 
-def minimal(record: TrialRecord) -> Mapping[str, int]:
-    """The least that achieves a trial's goal, as far as it is known."""
-    known = {"execution_units": record.minimal_units, "actions": record.minimal_actions}
-    return {name: least for name, least in known.items() if least is not None}
+def state_of(record: TrialRecord) -> str:
+    """The initial state of a trial, as a name; equal ones are one object."""
+    return sys.intern(" ".join(record.initial))

@@ -94,8 +94,8 @@ def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int], who: tuple[
     return Row(
         name=name,
         pairs=len(counted),
-        failed=sum(pair.mind.failed or pair.base.failed for pair in pairs),
-        unsolvable=sum(not pair.solvable for pair in pairs),
+        failed=sum(pair.failed for pair in pairs),
+        unsolvable=sum(not (pair.solvable or pair.failed) for pair in pairs),
         out_of_reach=sum(p.mind.out_of_reach or p.base.out_of_reach for p in counted),
         meetings=dict(sorted(Counter(pair.meeting for pair in counted).items())),
         intentional=proportion(*_sample(counted, times, lambda pair: pair.mind.correct)),

@@ -8,7 +8,7 @@ from typing import Literal
 
 from testbed.environment.world import World
 from testbed.experiment.counting import NOTHING_TO_DO, Apart, Standing, why_apart
-from testbed.experiment.outline import MEASURES, Outline, minimal
+from testbed.experiment.outline import MEASURES, Outline, state_of
 from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
 from testbed.experiment.table1.classify import classify, state_at
 
@@ -61,7 +61,12 @@ class Pair:
     @property
     def played(self) -> bool:
         """Whether both trials ended by themselves, and the goal could be achieved at all."""
-        return self.solvable and not (self.mind.failed or self.base.failed)
+        return self.solvable and not self.failed
+
+    @property
+    def failed(self) -> bool:
+        """Whether one of the trials ended in error or lost its robot."""
+        return self.mind.failed or self.base.failed
 
     def apart(self, sure: Collection[str]) -> Apart | None:
         """Why the pair is not counted under the scenario that was played; `sure` as `why_apart`."""
@@ -103,8 +108,8 @@ def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str)
             solvable=record.minimal_actions is not None,
             mind=minds,
             base=bases,
-            state=" ".join(record.initial),
-            minimal=minimal(record),
+            state=state_of(record),
+            minimal=Outline(record).minimal,
         )
 
 

@@ -93,10 +93,11 @@ def test_lost_trials_and_goals_that_nothing_achieves_are_counted_apart() -> None
         _pair("3", _side(), _side()),
         _pair("3", _side(failed=True, correct=False), _side()),
         _pair("3", _side(), _side(failed=True, correct=False)),
+        _pair("3", _side(), _side(failed=True, correct=False), solvable=False),
         _pair("3", _side(correct=False), _side(correct=False), solvable=False),
     ]
     row = _named(_analyse(pairs).triggered)["3"]
-    assert (row.pairs, row.failed, row.unsolvable) == (1, 2, 1)
+    assert (row.pairs, row.failed, row.unsolvable) == (1, 3, 1)
     assert row.intentional is not None
     assert row.intentional.value == 1.0
 

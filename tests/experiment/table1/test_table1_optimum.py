@@ -1,0 +1,67 @@
+"""How far both robots are from the optimum, from pairs made by hand."""
+
+from testbed.experiment.optimum import Optimum
+from testbed.experiment.table1.analysis import analyse
+from testbed.experiment.table1.optimum import section
+from testbed.experiment.table1.pairing import Pair, Side
+from testbed.experiment.table1.published import MEASURES
+
+
+def _side(actions: float, units: float, achieved: bool = True) -> Side:
+    measures = dict.fromkeys(MEASURES, 1.0) | {"actions": actions, "execution_units": units}
+    return Side(
+        trial="t",
+        failed=False,
+        achieved=achieved,
+        correct=achieved,
+        out_of_reach=False,
+        outcome="achieved" if achieved else "false_finish",
+        event="e",
+        undone=False,
+        before=("a",),
+        measures=measures,
+    )
+
+
+def _pair(scenario: str, mind: Side, base: Side, actions: int = 4) -> Pair:
+    least = {"actions": actions, "execution_units": 10}
+    return Pair(scenario, scenario, True, mind, base, f"state of {scenario}", least)
+
+
+GAVE_UP = _side(99.0, 99.0, achieved=False)
+
+
+def _optima(*pairs: Pair) -> dict[str, dict[str, Optimum]]:
+    table = analyse(pairs, "mind", "base", {"3", "4"}).triggered
+    assert table is not None
+    return {row.name: dict(row.optimum) for row in table.rows}
+
+
+def test_it_is_the_mean_of_the_quotients_over_trials_that_achieved_their_goal() -> None:
+    pairs = [_pair("3", _side(4.0, 10.0), GAVE_UP), _pair("3", _side(8.0, 30.0), _side(6.0, 5.0))]
+    found = _optima(*pairs)["3"]
+    assert found == {"mind": Optimum(2, 2.0, 1.5), "base": Optimum(1, 0.5, 1.5)}
+
+
+def test_without_a_trial_that_achieved_its_goal_there_is_none() -> None:
+    assert _optima(_pair("3", _side(4.0, 10.0), GAVE_UP))["3"]["base"] == Optimum(0, None, None)
+
+
+def test_a_goal_that_needs_nothing_has_no_quotient() -> None:
+    found = _optima(_pair("3", _side(4.0, 10.0), GAVE_UP, actions=0))["3"]
+    assert found["mind"] == Optimum(0, None, None)
+
+
+def test_in_the_row_of_all_scenarios_weigh_the_same() -> None:
+    pairs = [_pair("3", _side(4.0, 10.0), GAVE_UP) for _ in range(4)]
+    found = _optima(*pairs, _pair("4", _side(8.0, 40.0), GAVE_UP))["all"]["mind"]
+    assert found == Optimum(5, (4 * 1.0 + 4 * 4.0) / 8, (4 * 1.0 + 4 * 2.0) / 8)
+
+
+def test_the_section_has_a_row_for_each_of_both_tables() -> None:
+    pairs = [_pair("3", _side(4.0, 10.0), GAVE_UP), _pair("random", _side(5.0, 25.0), GAVE_UP)]
+    pairs[1] = Pair("random", "4", True, *(pairs[1].mind, pairs[1].base), "s", pairs[1].minimal)
+    text = section(analyse(pairs, "mind", "base", {"3"}))
+    assert "| triggered, 3 | 0 | - | - | 1 | 1.00 | 1.00 |" in text
+    assert "| random, 4 | 0 | - | - | 1 | 2.50 | 1.25 |" in text
+    assert "random, 3" not in text
