@@ -5,17 +5,27 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from testbed.config import load_config
+from testbed.experiment.domains import load_world
+from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.experiment.report import write_report
 from testbed.experiment.report.table1 import analyses
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records, write_config
-from testbed.experiment.table1.analysis import Analysis, Row
+from testbed.experiment.summary import summarise
+from testbed.experiment.table1.analysis import Analysis, Row, analyse
+from testbed.experiment.table1.pairing import pairs_of
 from testbed.experiment.table1.published import ALL, MEASURES, PUBLISHED
+from tests.experiment.samples import a_record
 
 CONFIG = load_config("table1", ["limit=16", "repeats=2", "scenario_settings={}"])
 INTENDED = ("1", "2", "3", "4", "5")
+WORLD = load_world("office")
+SURE = frozenset("2345")
+START = ["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]
 
 
 @pytest.fixture(scope="module")
@@ -145,3 +155,60 @@ def test_where_nothing_happens_nobody_needs_more_actions_than_the_fewest(
         assert (own["trials"], own["actions"]) == (found["1"]["pairs"], 1.0)
         assert own["execution_units"] >= 1.0
     assert found[ALL]["optimum"]["intentional"]["trials"] == found[ALL]["pairs"]
+
+
+@st.composite
+def _trials(draw: st.DrawFn) -> list[TrialRecord]:
+    """A pair of a scenario, of which any trial may fail, be missing, or have nothing to do."""
+    common = {
+        "pair": draw(st.uuids()).hex,
+        "scenario": draw(st.sampled_from(INTENDED)),
+        "initial": [*START, *draw(st.sampled_from([[], ["in_hand(rob1,book1)"]]))],
+        "minimal_actions": draw(st.sampled_from([None, 3, 3, 3])),
+        "minimal_units": 30,
+    }
+    idle, eventful = draw(st.booleans()), draw(st.booleans())
+    records = [
+        a_record(
+            f"{robot} {common['pair']}",
+            **common,
+            robot=robot,
+            outcome=draw(st.sampled_from(["achieved"] * 4 + ["error"])),
+            correct=draw(st.booleans()),
+            action_count=draw(st.integers(0, 4)),
+            plans=draw(st.integers(0, 2)),
+            actions=[] if idle else [Attempt(2, "unlock(rob1,library)", False)],
+            activities=[] if idle or robot == "traditional" else [Activity(1, 1, ["a"])],
+            exogenous=[Occurrence(2, "exo_lock(library)", False)] if eventful else [],
+        )
+        for robot in ("traditional", "intentional")
+    ]
+    return records[: draw(st.sampled_from([1, 2, 2, 2]))]
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(_trials(), min_size=1, max_size=12))
+def test_whatever_comes_of_pairs_both_count_the_same(trials: list[list[TrialRecord]]) -> None:
+    both = [a_record("i", scenario="6"), a_record("t", scenario="6", robot="traditional")]
+    records = [*both, *(record for pair in trials for record in pair)]
+    summary: Any = summarise(records, SURE)
+    pairs = list(pairs_of(records[2:], WORLD, "intentional", "traditional"))
+    table = analyse(pairs, "intentional", "traditional", SURE).triggered
+    rows = {} if table is None else {row.name: row for row in table.rows}
+    apart = {"no event": 0, "nothing to do": 0} | dict({} if table is None else table.apart)
+    groups = {name: own for name, own in summary["scenarios"].items() if name != "6"}
+    for name, group in groups.items():
+        row = rows.get(name)
+        if row is None:
+            assert (group["pairs"], group["failed_pairs"], group["unsolvable"]) == (0, 0, 0)
+            continue
+        counts = (group["pairs"], group["failed_pairs"], group["unsolvable"])
+        assert counts == (row.pairs, row.failed, row.unsolvable)
+        shares = (group["accuracy"].get("intentional"), group["accuracy"].get("traditional"))
+        assert shares == tuple(own and own.value for own in (row.intentional, row.baseline))
+        means = {m: ratio.mean and ratio.mean.value for m, ratio in row.ratios.items()}
+        assert group["ratios"] == pytest.approx(means)
+    assert sum(group["without_event"] for group in groups.values()) == apart["no event"]
+    assert sum(group["nothing_to_do"] for group in groups.values()) == apart["nothing to do"]
+    missing = sum(group["incomplete"] for group in groups.values())
+    assert missing == sum(len(pair) == 1 for pair in trials)
