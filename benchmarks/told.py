@@ -25,6 +25,7 @@ from agents.traditional.planner import Plan
 from asp.description import Description
 from testbed.config import ConfigError, ExperimentConfig
 from testbed.experiment.counting import BASELINE
+from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
@@ -122,7 +123,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--order", nargs="*", default=(), metavar="ROOM", help="of explanations")
     given = parser.parse_args(arguments)
     try:
-        print(told(given.run, given.out, given.order))
+        folder = told(given.run, given.out, given.order)
+        print(f"{folder}: digest of its results {digest(read_records(folder))}")
     except (StoreError, ConfigError, ValueError, OSError) as error:
         print(error, file=sys.stderr)
         return BAD_INPUT

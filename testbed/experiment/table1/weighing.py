@@ -21,11 +21,13 @@ Weighed = tuple[Pair, float]
 class Weighing:
     """A table of weighed pairs; `shares` are the parts of scenarios 1 to 5 in its row of all.
 
-    `worth` is how many pairs of one weight say as much as these (Kish's effective sample size).
+    `inside` is the part of all pairs, by weight, that these scenarios have together. `worth` is how
+    many pairs of one weight say as much as these (Kish's effective sample size).
     """
 
     table: Table
     shares: dict[str, float]
+    inside: float
     worth: float
 
 
@@ -33,11 +35,12 @@ def weighing(pairs: Sequence[Pair], weights: Sequence[float]) -> Weighing:
     """The table of random pairs, each counted with its weight, if it has any."""
     counted = [(p, w) for p, w in zip(pairs, weights, strict=True) if p.played and w > 0]
     inside = [(p, w) for p, w in counted if p.happened in SCENARIOS]
-    whole = sum(w for _, w in inside) or 1.0
+    whole, everything = (sum(w for _, w in own) or 1.0 for own in (inside, counted))
     return Weighing(
         table=Table(tuple(_row(name, own) for name, own in _rows(inside)), {}),
         shares={n: sum(w for p, w in inside if p.happened == n) / whole for n in SCENARIOS},
-        worth=sum(w for _, w in counted) ** 2 / (sum(w * w for _, w in counted) or 1.0),
+        inside=sum(w for _, w in inside) / everything,
+        worth=everything**2 / (sum(w * w for _, w in counted) or 1.0),
     )
 
 

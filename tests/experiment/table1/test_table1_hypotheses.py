@@ -130,6 +130,7 @@ def test_the_released_draw_stands_beside_the_published_rows_with_marks() -> None
     assert lines[first].split(" | ")[1:3] == ["50%", "100.0 [2.5, 100.0]"]
     assert lines[first + 1] == "|   published | 7% | 100 | 1.00 | 1.00 | 1.00 |"
     assert lines[first + 3] == "|   published | 7% | 100 | 2.63 * | 5.10 * | 3.61 * |"
+    assert "Of 1000 pairs so drawn 1000 are of scenarios 1 to 5." in page
     assert "as certain\nas 2 pairs of equal weight" in page
 
 

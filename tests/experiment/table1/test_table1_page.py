@@ -10,7 +10,7 @@ from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import Analysis, analyse
 from testbed.experiment.table1.page.drawing import drawing, unclassified
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
-from testbed.experiment.table1.page.others import later
+from testbed.experiment.table1.page.others import arguments, later, unaided
 from testbed.experiment.table1.page.rows import row_by_row
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import PUBLISHED
@@ -225,3 +225,43 @@ def test_a_run_without_random_pairs_has_no_such_section() -> None:
     analyses = {"intentional": _analysis(triggered)}
     run = Run(None, CONFIG, {"intentional": triggered}, analyses)  # type: ignore[arg-type]
     assert later(run, triggered) == ""
+
+
+def _unaided(minds: dict[str, list[Pair]]) -> str:
+    return unaided(Run(None, CONFIG, minds, {}))  # type: ignore[arg-type]  # no folder
+
+
+def _three(trial: str, happened: str, first: bool, second: bool, base: bool) -> dict[str, Pair]:
+    """The pairs of two robots with the same trial of the traditional one."""
+    other = a_side(base, trial=trial)
+    return {
+        "intentional": a_pair(happened, a_side(first, execution_units=40), other),
+        "intentional-checking": a_pair("6", a_side(second, execution_units=50), other),
+    }
+
+
+def test_without_feedback_each_robot_is_counted_under_the_first_ones_scenario() -> None:
+    threes = [
+        _three("t1", "3", first=True, second=True, base=False),
+        _three("t2", "3", first=False, second=True, base=False),
+        _three("t3", "1", first=True, second=True, base=True),
+    ]
+    names = ("intentional", "intentional-checking")
+    page = _unaided({name: [three[name] for three in threes] for name in names})
+    rows = _lines(page)
+    assert rows["random, 3"] == ["2", "50.0% (1)", "100.0% (2)", "0.0% (0)"]
+    assert rows["random, 1"] == ["1", "100.0% (1)", "100.0% (1)", "100.0% (1)"]
+    assert "`intentional-checking` needed 1.25 times the execution units of" in _text(page)
+    assert "ATI does without feedback here" not in page
+
+
+def test_why_nothing_is_missed_is_said_only_where_nothing_is() -> None:
+    pairs = [pair for pair in SPLIT if pair.mind.achieved]
+    assert "ATI does without feedback here" in _unaided({"intentional": pairs})
+
+
+def test_a_command_names_what_differs_from_the_packaged_configuration() -> None:
+    config = load_config("table1", ["name=x", "goal_feedback=false", "robots=[traditional]"])
+    given = ["table1", "name=x", "robots=[traditional]", "goal_feedback=false"]
+    assert arguments(config) == given
+    assert arguments(load_config("table1")) == ["table1"]

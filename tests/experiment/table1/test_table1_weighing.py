@@ -33,6 +33,7 @@ def test_accuracies_and_ratios_are_weighted_means() -> None:
 def test_shares_are_those_of_the_weights_in_scenarios_one_to_five() -> None:
     weighed = weighing(PAIRS, [1.0, 3.0, 4.0, 5.0])
     assert weighed.shares == pytest.approx({"1": 0.5, "2": 0.0, "3": 0.5, "4": 0.0, "5": 0.0})
+    assert weighed.inside == pytest.approx(8.0 / 13.0)
     assert weighed.worth == pytest.approx(13.0**2 / (1 + 9 + 16 + 25))
 
 

@@ -40,7 +40,7 @@ and how. Nothing in the robots or in the triggers was chosen to come near the pu
 ```
 
 Whoever runs them gets the same results. Planning times depend on the machine, and on what else it
-does; times aside, the digests of the results, which `testbed run` says at the end, are
+does; times aside, the digests of the results, which are also said at the end of each run, are
 
 {digests}
 
@@ -117,19 +117,19 @@ def _of(main: Run, run: Run, mind: str, weights: Mapping[str, float]) -> list[Pa
 def _digests(sources: Sources) -> str:
     rows = [
         (f"`runs/{run.config.name}`", f"`{digest(read_records(run.folder))}`")
-        for run in _runs(sources)
+        for run in (*_played(sources), *sources.told)
     ]
     return markdown(("run", "digest"), rows)
 
 
-def _runs(sources: Sources) -> list[Run]:
-    played = [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
-    return [*played, *sources.told]
+def _played(sources: Sources) -> list[Run]:
+    """The runs that are made by `testbed run`."""
+    return [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
 
 
 def _commands(sources: Sources) -> str:
     main = f"runs/{sources.main.config.name}"
-    played = [run for run in _runs(sources) if run not in sources.told]
+    played = _played(sources)
     lines = [f"$ testbed run {shlex.join(arguments(run.config))} --workers 2" for run in played]
     for run in sources.told:
         order = " ".join(["", "--order", *told_order(run)]) if told_order(run) else ""

@@ -9,15 +9,12 @@ from testbed.experiment.markdown import markdown
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM
-from testbed.experiment.table1.page.released import NAMES
+from testbed.experiment.table1.page.released import NAMES, PAIRS
 from testbed.experiment.table1.page.text import paragraph, percent
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import PUBLISHED, SCENARIOS
 from testbed.experiment.table1.table import number
 from testbed.experiment.table1.weighing import Weighing, weighing
-
-PAIRS = 800
-"""About so many pairs the published table has, by P 4.2: in each row, or in all."""
 
 AS_PLAYED, PASSED_ON = "as played", "released draw"
 Weights = Callable[[Pair], float]

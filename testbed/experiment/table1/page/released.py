@@ -7,13 +7,16 @@ from collections.abc import Iterator, Mapping
 from testbed.experiment.markdown import markdown
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1 import evidence
-from testbed.experiment.table1.page.text import percent
+from testbed.experiment.table1.page.text import paragraph, percent
 from testbed.experiment.table1.published import PUBLISHED, SCENARIOS, Published
 from testbed.experiment.table1.results import Row
 from testbed.experiment.table1.weighing import Weighing
 
 NAMES = {"plans": "plans", "execution_units": "exec. time", "actions": "actions"}
 """The measures that do not depend on how fast a machine or a solver is."""
+PAIRS = 800
+"""About so many paired trials P 4.2 speaks of, in each of five scenarios."""
+DRAWN = 1000
 
 
 def released(own: Weighing) -> str:
@@ -23,12 +26,12 @@ def released(own: Weighing) -> str:
 ## The draw of the released simulator
 
 The random event here is what the domain's text says: one of what exogenous actions are done to is
-drawn, and if nothing can be done to it, nothing happens at this step. The released simulator (the
-public sources of the published experiments) does it otherwise in two points. A book that is drawn
-while the robot holds it, or is picking it up, passes the draw on to the other book: the event comes
+drawn, and if nothing can be done to it, nothing happens at this step. The released simulator
+(github.com/hril230/theoryofintentions) does it otherwise in two points. A book that is drawn while
+the robot holds it, or is picking it up, passes the draw on to the other book: the event comes
 earlier, it moves a book more often than it locks a room, and while one book is on its way it is the
 other that is moved, which may be in its place already. And the new room is drawn among all others;
-where that one is locked, nothing happens.
+where it is not possible, nothing happens.
 
 Until the event both robots know everything, and act alike under either draw. So the pairs above are
 pairs of the released simulator, too, only not as frequent: each is weighed by how many times more
@@ -36,7 +39,18 @@ probable its event is there (`testbed/experiment/table1/redrawing.py`). What com
 as {own.worth:.0f} pairs of equal weight:
 
 {markdown(columns, _table(own))}
+
+{_number(own)}
 """
+
+
+def _number(own: Weighing) -> str:
+    """How many pairs the published rows are of, as far as it can be told."""
+    return paragraph(
+        f"Of {DRAWN} pairs so drawn {DRAWN * own.inside:.0f} are of scenarios 1 to 5. The paper "
+        f"speaks of about {PAIRS} paired trials in each scenario, which the unequal shares of its "
+        "own rows do not bear out."
+    )
 
 
 def _table(own: Weighing) -> Iterator[tuple[str, ...]]:
