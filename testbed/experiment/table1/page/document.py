@@ -12,7 +12,7 @@ from testbed.experiment.errors import StoreError
 from testbed.experiment.markdown import markdown
 from testbed.experiment.store import read_records
 from testbed.experiment.table1 import optimum
-from testbed.experiment.table1.analysis import Analysis, Table
+from testbed.experiment.table1.analysis import RANDOM, Analysis, Table
 from testbed.experiment.table1.page.drawing import drawing
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
 from testbed.experiment.table1.page.hypotheses import (
@@ -97,7 +97,9 @@ def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
     if main.analyses[mind].random is None:
         return
     weights = released_weights(main, mind)
-    yield released(weigh(main.pairs[mind], lambda pair: weights[pair.mind.trial]))
+    drawn = [pair for pair in main.pairs[mind] if pair.intended == RANDOM]
+    otherwise = sum(pair.meeting not in ("nothing", "same") for pair in drawn)
+    yield released(weigh(drawn, lambda pair: weights[pair.mind.trial]), otherwise)
     found = hypotheses(main.pairs[mind], main.config.goal, weights)
     if sources.later is not None:
         own = weigh(sources.later.pairs[mind], lambda _: 1.0)

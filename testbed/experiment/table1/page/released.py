@@ -19,8 +19,11 @@ PAIRS = 800
 DRAWN = 1000
 
 
-def released(own: Weighing) -> str:
-    """The section on the draw of the released simulator."""
+def released(own: Weighing, met_otherwise: int) -> str:
+    """The section on the draw of the released simulator.
+
+    `met_otherwise` counts the random pairs whose robots did not meet the same event.
+    """
     columns = ("scenario", "share", "TP acc.", *NAMES.values())
     return f"""\
 ## The draw of the released simulator
@@ -33,15 +36,24 @@ earlier, it moves a book more often than it locks a room, and while one book is 
 other that is moved, which may be in its place already. And the new room is drawn among all others;
 where it is not possible, nothing happens.
 
-Until the event both robots know everything, and act alike under either draw. So the pairs above are
-pairs of the released simulator, too, only not as frequent: each is weighed by how many times more
-probable its event is there (`testbed/experiment/table1/redrawing.py`). What comes of it, as certain
-as {own.worth:.0f} pairs of equal weight:
+{_why(own, met_otherwise)}
 
 {markdown(columns, _table(own))}
 
 {_number(own)}
 """
+
+
+def _why(own: Weighing, met_otherwise: int) -> str:
+    """Why weights do, and how far."""
+    doubt = f"In {met_otherwise} pairs they did not meet the same; there it is ATI's event. "
+    return paragraph(
+        "Until the event both robots know everything, and act alike under either draw. So the "
+        "pairs above are pairs of the released simulator, too, only not as frequent: each is "
+        "weighed by how many times more probable its event is there "
+        f"(`testbed/experiment/table1/redrawing.py`). {doubt if met_otherwise else ''}What comes "
+        f"of it, as certain as {own.worth:.0f} pairs of equal weight:"
+    )
 
 
 def _number(own: Weighing) -> str:
