@@ -94,8 +94,15 @@ def _sheet(config: str, overrides: Sequence[str], folder: Path) -> Sheet:
 def _rows(config: str, overrides: Sequence[str], folder: Path, planned: int) -> Iterator[Row]:
     for way in WAYS:
         print(f"{config}: {way.name}", file=sys.stderr, flush=True)
-        (folder / way.name).mkdir(parents=True)
+        _make(folder / way.name)
         yield _played(way, [config, *overrides], folder / way.name, planned)
+
+
+def _make(folder: Path) -> None:
+    """Make the folder of a run. Raises FileExistsError, in words, where there is one."""
+    if folder.exists():
+        raise FileExistsError(f"{folder}: is there already; choose another --folder")
+    folder.mkdir(parents=True)
 
 
 def _played(way: Way, what: Sequence[str], folder: Path, planned: int) -> Row:

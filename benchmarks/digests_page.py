@@ -17,15 +17,15 @@ the file. `testbed run` and `testbed report` print it, and `summary.json` keeps 
 the configuration and on the program; the number of workers, the link, and whether the run was
 interrupted make no difference to it.
 
-Here each protocol was played in four ways: with one worker and with two, with two that each have a
-robot's process to talk to over zenoh, and with two whose driver was killed (SIGKILL) in the middle,
-after which `--resume` played what was missing. {verdict}
+Here each protocol was played in four ways: with one worker and with two, with two that
+each talk to a robot's process over zenoh, and with two whose driver was killed (SIGKILL) in the
+middle, after which `--resume` played what was missing. {verdict}
 
 ```
 {command}
 ```
 
-The command exits with 1 where digests differ. The small size of it, `limit=1`, runs with the tests.
+The command exits with 1 where digests differ. A small size of it runs with the tests.
 A digest is that of one revision of the program: a robot that plans otherwise, or says more in a
 record, gives another one.
 """

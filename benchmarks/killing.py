@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import time
 from collections.abc import Iterator, Sequence
@@ -11,7 +12,7 @@ POLL_S = 0.01
 
 
 class NotKilledError(RuntimeError):
-    """The run ended by itself before it had as many records as it was to be killed at."""
+    """The run ended by itself before it was killed."""
 
 
 def killed_at(records: int, command: Sequence[str], folder: Path) -> bytes:
@@ -28,11 +29,13 @@ def killed_at(records: int, command: Sequence[str], folder: Path) -> bytes:
         lines = _growing(path)
         while next(lines) < records:
             if driver.poll() is not None:
-                raise NotKilledError(f"{folder}: its driver ended with {driver.returncode}")
+                break
             time.sleep(POLL_S)
     finally:
         driver.kill()
         driver.wait()
+    if driver.returncode != -signal.SIGKILL:
+        raise NotKilledError(f"{folder}: its driver ended before it was killed")
     return whole_lines(path)
 
 

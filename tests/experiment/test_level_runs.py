@@ -1,13 +1,17 @@
 """Runs at the fine resolution with real robots: the same wherever they are played."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
+from benchmarks.killing import killed_at
 from testbed.cli import app
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import logical
 from testbed.experiment.registry import make_robot
@@ -17,9 +21,12 @@ from testbed.experiment.store import read_records, write_config
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 
+LEVELS = ("L1", "L2", "L3", "L4", "L5", "L6", "L7", "L8")
+SMALL = ("levels=[L1,L2]", "limit=2", "adversary.rate=0.2")
+
 
 def _config(*overrides: str) -> ExperimentConfig:
-    return load_config("levels", ["levels=[L1,L2]", "limit=2", "adversary.rate=0.2", *overrides])
+    return load_config("levels", [*SMALL, *overrides])
 
 
 def _run(config: ExperimentConfig, folder: Path, workers: int = 1) -> list[dict[str, object]]:
@@ -66,7 +73,22 @@ def _abstract(level: str) -> set[str]:
     }
 
 
-@pytest.mark.parametrize(("link", "workers"), [("zenoh", 1), ("inprocess", 2)])
+def test_a_small_size_has_every_level() -> None:
+    assert tuple(load_config("levels").levels) == LEVELS
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_at_each_level_both_robots_achieve_what_is_in_reach(tmp_path: Path, level: str) -> None:
+    run_trials(load_config("levels", [f"levels=[{level}]", "limit=1"]), tmp_path, 1, _ignore)
+    records = list(read_records(tmp_path))
+    assert sorted(record.robot for record in records) == ["intentional", "intentional-nozoom"]
+    for record in records:
+        assert record.level == level
+        assert record.achieved or record.in_reach is False
+        assert record.outcome == ("achieved" if record.achieved else "gave_up")
+
+
+@pytest.mark.parametrize(("link", "workers"), [("zenoh", 1), ("inprocess", 2), ("zenoh", 2)])
 def test_the_same_trials_come_out_wherever_they_are_played(
     tmp_path: Path, here: Path, link: str, workers: int
 ) -> None:
@@ -81,6 +103,22 @@ def test_a_run_of_levels_goes_on_with_what_is_missing(tmp_path: Path, here: Path
     assert CliRunner().invoke(app, resumed).exit_code == 0
     assert (tmp_path / "trials.jsonl").read_bytes().startswith(b"".join(lines[:5]))
     assert _played(tmp_path) == _played(here)
+
+
+@pytest.mark.parametrize(("link", "workers"), [("inprocess", 1), ("zenoh", 2)])
+def test_a_killed_run_of_levels_goes_on_to_the_same_results(
+    tmp_path: Path, here: Path, link: str, workers: int
+) -> None:
+    command = [sys.executable, "-m", "testbed", "run", "levels", *SMALL, f"link={link}"]
+    command += ["--out", str(tmp_path), "--workers", str(workers), "--quiet"]
+    kept = killed_at(2, command, tmp_path)
+    missing = len(plan_trials(_config())) - kept.count(b"\n")
+    assert missing > 0
+    assert subprocess.run([*command, "--resume"], check=False).returncode == 0
+    whole = (tmp_path / "trials.jsonl").read_bytes()
+    assert whole.startswith(kept)
+    assert whole.removeprefix(kept).count(b"\n") == missing
+    assert digest(read_records(tmp_path)) == digest(read_records(here))
 
 
 def test_summary_and_report_have_the_columns_of_the_levels(here: Path) -> None:

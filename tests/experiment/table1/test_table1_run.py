@@ -1,14 +1,12 @@
 """The protocol at a small size: the same results wherever it is played, also after a kill."""
 
-import os
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
+from benchmarks.killing import killed_at
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
@@ -69,24 +67,11 @@ def test_a_driver_killed_in_the_middle_goes_on_to_the_same_results(
     folder = tmp_path / "run"
     command = [sys.executable, "-m", "testbed", "run", "table1", *SMALL, f"link={link}"]
     command += ["--out", str(folder), "--workers", str(workers), "--quiet"]
-    driver = subprocess.Popen(command)
-    while _lines(folder) < 5:
-        assert driver.poll() is None
-        time.sleep(0.01)
-    os.kill(driver.pid, signal.SIGKILL)
-    driver.wait()
-    before = _lines(folder)
-    assert before < len(plan_trials(_config()))
-    kept = (folder / "trials.jsonl").read_bytes()
+    kept = killed_at(5, command, folder)
+    assert 5 <= kept.count(b"\n") < len(plan_trials(_config()))
     assert subprocess.run([*command, "--resume"], check=False).returncode == 0
-    whole = kept[: kept.rfind(b"\n") + 1]
-    assert (folder / "trials.jsonl").read_bytes().startswith(whole)
+    assert (folder / "trials.jsonl").read_bytes().startswith(kept)
     assert digest(read_records(folder)) == digest(read_records(here))
-
-
-def _lines(folder: Path) -> int:
-    path = folder / "trials.jsonl"
-    return path.read_bytes().count(b"\n") if path.is_file() else 0
 
 
 def test_the_page_is_made_from_a_run(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
