@@ -22,6 +22,10 @@ FinePlan = tuple[str, ...]
 _TEST, _OBSERVED = "test_", "observed_"
 
 
+class NotCandidatesError(ValueError):
+    """Fluents one of which is to hold, that are not values of one function that always has one."""
+
+
 class NoPlan(Enum):
     """Why there is no plan: none of any length, or none of at most so many actions."""
 
@@ -165,10 +169,10 @@ def _dealing(
 def _about(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:
     """The constants that a group of candidates is about.
 
-    Raises ValueError for a group that is not made of values of one total function.
+    Raises NotCandidatesError for a group that is not made of values of one total function.
     """
     found = {subject(fluent, known) for fluent in group}
     first = next(iter(found))
     if len(found) != 1 or first is None:
-        raise ValueError(f"not candidates for the place of one thing: {', '.join(group)}")
+        raise NotCandidatesError(f"not candidates for the place of one thing: {', '.join(group)}")
     return frozenset(first[1:])

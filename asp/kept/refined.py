@@ -8,7 +8,7 @@ from functools import lru_cache, partial
 from itertools import chain
 
 from asp import syntax
-from asp.fine_plans import FinePlan, FineStart, NoPlan, plain_plan
+from asp.fine_plans import FinePlan, FineStart, NoPlan, NotCandidatesError, plain_plan
 from asp.kept.compact import NotCompactError
 from asp.kept.fine_domain import FineDomain
 from asp.kept.fitted import Problem
@@ -70,7 +70,7 @@ class FinePlanner:
 
         Of candidates those are assumed that make it short. `constants` are those of the part of
         the description that is planned in (None: the whole).
-        Raises TimeLimitError, and ValueError for a goal about other constants.
+        Raises TimeLimitError, NotCandidatesError, ValueError for a goal about other constants.
         """
         if not all(start.candidates):
             return NoPlan.OUT_OF_REACH
@@ -108,12 +108,13 @@ class FinePlanner:
         return horizon.plan(horizon.start(problem.true, problem.candidates), problem.goal)
 
     def _by_function(self, groups: Iterable[tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
-        """The groups of candidates by what they give a value. Raises ValueError."""
+        """The groups of candidates by what they give a value. Raises NotCandidatesError."""
         found = {}
         for group in groups:
             function = subject(group[0], self._functions)
             if function is None:
-                raise ValueError(f"{group[0]}: not a value of a function that always has one")
+                message = f"{group[0]}: not a value of a function that always has one"
+                raise NotCandidatesError(message)
             found[ground(function[0], function[1:])] = group
         return found
 

@@ -8,7 +8,7 @@ from agents.intentional.executor.belief import FineBelief
 from agents.intentional.executor.coarse import CoarseDiagram
 from agents.intentional.executor.means import means_of
 from agents.intentional.executor.tally import Tally
-from asp.fine_plans import FineStart, NoPlan
+from asp.fine_plans import FineStart, NoPlan, NotCandidatesError
 from asp.literals import arguments, atom, is_positive, name
 from asp.refinement import Refinement
 from asp.refinement.zooming import fine_constants
@@ -115,7 +115,7 @@ class Mind:
         limit = sum(len(self.refinement.components[constant]) for constant in zoom) + 1
         try:
             found = self.means.planner.plan(start, goal, limit, constants if self.zooms else None)
-        except ValueError:  # the goal is about something that is elsewhere
+        except NotCandidatesError:  # somebody may have handed over what need not be anywhere
             return None
         return None if isinstance(found, NoPlan) else found
 

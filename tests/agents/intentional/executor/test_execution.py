@@ -15,6 +15,7 @@ from asp.levels import level_text
 from asp.loading import read_domain
 from asp.refinement import Refinement, load
 from asp.solving import OUT_OF_TIME, TimeLimitError
+from testbed.link.messages import Task
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
 
 GOAL = ["loc(object1,room2)", "-in_hand(rob1,object1)"]
@@ -243,6 +244,36 @@ def test_what_is_put_down_may_be_taken_away_at_once(reported: bool) -> None:
     went = play(RefinedRobot(), ROW, start, GOAL, Faults(events=taken, reported=reported))
     assert went.achieved
     assert "fine_pickup(rob1,object1_1)" in went.actions
+
+
+def _mind() -> Mind:
+    """That of a robot which knows its own cell and nothing else."""
+    robot = RefinedRobot()
+    task = Task(
+        trial="play",
+        robot="rob1",
+        domain="stage",
+        source=ROW.coarse.text,
+        refinement=TEXTS[ROW],
+        goal=GOAL,
+        initial=["loc(rob1,room1)"],
+        initial_fine=["fine_loc(rob1,room1_1)"],
+        plan_limit=20,
+        seed=0,
+    )
+    robot.begin(task)
+    return robot._mind
+
+
+def test_which_part_it_holds_is_nothing_to_assume_in_a_plan() -> None:
+    held = ("fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)")
+    zoom = ["rob1", "object1", "room1"]
+    assert _mind().plan(("-in_hand(rob1,object1)",), (held,), zoom) is None
+
+
+def test_what_is_wrong_with_a_plan_is_not_taken_for_none() -> None:
+    with pytest.raises(ValueError, match="room3"):
+        _mind().plan(("loc(rob1,room3)",), (), ["rob1", "room1", "room2"])
 
 
 def test_where_the_time_runs_out_it_waits_and_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
