@@ -1,15 +1,18 @@
 """Play trials in this process, or on several worker processes that live across trials.
 
 `concurrent.futures` gives up the whole pool when one worker dies; here that costs the one trial.
-Workers are spawned: a forked process with an open zenoh session hangs.
+Workers are spawned: a forked process with an open zenoh session hangs. The trials of a pair are
+played by one worker, one right after the other, so that their times are of the same process.
 """
 
 from __future__ import annotations
 
 import os
 import signal
+from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import AbstractContextManager, suppress
+from itertools import groupby
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
@@ -60,7 +63,7 @@ def _cores() -> int:
 
 
 class _Worker:
-    """A spawned process, the pipe to it and the position of the trial that it has."""
+    """A spawned process, the pipe to it, and positions: of the trial that it has, of its next."""
 
     def __init__(self, open_player: OpenPlayer) -> None:
         context = get_context("spawn")
@@ -70,6 +73,7 @@ class _Worker:
             self.process.start()
         far_end.close()
         self.position: int | None = None
+        self.next: deque[int] = deque()
 
     def end(self, at_once: bool) -> int | None:
         """End the process and return its exit code."""
@@ -89,7 +93,7 @@ class _Crew:
     def __init__(self, specs: Sequence[TrialSpec], open_player: OpenPlayer) -> None:
         self._specs = specs
         self._open_player = open_player
-        self._next = 0
+        self._pairs = deque(_by_pair(specs))
         self._workers: list[_Worker] = []
 
     def work(self, size: int) -> Iterator[tuple[int, Result]]:
@@ -114,15 +118,21 @@ class _Crew:
 
     def _hand_out(self) -> None:
         for worker in self._workers:
-            if worker.position is None and self._next < self._horizon():
-                with suppress(OSError):  # a dead worker shows when its answer is collected
-                    worker.pipe.send(self._specs[self._next])
-                worker.position = self._next
-                self._next += 1
+            if worker.position is None:
+                self._give(worker)
+
+    def _give(self, worker: _Worker) -> None:
+        """The next of its pair, or the first of the next pair."""
+        if not worker.next and self._pairs and self._pairs[0][0] < self._horizon():
+            worker.next.extend(self._pairs.popleft())
+        if worker.next:
+            worker.position = worker.next.popleft()
+            with suppress(OSError):  # a dead worker shows when its answer is collected
+                worker.pipe.send(self._specs[worker.position])
 
     def _horizon(self) -> int:
         under_way = [w.position for w in self._workers if w.position is not None]
-        return min(len(self._specs), min(under_way, default=self._next) + AHEAD)
+        return min(under_way, default=len(self._specs)) + AHEAD
 
     def _collect(self, worker: _Worker) -> tuple[int, Result]:
         assert worker.position is not None
@@ -131,8 +141,15 @@ class _Crew:
             return position, worker.pipe.recv()
         except (EOFError, OSError):
             code = worker.end(at_once=True)
-            self._workers[self._workers.index(worker)] = _Worker(self._open_player)
+            heir = self._workers[self._workers.index(worker)] = _Worker(self._open_player)
+            heir.next = worker.next
             return position, lost_worker(self._specs[position], code)
+
+
+def _by_pair(specs: Sequence[TrialSpec]) -> Iterator[list[int]]:
+    """The positions of each pair, which stand one after the other."""
+    for _, own in groupby(range(len(specs)), lambda position: specs[position].pair):
+        yield list(own)
 
 
 def _serve(pipe: Connection, open_player: OpenPlayer) -> None:

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
+from itertools import count
 from multiprocessing import active_children
 from pathlib import Path
 
@@ -142,6 +143,29 @@ def test_a_killed_worker_costs_its_trial_alone(configure: Configure) -> None:
 @contextmanager
 def _instant() -> Iterator[Play]:
     yield lambda spec: Result(blank_record(spec))
+
+
+@contextmanager
+def _signed() -> Iterator[Play]:
+    """Says in which process each trial was played, and as which of its trials."""
+    number = count()
+    yield lambda spec: Result(blank_record(spec), f"{os.getpid()} {next(number)}")
+
+
+def test_the_trials_of_a_pair_are_played_by_one_worker_one_after_the_other(
+    configure: Configure,
+) -> None:
+    specs = plan_trials(configure("robots=[intentional,traditional,intentional-checking]"))
+    played = dict(play_all(specs, 2, _signed))
+    assert sorted(played) == list(range(len(specs)))
+    pairs: dict[str, list[tuple[int, int]]] = {}
+    for position, spec in enumerate(specs):
+        process, number = map(int, (played[position].details or "").split())
+        pairs.setdefault(spec.pair, []).append((process, number))
+    assert len(pairs) == len(specs) / 3
+    for own in pairs.values():
+        process, first = own[0]
+        assert own == [(process, first + later) for later in range(3)]
 
 
 def _instantly(*_: object) -> AbstractContextManager[Play]:
