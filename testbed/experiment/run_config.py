@@ -1,0 +1,91 @@
+"""The configuration in a run folder: what is needed to go on with the run, or to run it again."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import yaml
+
+from testbed.config import ConfigError, ExperimentConfig, load_config
+from testbed.config.levels import SCENARIO_KEYS
+from testbed.experiment.errors import StoreError
+from testbed.experiment.run_folder import CONFIG, replace_text
+
+ANY_RESULT = ("link", "limits.answer_s")  # keys on which no logical result depends
+
+
+def read_config(folder: Path) -> ExperimentConfig:
+    """The configuration stored in a run folder. Raises StoreError or ConfigError."""
+    if not (folder / CONFIG).is_file():
+        raise StoreError(f"{folder}: is not a run folder (it has no {CONFIG})")
+    return load_config(folder / CONFIG)
+
+
+def write_config(folder: Path, config: ExperimentConfig) -> None:
+    """Write the resolved configuration, and beside it a domain or map that is not packaged."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = _own_files(config)
+    for source in files.values():
+        if source.parent != folder.resolve():
+            shutil.copyfile(source, folder / source.name)
+    config = config.model_copy(update={key: source.name for key, source in files.items()})
+    replace_text(folder / CONFIG, config_text(config))
+
+
+def _own_files(config: ExperimentConfig) -> dict[str, Path]:
+    """The files that a configuration leads to, by its key."""
+    files = {"domain": Path(config.domain)} if config.domain.endswith(".al") else {}
+    refinement = Path(config.refinement or "")
+    return files | {"refinement": refinement} if refinement.is_absolute() else files
+
+
+def config_text(config: ExperimentConfig) -> str:
+    """The configuration as YAML: every key with its value or default, of scenarios what is set.
+
+    Keys of scenarios are left out where there are levels.
+    """
+    keys = config.model_dump(mode="json", exclude=set(SCENARIO_KEYS) if config.is_fine else None)
+    if config.is_fine:
+        return _yaml(keys)
+    own = config.model_dump(mode="json", include={"scenario_settings"}, exclude_none=True)
+    return _yaml(keys | own)
+
+
+def _yaml(keys: dict[str, object]) -> str:
+    return str(yaml.safe_dump(keys, sort_keys=False, width=100, allow_unicode=True))
+
+
+def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
+    """Raise StoreError, showing the difference, unless `config` is the one stored in `folder`."""
+    try:
+        stored = flat_config(read_config(folder))
+    except ConfigError as error:
+        raise StoreError(str(error)) from None
+    given = flat_config(config)
+    changes = [
+        f"  {key}: {stored.get(key, 'absent')} -> {given.get(key, 'absent')}"
+        for key in [*stored, *(key for key in given if key not in stored)]
+        if stored.get(key) != given.get(key) and key not in ANY_RESULT
+    ]
+    if changes:
+        head = f"{folder}: its configuration is another one; resume it unchanged or choose --out"
+        raise StoreError("\n".join([head, *changes]))
+
+
+def flat_config(config: ExperimentConfig) -> dict[str, object]:
+    """The keys that are set, nested ones with dots, and the texts of its own files."""
+    flat: dict[str, object] = {}
+
+    def walk(prefix: str, value: object) -> None:
+        if isinstance(value, dict):
+            for key, item in value.items():
+                walk(f"{prefix}{key}.", item)
+        else:
+            flat[prefix.removesuffix(".")] = value
+
+    walk("", config.model_dump(mode="json", exclude_none=True))
+    for key, file in _own_files(config).items():
+        flat[key] = file.name
+        flat[f"{key} text"] = file.read_text(encoding="utf-8")
+    return flat
