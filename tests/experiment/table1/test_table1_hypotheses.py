@@ -6,15 +6,16 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.digest import digest
+from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import Activity, Attempt, TrialRecord, encode
 from testbed.experiment.store import read_records, write_config
 from testbed.experiment.table1.page.document import Sources, document
 from testbed.experiment.table1.page.hypotheses import (
     Hypothesis,
+    both,
     compared,
     hypotheses,
-    told,
     weigh,
 )
 from testbed.experiment.table1.page.released import released
@@ -24,6 +25,7 @@ from testbed.experiment.table1.runs import read_run, told_order
 from tests.experiment.samples import a_record
 from tests.experiment.table1.made import a_pair, a_side
 
+NEAR_FIRST = Path(__file__).parents[3] / "examples" / "near-first.al"
 GOAL = ["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book1)"]
 HELD, PLACED, BARE = "in_hand(rob1,book1)", "loc(book2,library)", "loc(book2,kitchen)"
 LATE = ("move(rob1,kitchen)", "move(rob1,library)")
@@ -73,12 +75,9 @@ def test_which_pairs_are_left_is_told_by_the_start() -> None:
     assert (left["event beside the first action"], left["event beside a later action"]) == (2, 1)
 
 
-def test_a_told_robot_is_shown_under_either_draw() -> None:
-    plain, weighed = told(["kitchen", "library"], PAIRS[:4], WEIGHTS)
-    assert (plain.name, weighed.name) == (
-        "told, kitchen, library",
-        "told, kitchen, library; released draw",
-    )
+def test_a_run_of_its_own_is_shown_under_either_draw() -> None:
+    plain, weighed = both("other", PAIRS[:4], WEIGHTS)
+    assert (plain.name, weighed.name) == ("other", "other; released draw")
     assert (plain.weighed.worth, weighed.weighed.worth) == (4.0, pytest.approx(16 / 9.5))
 
 
@@ -90,7 +89,9 @@ def _as_published(name: str, factor: float = 1.0, state: str = "s") -> Pair:
 
 def _two(first: list[Pair], second: list[Pair]) -> str:
     ways = {"near": first, "far": second}
-    return compared([Hypothesis(n, weigh(own, lambda _: 1.0)) for n, own in ways.items()], False)
+    return compared(
+        [Hypothesis(n, weigh(own, lambda _: 1.0)) for n, own in ways.items()], False, False
+    )
 
 
 def test_the_nearest_one_is_named_with_what_stays_outside_of_it() -> None:
@@ -116,11 +117,12 @@ def test_the_table_shows_what_is_asked_of_each_row() -> None:
         a_pair("3"),
         a_pair("5", a_side(actions=4, execution_units=10), a_side(False, execution_units=2)),
     ]
-    page = compared([Hypothesis("made", weigh(pairs, lambda _: 1.0))], True)
+    page = compared([Hypothesis("made", weigh(pairs, lambda _: 1.0))], True, True)
     (line,) = (line for line in page.splitlines() if line.startswith("| made"))
     cells = line.strip("| ").split(" | ")
     assert cells[:7] == ["made", "50%", "-", "3.00", "0.20", "0.25", "0 25 50 0 25%"]
     assert "`told`: in the released simulator" in page
+    assert "runs in a variant of the domain" in page
 
 
 def test_the_released_draw_stands_beside_the_published_rows_with_marks() -> None:
@@ -171,17 +173,32 @@ def test_the_page_lists_commands_and_digests_of_all_its_runs(tmp_path: Path) -> 
     main = _folder(tmp_path / "main", 3)
     other = _folder(tmp_path / "other", 2, "name=told-kitchen-library")
     later = _folder(tmp_path / "later", 1, "name=later", "adversary.rate=0.3")
-    page = document(Sources(read_run(main), None, read_run(later), (read_run(other),)))
+    near = _folder(tmp_path / "near", 1, "name=near-first", f"domain={NEAR_FIRST}")
+    runs = [read_run(folder) for folder in (main, later, other, near)]
+    page = document(Sources(runs[0], None, runs[1], (runs[2],), (runs[3],)))
     for folder, name in ((main, "table1"), (other, "told-kitchen-library"), (later, "later")):
         assert f"| `runs/{name}` | `{digest(read_records(folder))}` |" in page
     assert (
         "$ python -m benchmarks.told runs/table1 runs/told-kitchen-library"
         " --order kitchen library\n" in page
     )
-    assert "--later runs/later --told runs/told-kitchen-library > docs" in page
+    assert "--later runs/later --variant runs/near-first --told runs/told-kitchen-lib" in page
+    near_run = "name=near-first domain=examples/near-first.al 'scenarios=[random]' --workers"
+    assert f"$ testbed run table1 {near_run}" in page
+    assert "| near-first; released draw | " in page
     assert "testbed run table1 name=told" not in page
     assert "| rate 0.3 | " in page
     assert "| told, kitchen, library | " in page
+
+
+def test_the_variant_of_the_domain_differs_in_the_order_of_two_lines() -> None:
+    packaged = load_world("office").description.source.splitlines()
+    lines = NEAR_FIRST.read_text(encoding="utf-8").splitlines()
+    comment = len(lines) - len(packaged)
+    assert all(line.startswith("%") for line in lines[:comment])
+    move = next(n for n, line in enumerate(packaged) if "agent     move(" in line)
+    packaged[move], packaged[move + 1] = packaged[move + 1], packaged[move]
+    assert lines[comment:] == packaged
 
 
 def test_a_told_run_of_other_pairs_is_refused(tmp_path: Path) -> None:

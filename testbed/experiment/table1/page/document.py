@@ -17,9 +17,9 @@ from testbed.experiment.table1.page.drawing import drawing
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
 from testbed.experiment.table1.page.hypotheses import (
     Hypothesis,
+    both,
     compared,
     hypotheses,
-    told,
     weigh,
 )
 from testbed.experiment.table1.page.others import arguments, later, unaided
@@ -68,6 +68,7 @@ class Sources:
     unaided: Run | None = None
     later: Run | None = None
     told: tuple[Run, ...] = ()
+    variants: tuple[Run, ...] = ()
 
 
 def document(sources: Sources) -> str:
@@ -104,9 +105,12 @@ def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
     if sources.later is not None:
         own = weigh(sources.later.pairs[mind], lambda _: 1.0)
         found.append(Hypothesis(f"rate {sources.later.config.adversary.rate}", own))
+    for run in sources.variants:
+        found += both(run.config.name, run.pairs[mind], released_weights(run, mind))
     for run in sources.told:
-        found += told(told_order(run), _of(main, run, mind, weights), weights)
-    yield compared(found, bool(sources.told))
+        name = ", ".join(("told", *told_order(run)))
+        found += both(name, _of(main, run, mind, weights), weights)
+    yield compared(found, bool(sources.variants), bool(sources.told))
 
 
 def _of(main: Run, run: Run, mind: str, weights: Mapping[str, float]) -> list[Pair]:
@@ -126,7 +130,8 @@ def _digests(sources: Sources) -> str:
 
 def _played(sources: Sources) -> list[Run]:
     """The runs that are made by `testbed run`."""
-    return [run for run in (sources.main, sources.unaided, sources.later) if run is not None]
+    single = (sources.main, sources.unaided, sources.later)
+    return [*(run for run in single if run is not None), *sources.variants]
 
 
 def _commands(sources: Sources) -> str:
@@ -141,8 +146,9 @@ def _commands(sources: Sources) -> str:
         for option, run in (("unaided", sources.unaided), ("later", sources.later))
         if run is not None
     ]
-    if sources.told:
-        options.append(" ".join(["--told", *(f"runs/{run.config.name}" for run in sources.told)]))
+    for option, several in (("variant", sources.variants), ("told", sources.told)):
+        if several:
+            options.append(" ".join([f"--{option}", *(f"runs/{r.config.name}" for r in several)]))
     page = " ".join([main, *options])
     lines.append(f"$ python -m testbed.experiment.table1 {page} > docs/published-and-measured.md")
     return "\n".join(lines)

@@ -55,15 +55,14 @@ def weigh(pairs: Sequence[Pair], weights: Weights) -> Weighing:
     return weighing(drawn, [weights(pair) for pair in drawn])
 
 
-def told(
-    order: Sequence[str], pairs: Sequence[Pair], released: Mapping[str, float]
-) -> list[Hypothesis]:
-    """A traditional robot that is told when it explains too well, under either draw."""
-    name = ", ".join(["told", *order])
-    return [
+def both(
+    name: str, pairs: Sequence[Pair], released: Mapping[str, float]
+) -> tuple[Hypothesis, Hypothesis]:
+    """What was otherwise in a run of its own, under either draw."""
+    return (
         Hypothesis(name, weigh(pairs, lambda _: 1.0)),
         Hypothesis(f"{name}; {PASSED_ON}", weigh(pairs, lambda pair: released[pair.mind.trial])),
-    ]
+    )
 
 
 def _in_place(pair: Pair, goal: Sequence[str]) -> bool:
@@ -77,6 +76,10 @@ def _undone(pair: Pair, goal: Sequence[str], sign: str) -> bool:
     return not unwanted.isdisjoint(pair.state.split())
 
 
+VARIANTS = """\
+Rows with a name alone are runs in a variant of the domain (`examples/NAME.al` says which).
+
+"""
 TOLD = """\
 `told`: in the released simulator TP is told, when it explains that its goal holds, whether it does,
 and takes another explanation if not; at the end of a plan it is told nothing. Here it tries the
@@ -87,7 +90,7 @@ better than it is.
 """
 
 
-def compared(found: Sequence[Hypothesis], with_told: bool) -> str:
+def compared(found: Sequence[Hypothesis], with_variants: bool, with_told: bool) -> str:
     """All hypotheses beside each other, and which comes nearest."""
     columns = (
         "if",
@@ -100,6 +103,7 @@ def compared(found: Sequence[Hypothesis], with_told: bool) -> str:
         "inside",
         "distance",
     )
+    rows = [_published_line(), *map(_line, found)]
     return f"""\
 ## Hypotheses
 
@@ -108,7 +112,7 @@ they are), or if something had been otherwise in a run of its own. `inside` coun
 values of rows 1 to 5 that lie in our intervals, `distance` is that of the ratios, both as above.
 Where fewer pairs are left the intervals are wider, so that both have to be read together.
 
-{TOLD * with_told}{markdown(columns, [_published_line(), *map(_line, found)])}
+{VARIANTS * with_variants}{TOLD * with_told}{markdown(columns, rows)}
 
 {_nearest(found)}
 """

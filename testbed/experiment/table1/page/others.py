@@ -16,11 +16,17 @@ from testbed.experiment.table1.published import MEASURES, PUBLISHED
 from testbed.experiment.table1.runs import PROTOCOL, Run
 from testbed.experiment.table1.table import HEADINGS, interval, number
 
+EXAMPLES = "examples"
+"""Where a domain that is not packaged is looked for."""
+DOMAIN_TEXT = "domain text"
+
 
 def arguments(config: ExperimentConfig) -> list[str]:
     """What to give `testbed run` for a configuration: the packaged one, and what differs."""
     packaged, own = flat_config(load_config(PROTOCOL)), flat_config(config)
-    changed = [key for key in own if own[key] != packaged.get(key)]
+    if config.domain.endswith(".al"):
+        own["domain"] = f"{EXAMPLES}/{own['domain']}"
+    changed = [key for key in own if own[key] != packaged.get(key) and key != DOMAIN_TEXT]
     return [PROTOCOL, *(f"{key}={_value(own[key])}" for key in changed)]
 
 
