@@ -14,6 +14,7 @@ from benchmarks import (
     memory,
     mutation,
     peers,
+    rooms,
     worlds,
     zooming,
 )
@@ -30,6 +31,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "mutation": mutation.main,
     "joint_growth": joint_growth.main,
     "zooming": zooming.main,
+    "rooms": rooms.main,
     "worlds": worlds.main,
 }
 

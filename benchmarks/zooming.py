@@ -119,12 +119,12 @@ def _fast(level: LevelSize, zoom: bool, count: int) -> _Fast:
     for problem in problems:
         _ = problem.goal, problem.constants  # are the zooming's, not the planner's
     with no_collection():
-        first = sum(_cpu_ms(planner, problem, zoom)[0] for problem in problems)
-        again = [_cpu_ms(planner, problem, zoom) for problem in problems]
+        first = sum(cpu_ms(planner, problem, zoom)[0] for problem in problems)
+        again = [cpu_ms(planner, problem, zoom) for problem in problems]
     return _Fast([took for took, _ in again], [n for _, n in again], first / 1e3, planner.kept)
 
 
-def _cpu_ms(planner: FinePlanner, problem: FineProblem, zoom: bool) -> tuple[float, int]:
+def cpu_ms(planner: FinePlanner, problem: FineProblem, zoom: bool) -> tuple[float, int]:
     """Processor time of a plan, which other work on the machine does not change, and its length."""
     began = time.process_time()
     plan = _plan(planner, problem, zoom)
