@@ -35,31 +35,35 @@ ROUNDS = {"small": 2, "full": 10}
 
 def main(size: str) -> list[Sheet]:
     """Sheets `memory` and `goals`: resident memory after so many trials."""
-    same = (
-        "scenarios 1 to 6 in turn, from different initial states, nothing forgotten in between;",
-        "the first row is after the first trial; controls are those of clingo that there are then",
+    return [_with_one_goal(size), _with_many_goals(size)]
+
+
+def _with_one_goal(size: str) -> Sheet:
+    rows = soak(TRIALS[size], alike(STATES[size]), lambda spec: play(spec, "fast"))
+    return Sheet(
+        "memory",
+        "Resident memory of one process, link included",
+        gathered(rows),
+        (
+            "scenarios 1 to 6 in turn, from different initial states, nothing forgotten in",
+            "between; the first row is after the first trial; controls are those of clingo then",
+        ),
     )
+
+
+def _with_many_goals(size: str) -> Sheet:
     pool = list(varied(GOALS[size], LEVELS[size]))
-    several = (
-        f"{GOALS[size]} goals one after the other, each with {', '.join(KINDS)} in all",
-        f"scenarios and from one initial state, then {' and '.join(FINE_KINDS)} at one of",
-        f"{', '.join(LEVELS[size])}: {len(pool)} trials, and all of them {ROUNDS[size]} times;",
-        "the domain of the robot that checks follows from its goal",
+    return Sheet(
+        "goals",
+        "Resident memory of the same process, then, with goals, robots and levels that change",
+        gathered(soak(ROUNDS[size] * len(pool), pool, play_any)),
+        (
+            f"{GOALS[size]} goals one after the other, each with {', '.join(KINDS)} in all",
+            f"scenarios and from one initial state, then {' and '.join(FINE_KINDS)} at one of",
+            f"{', '.join(LEVELS[size])}: {len(pool)} trials, and all of them {ROUNDS[size]} times;",
+            "the domain of the robot that checks follows from its goal",
+        ),
     )
-    return [
-        Sheet(
-            "memory",
-            "Resident memory of one process, link included",
-            gathered(soak(TRIALS[size], alike(STATES[size]), lambda spec: play(spec, "fast"))),
-            same,
-        ),
-        Sheet(
-            "goals",
-            "Resident memory of the same process, then, with goals, robots and levels that change",
-            gathered(soak(ROUNDS[size] * len(pool), pool, play_any)),
-            several,
-        ),
-    ]
 
 
 def soak(
