@@ -32,7 +32,7 @@ FIGURES = {
     "full": Path(__file__).parents[1] / "docs" / "images" / "zooming.png",
 }
 NOTES = (
-    "zoom, whole: kept controls, processor time of each problem the second time; first: seconds of",
+    "zoom, whole: fast planner, processor time of each problem the second time; first: seconds of",
     "all problems together the first time, with what is grounded for them",
     "literal: the strong refinement with its tests, from scratch for each length up to the plan's;",
     "last: the last of these lengths alone; '>': one of the problems was given up",
@@ -187,8 +187,8 @@ def _ratio(slow: Value, fast: Value) -> Value:
 
 
 CURVES = {
-    "zoom_ms": "zoomed, kept controls",
-    "whole_ms": "whole, kept controls",
+    "zoom_ms": "zoomed, as the robots plan",
+    "whole_ms": "whole, as the robots plan",
     "last_zoom_ms": "zoomed, literal, last length",
     "last_whole_ms": "whole, literal, last length",
 }
@@ -203,8 +203,9 @@ def draw(sheets: Sequence[Sheet], path: Path) -> None:
             points = [(r[over], r[column]) for r in sheet.rows if isinstance(r.get(column), float)]
             if points:
                 axes.plot(*zip(*points, strict=True), marker="o", label=label)
-        scale = "linear" if isinstance(sheet.rows[0][over], str) else "log"
-        axes.set(xlabel=LABELS[sheet.name], yscale="log", xscale=scale)
+        axes.set(xlabel=LABELS[sheet.name], yscale="log")
+        if not isinstance(sheet.rows[0][over], str):
+            axes.set_xscale("log")
         axes.grid(visible=True, alpha=0.3)
     figure.axes[0].set_ylabel("a refined plan (ms)")
     figure.axes[0].legend(frameon=False, fontsize="small")
