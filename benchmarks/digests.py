@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import subprocess
 import sys
 import tempfile
@@ -25,7 +26,7 @@ from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES
 from testbed.experiment.registry import known_robots
-from testbed.experiment.store import read_records
+from testbed.experiment.store import PROVENANCE, read_records
 
 SAME, DIFFERENT, BAD_INPUT = 0, 1, 2
 WIDE = 160
@@ -120,8 +121,15 @@ def _played(way: Way, what: Sequence[str], folder: Path, planned: int) -> Row:
         "trials": len(records),
         "failed": sum(record.outcome in FAILURES for record in records),
         "minutes": (time.perf_counter() - began) / 60,
+        "revision": _revision(folder),
         "digest": digest(records),
     }
+
+
+def _revision(folder: Path) -> str | None:
+    """The beginning of the revision that a run was played at; None outside of a checkout."""
+    revision = json.loads((folder / PROVENANCE).read_text(encoding="utf-8"))["revision"]
+    return None if revision is None else str(revision["commit"])[:12]
 
 
 def _tell(sheets: Sequence[Sheet]) -> None:

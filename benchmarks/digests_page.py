@@ -26,8 +26,8 @@ middle, after which `--resume` played what was missing. {verdict}
 ```
 
 The command exits with 1 where digests differ. A small size of it runs with the tests.
-A digest is that of one revision of the program: a robot that plans otherwise, or says more in a
-record, gives another one.
+A digest is that of one revision of the program{revision}: a robot that plans otherwise, or says
+more in a record, gives another one.
 """
 
 
@@ -35,7 +35,7 @@ def page(sheets: Sequence[Sheet], overrides: Sequence[str]) -> str:
     """The page, in Markdown: a section a sheet, a row a way."""
     names = " ".join([*(sheet.name for sheet in sheets), *overrides])
     command = f"python -m benchmarks.digests {names} --page docs/digests.md"
-    head = HEAD.format(verdict=_verdict(sheets), command=command)
+    head = HEAD.format(verdict=_verdict(sheets), command=command, revision=_revision(sheets))
     return "\n".join([head, *(_section(sheet) for sheet in sheets)])
 
 
@@ -44,6 +44,11 @@ def _verdict(sheets: Sequence[Sheet]) -> str:
     if differ:
         return f"**The results of {' and of '.join(differ)} differ.**"
     return "The digests of a protocol are equal."
+
+
+def _revision(sheets: Sequence[Sheet]) -> str:
+    found = sorted({str(row["revision"]) for sheet in sheets for row in sheet.rows})
+    return "" if found == ["None"] else f", here {' and '.join(found)}"
 
 
 def _section(sheet: Sheet) -> str:

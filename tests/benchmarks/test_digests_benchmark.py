@@ -47,6 +47,7 @@ def _other_when_killed(way: Way, what: object, folder: Path, planned: int) -> Ro
         "trials": planned,
         "failed": 0,
         "minutes": 0.0,
+        "revision": None,
         "digest": ("b" if way.killed else "a") * 64,
     }
 
