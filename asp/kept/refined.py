@@ -69,7 +69,9 @@ class FinePlanner:
         """The first of the shortest plans of at most `limit` actions.
 
         Of candidates those are assumed that make it short. `constants` are those of the part of
-        the description that is planned in (None: the whole).
+        the description that is planned in (None: the whole). A goal is out of reach if it is even
+        where nothing becomes false again, or if no state satisfies it; others of which no plan is
+        found are beyond the limit, though there may be none of any length.
         Raises TimeLimitError, NotCandidatesError, ValueError for a goal about other constants.
         """
         if not all(start.candidates):
@@ -96,7 +98,14 @@ class FinePlanner:
             plan = self._of_length(length, domain, problem, reach)
             if plan is not None:
                 return narrow.back(plan)
+            if length == reach.least and not self._is_consistent(domain, wanted):
+                return NoPlan.OUT_OF_REACH
         return NoPlan.BEYOND_LIMIT
+
+    def _is_consistent(self, domain: FineDomain, goal: tuple[str, ...]) -> bool:
+        """Whether the goal holds in any state at all; where not, no length need be tried."""
+        state = self._horizons.get(domain, 0, domain.size, partial(domain.horizon, 0))
+        return state.plan((), goal) is not None
 
     def _of_length(
         self, length: int, domain: FineDomain, problem: Problem, reach: Reach

@@ -71,6 +71,28 @@ def test_a_goal_beyond_the_limit_is_told_from_one_out_of_reach() -> None:
     assert planner.plan(ROW, goal, 3, zoomed) is NoPlan.OUT_OF_REACH
 
 
+@pytest.mark.parametrize(
+    "goal",
+    [
+        ("in_hand(rob1,object1)", "in_hand(rob1,object2)"),
+        ("loc(rob1,room1)", "loc(rob1,room3)"),
+        ("loc(object2,room2)", "-fine_loc(object2_1,room2_1)", "-fine_loc(object2_2,room2_2)"),
+    ],
+)
+def test_what_no_state_satisfies_is_out_of_reach(goal: tuple[str, ...]) -> None:
+    assert _planner(level("L2")).plan(ROW, goal, 10**6) is NoPlan.OUT_OF_REACH
+
+
+def test_nothing_out_of_reach_is_reached_by_a_search_of_all_states() -> None:
+    draw, planner, told = random.Random(5), _planner(level("L1")), 0
+    for _ in range(150):
+        start, goal = drawn_state(level("L1"), draw), drawn_goal(level("L1"), draw)
+        if planner.plan(start, goal, 2) is NoPlan.OUT_OF_REACH:
+            assert first_shortest(level("L1"), start, goal, 1_000) is None
+            told += 1
+    assert told
+
+
 def test_what_is_nowhere_is_out_of_reach() -> None:
     nowhere = FineStart(ROW.true, ((),))
     planner = _planner(level("L2"))
