@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from asp import roles, syntax
+from asp.kept.enabling import allowing
 from asp.kept.parts import ACTION, BASE, BEFORE, NOW, OPEN, STATE, STEP, Rule
 from asp.kept.patterns import Function, excluding_place, functions
 from asp.restriction import named, without_exogenous
@@ -108,65 +109,28 @@ class _Translation:
 
     def _actions(self) -> Iterator[Rule]:
         """Which actions are enabled: by conditions that each allow them, and others that forbid."""
-        allowing: dict[str, list[int]] = {}
+        numbers: dict[str, list[int]] = {}
         for number, law in enumerate(self._source.each(syntax.ExecutabilityCondition)):
-            cases = self._allowing(law)
+            cases = allowing(law, self._functions)
             if cases is None:
                 occurs = [f"occurs({term_text(action)},{BEFORE})" for action in law.actions]
                 yield self._rule(STEP, law, "", [*occurs, *self._body(law.body, BEFORE)])
                 continue
             action = law.actions[0]
-            allowing.setdefault(action.name, []).append(number)
+            numbers.setdefault(action.name, []).append(number)
             head = f"allowed({number},{term_text(action)},{BEFORE})"
-            yield from (self._rule(STEP, law, head, case) for case in cases)
+            for case in cases:
+                yield self._rule(STEP, law, head, self._body(case, BEFORE))
         for symbol in self._signature.symbols.values():
             if symbol.kind == "agent":
                 given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
                 action_term = _term(symbol.name, given)
                 body = [
-                    f"allowed({n},{action_term},{BEFORE})" for n in allowing.get(symbol.name, ())
+                    f"allowed({n},{action_term},{BEFORE})" for n in numbers.get(symbol.name, ())
                 ]
                 head = f"enabled({action_term},{BEFORE})"
                 gives = ACTION, action_term
                 yield Rule(STEP, head, (*body, *_sorts(symbol, given)), gives=gives)
-
-    def _allowing(self, law: syntax.ExecutabilityCondition) -> list[list[str]] | None:
-        """Bodies one of which is true exactly where the law says nothing; None: no such.
-
-        It has where all its variables are the action's, or values of total functions of these: then
-        there is one instance, and one of its other conditions has to be false.
-        """
-        if len(law.actions) != 1 or not _all_different(law.actions[0]):
-            return None
-        known = {term.name for term in law.actions[0].args}
-        values = [part for part in law.body if self._is_value(part, known)]
-        guards = [part for part in law.body if part not in values]
-        named_values = [self._value(part) for part in values]
-        known.update(named_values)
-        if len(set(named_values)) < len(values) or not guards:
-            return None
-        if not all(_is_open(guard, known) for guard in guards):
-            return None
-        return [self._body([*values, _negated(guard)], BEFORE) for guard in guards]
-
-    def _is_value(self, part: syntax.Condition, known: set[str]) -> bool:
-        """Whether a condition only names the value of a total function of what is known."""
-        if not isinstance(part, syntax.Literal) or not part.positive:
-            return False
-        function = self._functions.get(part.atom.name)
-        if function is None or not function.total:
-            return False
-        names = [term.name for term in part.atom.args]
-        value = part.atom.args[function.place]
-        return (
-            value.is_variable
-            and value.name not in known
-            and known.issuperset(_without(names, function.place))
-        )
-
-    def _value(self, part: syntax.Condition) -> str:
-        assert isinstance(part, syntax.Literal)
-        return part.atom.args[self._functions[part.atom.name].place].name
 
     def _body(self, body: Iterable[syntax.Condition], step: str) -> list[str]:
         return [self._condition(part, step) for part in body]
@@ -204,27 +168,6 @@ class _Translation:
             if term.is_variable
         )
         return Rule(part, head, (*body, *sorts), frozenset(named(law)), gives)
-
-
-def _is_open(guard: syntax.Condition, known: set[str]) -> bool:
-    """Whether a condition is negative, so that few instances make it false, and all is known."""
-    if isinstance(guard, syntax.Comparison):
-        terms: tuple[syntax.Term, ...] = (guard.left, guard.right)
-        return not guard.equal and all(t.name in known or not t.is_variable for t in terms)
-    return not guard.positive and all(
-        term.name in known or not term.is_variable for term in guard.atom.args
-    )
-
-
-def _negated(guard: syntax.Condition) -> syntax.Condition:
-    if isinstance(guard, syntax.Comparison):
-        return syntax.Comparison(guard.left, guard.right, not guard.equal, guard.place)
-    return syntax.Literal(guard.atom, not guard.positive)
-
-
-def _all_different(atom: syntax.Atom) -> bool:
-    names = [term.name for term in atom.args]
-    return all(term.is_variable for term in atom.args) and len(set(names)) == len(names)
 
 
 def _sorts(symbol: syntax.Declaration, given: Sequence[str]) -> list[str]:
