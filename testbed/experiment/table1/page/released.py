@@ -15,7 +15,7 @@ from testbed.experiment.table1.weighing import Weighing
 NAMES = {"plans": "plans", "execution_units": "exec. time", "actions": "actions"}
 """The measures that do not depend on how fast a machine or a solver is."""
 PAIRS = 800
-"""About so many paired trials P 4.2 speaks of, in each of five scenarios."""
+"""About so many paired trials P 4 speaks of, in each of five scenarios."""
 DRAWN = 1000
 
 
