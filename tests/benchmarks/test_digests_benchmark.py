@@ -81,3 +81,13 @@ def test_what_a_killed_driver_leaves_are_whole_lines(tmp_path: Path) -> None:
     path = tmp_path / "trials.jsonl"
     program = f"import time; open({str(path)!r}, 'w').write('a\\nb\\nto'); time.sleep(60)"
     assert killed_at(2, [sys.executable, "-c", program], tmp_path) == b"a\nb\n"
+
+
+def test_the_page_of_the_documents_has_one_digest_a_protocol() -> None:
+    root = Path(digests.__file__).parents[1]
+    page = (root / "docs" / "digests.md").read_text(encoding="utf-8")
+    _, *sections = page.split("\n## ")
+    assert [section.split()[0] for section in sections] == ["table1", "levels"]
+    for section in sections:
+        assert len(_digests(section)) == len(WAYS)
+        assert len(set(_digests(section))) == 1
