@@ -107,7 +107,7 @@ def test_the_driver_of_a_run_grows_by_what_it_knows_of_each_trial() -> None:
 
 def test_a_sample_of_mutants_is_killed() -> None:
     sheets = rows_of(mutation.main("small"))
-    assert len(sheets["mutation"]) == mutation.SAMPLE
+    assert len(sheets["mutation"]) == mutation.SAMPLE + len(mutation.QUICK)
     assert sheets["survivors"] == []
 
 
@@ -121,7 +121,8 @@ def test_results_are_written_and_shown(tmp_path: Path, capsys: pytest.CaptureFix
     main(["mutation", "--size", "small", "--out", str(tmp_path)])
     written = json.loads((tmp_path / "mutation.json").read_text(encoding="utf-8"))
     assert written["size"] == "small"
-    assert [sheet["name"] for sheet in written["sheets"]] == ["mutation", "survivors", "killed"]
+    names = ["mutation", "redundant", "survivors", "killed"]
+    assert [sheet["name"] for sheet in written["sheets"]] == names
     assert "Each rule and each axiom left out" in capsys.readouterr().out
 
 

@@ -1,0 +1,51 @@
+"""Which tests exercise a theory, those first that take least."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+_LIVES = "tests/agents/intentional/test_kept.py"
+_PREFERENCES = "tests/agents/intentional/test_preferences.py"
+_REPORTS = "tests/agents/intentional/test_reports.py"
+_AXIOMS = "tests/asp/test_axioms.py"
+_EXPLANATIONS = "tests/asp/test_explanations.py"
+_FOLDING = "tests/agents/shared/test_folding.py"
+_JOINT_LIVES = "tests/agents/intentional/test_joint_lives.py"
+_PLANS = "tests/asp/test_plans.py"
+_PLANS_KEPT = "tests/asp/test_plans_kept.py"
+_REASONS = "tests/agents/intentional/test_reasons.py"
+
+EXERCISED: Mapping[str, tuple[str, ...]] = {
+    "conflict": (
+        "tests/agents/intentional/test_inconsistent.py",
+        "tests/agents/intentional/test_inconsistent_lives.py",
+    ),
+    "defaults": (_AXIOMS, _PREFERENCES),
+    "diagnosis": (_EXPLANATIONS, _PREFERENCES, _REPORTS),
+    "fine_inference": ("tests/asp/test_knowing.py",),
+    "fine_planning": ("tests/asp/test_fine_planning.py", "tests/asp/test_fine_plans.py"),
+    "history": (_AXIOMS,),
+    "intentions": (_AXIOMS, "tests/agents/intentional/test_persistence.py"),
+    "joint": ("tests/agents/intentional/test_joint.py", _JOINT_LIVES),
+    "kept_diagnosis": (_PREFERENCES, _LIVES),
+    "kept_fine": ("tests/asp/test_refined.py",),
+    "kept_fitted": ("tests/asp/test_fitted.py",),
+    "kept_following": (_PLANS_KEPT, _LIVES),
+    "kept_planning": (_PLANS_KEPT,),
+    "kept_successors": (_REASONS,),
+    "kept_transition": (f"{_LIVES}::test_whatever_is_folded", _FOLDING),
+    "kept_window": (f"{_LIVES}::test_whatever_is_folded", _FOLDING),
+    "order": (_EXPLANATIONS, "tests/asp/test_order.py"),
+    "persistence": ("tests/agents/intentional/test_persistence.py",),
+    "planning": (_AXIOMS, _PLANS, "tests/agents/intentional/test_persistence.py", _LIVES),
+    "reach": (
+        f"{_REASONS}::test_where_states_are_too_many_to_look_at_there_are_shorter_proofs",
+        f"{_REASONS}::test_out_of_reach_is_what_no_search_finds",
+    ),
+    "traditional": (
+        "tests/agents/traditional/test_told.py",
+        "tests/agents/traditional/test_kept_planner.py",
+    ),
+    "undivided": (_JOINT_LIVES,),
+}
+"""By the theory's name: paths of test files, or of single tests in them."""
