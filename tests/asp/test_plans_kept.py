@@ -81,6 +81,21 @@ LAMP = OFFICE.replace(
     "inertial locked(secure_room).", "inertial locked(secure_room).\n  defined free(robot, room)."
 ).replace("  % State constraints.", "  free(R, L) if loc(R, L), -locked(library).\n")
 
+LAMPS = """\
+sorts
+  lamp = {a, b, c}.
+fluents
+  inertial on(lamp).
+actions
+  agent switch_on(lamp).
+  agent switch_off(lamp).
+laws
+  switch_on(L)  causes on(L).
+  switch_off(L) causes -on(L).
+  impossible switch_on(L) if on(L).
+  impossible switch_off(L) if -on(L).
+"""
+
 # The ways in which a plan may be looked for: the sizes of spaces and of kept controls, and levels.
 WAYS = {
     "searched, kept": {},
@@ -115,6 +130,19 @@ def test_every_way_to_the_plan_gives_the_first_shortest(
             assert plans.succeeds(now, goal, found)
             assert plans.succeeds(now, goal, (*found, found[0]))
             assert not plans.succeeds(now, goal, found[:-1])
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("lit", [True, False])
+def test_a_plan_may_do_nothing_but_make_things_true_or_false(
+    way: str, lit: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in WAYS[way].items():
+        monkeypatch.setattr(f"asp.kept.planner.{name}", value)
+    lamps = ("on(a)", "on(b)", "on(c)")
+    start, goal = ((), lamps) if lit else (lamps, tuple(f"-{lamp}" for lamp in lamps))
+    plan = tuple(f"switch_{'on' if lit else 'off'}({lamp})" for lamp in "abc")
+    assert Plans(LAMPS, "lamps.al").shortest(frozenset(start), goal, 4) == plan
 
 
 @pytest.mark.parametrize("most_kept", [8_000, 0])

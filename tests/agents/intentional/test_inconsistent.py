@@ -8,6 +8,7 @@ from agents.shared.diagnosis import InconsistentHistoryError
 from agents.shared.history import History
 from agents.shared.knowledge import goal_facts
 from asp.conflicts import cannot_hold, conflict
+from asp.solving import fact
 from tests.agents.intentional.test_reports import CART, Make, Mind, both
 
 
@@ -61,6 +62,15 @@ def test_what_is_told_of_the_goal_may_belong_to_the_conflict() -> None:
     history.step = 2
     facts = [*history.facts(), *goal_facts(["lit"])]
     assert conflict(CART.program, facts, 2) == ("obs(-lit) at 2", "obs(my_goal) at 2")
+
+
+def test_what_an_initial_state_must_have_may_belong_to_the_conflict() -> None:
+    history = History()
+    history.observe(["-shut", "-lit"], 0)
+    facts = [*history.facts(), fact("initially", 1, "lit")]
+    assert conflict(CART.program, facts, 0) == ("obs(-lit) at 0",)
+    either = [*facts, fact("initially", 1, "shut")]
+    assert conflict(CART.program, either, 0) == ("obs(-lit) at 0", "obs(-shut) at 0")
 
 
 @pytest.mark.parametrize(

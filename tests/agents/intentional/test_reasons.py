@@ -222,6 +222,13 @@ def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
     assert reach.out_of_reach(frozenset(["at(left)"]), goal) is provable
 
 
+def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("asp.kept.reach._MOST_STATES", 0)
+    moved = knowledge("cart", CART.description.source.replace("if lit, -shut", "if at(left)"))
+    reach = Reach(moved.description, moved.program, Plans(moved.description.source, "cart.al"))
+    assert not reach.out_of_reach(frozenset(["at(left)", "safe"]), ("-safe",))
+
+
 @pytest.mark.parametrize(
     ("goal", "limit", "reason"),
     [

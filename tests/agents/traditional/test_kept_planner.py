@@ -15,6 +15,7 @@ from agents.traditional import TraditionalRobot
 from agents.traditional.kept import KeptPlanner
 from agents.traditional.planner import Plan, Planner
 from testbed.link.messages import Event
+from tests.agents.intentional import test_reports as cart
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
     DOMAIN,
@@ -79,3 +80,32 @@ def test_what_only_an_event_at_step_0_explains_is_explained_where_no_goal_is_sel
     for logician in (KeptLogician, Logician):
         with pytest.raises(InconsistentHistoryError):
             logician(office, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Diagnosis())
+
+
+@pytest.mark.parametrize("reasoner", [KeptPlanner, Planner])
+def test_no_plan_begins_with_a_report_that_is_distrusted(
+    reasoner: type[KeptPlanner] | type[Planner],
+) -> None:
+    history = History(step=2)
+    history.observe(cart.START, 0)
+    history.happened("shut_gate", True, 1)
+    history.observe(["-shut"], 2)
+    assert _plan(reasoner, cart.SOURCE, ("at(right)",), history).actions == ("go(right)",)
+
+
+@pytest.mark.parametrize("reasoner", [KeptPlanner, Planner])
+@pytest.mark.parametrize(("goal", "plan"), [("-shut", "open"), ("lit", "switch_on")])
+def test_plans_begin_where_defaults_and_the_order_of_explanations_say(
+    goal: str, plan: str, reasoner: type[KeptPlanner] | type[Planner]
+) -> None:
+    history = History(step=1)
+    history.observe(["at(left)", "-at(right)"], 0)
+    source = f"{cart.SOURCE}\ndefaults\n  gate: shut.\n"
+    assert _plan(reasoner, source, (goal,), history).actions == (plan,)
+
+
+def _plan(
+    make: type[KeptPlanner] | type[Planner], source: str, goal: tuple[str, ...], history: History
+) -> Plan:
+    reasoner = make(knowledge("cart", source), goal, 3)
+    return reasoner.plan(history, reasoner.diagnose(history, Diagnosis()).diagnosis)
