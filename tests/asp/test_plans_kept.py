@@ -187,6 +187,22 @@ def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
             assert found == _first_shortest(world, state, goal, 7), (world.true_atoms(state), goal)
 
 
+@pytest.mark.parametrize("most_kept", [8_000, 0])
+def test_a_plan_succeeds_too_where_the_goal_is_defined(
+    most_kept: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", most_kept)
+    plans = Plans(LAMP, "office.al")
+    state = frozenset(["loc(rob1,office2)", "loc(book1,office2)", "loc(book2,office2)"])
+    there, back = "move(rob1,kitchen)", "move(rob1,office2)"
+    now = state | {"free(rob1,office2)"}
+    assert plans.succeeds(now, ("free(rob1,kitchen)",), (there,))
+    assert plans.succeeds(now, ("-free(rob1,office2)",), (there, back))
+    assert not plans.succeeds(now, ("free(rob1,library)",), (there, back))
+    assert not plans.succeeds(now, ("-free(rob1,library)", "free(rob1,library)"), (there,))
+    assert not plans.succeeds(now, ("-free(rob1,kitchen)",), (there,))
+
+
 @pytest.mark.parametrize("levels", [1, 3, 40])
 def test_with_few_levels_the_plan_is_chosen_bit_by_bit(
     levels: int, monkeypatch: pytest.MonkeyPatch

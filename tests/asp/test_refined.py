@@ -214,3 +214,25 @@ def test_laws_about_what_is_false_are_translated_literally() -> None:
         "quench(lamp1)",
     )
     assert planner.plan(FineStart(frozenset({"dark(lamp1)"})), ("dark(lamp1)",), LIMIT) == ()
+
+
+BROKEN = """
+sorts
+  lamp = {lamp1}.
+fluents
+  inertial lit(lamp).
+  inertial broken(lamp).
+actions
+  agent light(lamp).
+  agent mend(lamp).
+laws
+  light(L) causes lit(L).
+  light(L) causes -lit(L) if broken(L).
+  mend(L)  causes -broken(L).
+"""
+
+
+def test_no_plan_has_an_action_whose_effects_contradict_each_other() -> None:
+    planner = FinePlanner(*analyse(BROKEN))
+    start = FineStart(frozenset({"broken(lamp1)"}))
+    assert planner.plan(start, ("lit(lamp1)",), LIMIT) == ("mend(lamp1)", "light(lamp1)")
