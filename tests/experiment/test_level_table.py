@@ -92,6 +92,12 @@ def test_a_published_ratio_that_our_interval_does_not_hold_is_marked() -> None:
     assert published == ("L1", "  published", "", "1.01 *", "1.02 *", "1.00", "1.03 *")
 
 
+@pytest.mark.parametrize(("pairs", "few"), [(19, True), (20, False)])
+def test_ratios_of_few_pairs_say_so(pairs: int, few: bool) -> None:
+    titles = [table.title for table in level_tables(_levels(*_both("L1", pairs)), PAPER)]
+    assert any(comparing.FEW_PAIRS in title for title in titles) == few
+
+
 def test_growth_is_told_of_each_level_but_the_first() -> None:
     rows = list(growth_rows(_levels(*_both("L1", 2), *_both("L2", 2, slower=2.0)), PAPER))
     assert [row[:3] for row in rows[::3]] == [("L2", "zoom", "2"), ("L2", "no zoom", "2")]
@@ -133,7 +139,7 @@ def test_the_protocol_is_what_the_published_figures_stand_beside() -> None:
 
 
 def test_the_terminal_has_each_interval_below_its_value() -> None:
-    (_, _, ratios) = level_tables(_levels(*_both("L1", 3)), PAPER)
+    (_, _, ratios) = level_tables(_levels(*_both("L1", comparing.FEW)), PAPER)
     shown = rich_level_table(ratios)
     assert shown.title == "No zoom / zoom, over pairs (*: outside of our interval)"
     assert list(shown.columns[3].cells) == ["1.00", "[1.00, 1.00]", "1.01 *"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from testbed.experiment.levels.published import NO_ZOOM, PARTS, ZOOM, Paper, Rounded
@@ -73,3 +73,14 @@ def growth(levels: Levels, paper: Paper) -> Iterator[Line]:
             cells = (Cell(g.mean, g.median, p) for g, p in zip(grown, published, strict=True))
             trials = level.reasoning[robot].trials
             yield Line(name, CONDITIONS.get(robot, robot), robot, trials, tuple(cells))
+
+
+FEW = 20
+"""Pairs of a level below which the start of a process is much of its times."""
+
+FEW_PAIRS = "few pairs: the first trials also prepare what later ones use"
+
+
+def has_few(lines: Iterable[Line]) -> bool:
+    """Whether the times of a level are those of a few trials."""
+    return any(line.number < FEW for line in lines)

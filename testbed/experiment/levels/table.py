@@ -43,10 +43,15 @@ def level_tables(levels: Levels, paper: Paper) -> list[LevelTable]:
     tables = [
         LevelTable("Reasoning in a trial", SECONDS, tuple(seconds_rows(levels, paper))),
         LevelTable("Trials that achieved their goal", SHARES, tuple(share_rows(levels, paper))),
-        LevelTable("No zoom / zoom, over pairs", RATIOS, tuple(ratio_rows(levels, paper))),
+        LevelTable(_ratio_title(levels, paper), RATIOS, tuple(ratio_rows(levels, paper))),
         LevelTable(f"Times that at {FIRST}", GROWTH, tuple(growth_rows(levels, paper))),
     ]
     return [table for table in tables if table.rows]
+
+
+def _ratio_title(levels: Levels, paper: Paper) -> str:
+    few = comparing.has_few(comparing.ratios(levels, paper))
+    return "No zoom / zoom, over pairs" + (f"; {comparing.FEW_PAIRS}" if few else "")
 
 
 def seconds_rows(levels: Levels, paper: Paper) -> Iterator[Cells]:

@@ -85,7 +85,7 @@ def views(levels: Levels, paper: Paper) -> list[View]:
         View(
             "levels-ratios",
             "No zoom / zoom",
-            "Means over the pairs in which both achieved the goal; above 1 zooming saved time.",
+            _about_ratios(levels, paper),
             RATIOS,
             _lines(comparing.ratios(levels, paper)),
         ),
@@ -98,6 +98,12 @@ def views(levels: Levels, paper: Paper) -> list[View]:
         ),
     ]
     return [view for view in found if view.lines]
+
+
+def _about_ratios(levels: Levels, paper: Paper) -> str:
+    about = "Means over the pairs in which both achieved the goal; above 1 zooming saved time."
+    few = comparing.has_few(comparing.ratios(levels, paper))
+    return f"{about} Here are {comparing.FEW_PAIRS}." if few else about
 
 
 def _lines(lines: Iterable[comparing.Line]) -> tuple[Line, ...]:
