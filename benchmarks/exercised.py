@@ -33,7 +33,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "kept_following": (_PLANS_KEPT, _LIVES),
     "kept_planning": (_PLANS_KEPT,),
     "kept_successors": (_REASONS,),
-    "kept_transition": (f"{_LIVES}::test_whatever_is_folded", _FOLDING),
+    "kept_transition": ("tests/asp/test_transitions.py",),
     "kept_window": (f"{_LIVES}::test_whatever_is_folded", _FOLDING),
     "order": (_EXPLANATIONS, "tests/asp/test_order.py"),
     "persistence": ("tests/agents/intentional/test_persistence.py",),
