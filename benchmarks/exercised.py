@@ -27,7 +27,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "history": (_AXIOMS,),
     "intentions": (_AXIOMS, "tests/agents/intentional/test_persistence.py"),
     "joint": ("tests/agents/intentional/test_joint.py", _JOINT_LIVES),
-    "kept_diagnosis": (_PREFERENCES, _LIVES),
+    "kept_diagnosis": (_REPORTS, _PREFERENCES, _LIVES),
     "kept_fine": ("tests/asp/test_refined.py",),
     "kept_fitted": ("tests/asp/test_fitted.py",),
     "kept_following": (_PLANS_KEPT, _LIVES),

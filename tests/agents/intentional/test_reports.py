@@ -26,11 +26,16 @@ Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
 class Mind:
     """A history that grows, and the explanation that is held of it."""
 
-    def __init__(self, reasoner: Make) -> None:
+    def __init__(
+        self,
+        reasoner: Make,
+        start: Sequence[str] = START,
+        goal: tuple[str, ...] = ("at(right)", "lit"),
+    ) -> None:
         self.history = History()
-        self.history.observe(START, 0)
+        self.history.observe(start, 0)
         self.history.happened(f"select({GOAL})", True, 0)
-        self._reasoner = reasoner(CART, ("at(right)", "lit"), 3)
+        self._reasoner = reasoner(CART, goal, 3)
         self.held = Diagnosis()
         self.kept = True
 
@@ -63,6 +68,23 @@ def test_what_is_reported_is_believed_and_needs_no_explanation(reasoner: Make) -
     mind.next(seen=["shut"])
     assert mind.assumed == ([], [])
     assert mind.kept
+
+
+@both
+@pytest.mark.parametrize(
+    ("start", "goal", "told"), [("shut", "safe", "-my_goal"), ("-shut", "-safe", "my_goal")]
+)
+def test_what_is_told_of_a_defined_goal_is_explained(
+    start: str, goal: str, told: str, reasoner: Make
+) -> None:
+    mind = Mind(reasoner, ["at(left)", "-at(right)", "lit", start], (goal,))
+    mind.next()
+    if start == "shut":
+        mind.history.attempt("open", 1)
+        mind.history.happened("open", True, 1)
+    mind.next()
+    mind.next(seen=[told])
+    assert mind.assumed == ([(2, "shut_gate")], [])
 
 
 @both
