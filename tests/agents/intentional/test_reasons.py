@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import clingo
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -18,6 +20,7 @@ from agents.shared.tools import tools_of
 from asp.kept.plans import Plans
 from asp.kept.reach import Reach
 from asp.solving import ground, select, theory
+from testbed.environment.world import World
 from testbed.link.messages import Decision, Event, Percept, Task
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_reports import CART
@@ -185,23 +188,37 @@ def test_more_alternatives_than_are_listed_are_said_to_be_there() -> None:
     assert 19 <= len(others) <= 20
 
 
+def _reachable(world: World, start: int) -> set[int]:
+    found, left = {start}, [start]
+    while left:
+        state = left.pop()
+        for action in world.agent_actions:
+            new = set(world.successors(state, (action,))) - found
+            found |= new
+            left += new
+    return found
+
+
 @settings(max_examples=30, deadline=None)
 @given(
     start=st.sampled_from(list(WORLD.initial_states())),
     goal=st.lists(st.sampled_from(LITERALS), min_size=1, max_size=3),
 )
 def test_out_of_reach_is_what_no_search_finds(start: int, goal: list[str]) -> None:
-    reachable, left = {start}, [start]
-    while left:
-        state = left.pop()
-        for action in WORLD.agent_actions:
-            if WORLD.executable(state, (action,)):
-                new = set(WORLD.successors(state, (action,))) - reachable
-                reachable |= new
-                left += new
-    expected = not any(WORLD.satisfies(state, goal) for state in reachable)
+    expected = not any(WORLD.satisfies(state, goal) for state in _reachable(WORLD, start))
     found = tools_of(OFFICE).reach.out_of_reach(frozenset(WORLD.true_atoms(start)), tuple(goal))
     assert found == expected
+
+
+def test_nor_where_some_fluents_are_defined() -> None:
+    world, reach = World(CART.description), tools_of(CART).reach
+    literals = [literal for fluent in world.fluents for literal in (fluent, f"-{fluent}")]
+    for start in world.initial_states():
+        reachable = _reachable(world, start)
+        for goal in combinations(literals, 2):
+            expected = not any(world.satisfies(state, goal) for state in reachable)
+            found = reach.out_of_reach(frozenset(world.true_atoms(start)), goal)
+            assert found == expected, (world.true_atoms(start), goal)
 
 
 @pytest.mark.parametrize(
