@@ -10,9 +10,12 @@ _REPORTS = "tests/agents/intentional/test_reports.py"
 _AXIOMS = "tests/asp/test_axioms.py"
 _EXPLANATIONS = "tests/asp/test_explanations.py"
 _FOLDING = "tests/agents/shared/test_folding.py"
+_GOES_ON = "test_it_goes_on_where_some_smallest_explanation_lets_it"
+_JOINT = "tests/agents/intentional/test_joint.py"
 _JOINT_LIVES = "tests/agents/intentional/test_joint_lives.py"
 _PLANS = "tests/asp/test_plans.py"
 _PLANS_KEPT = "tests/asp/test_plans_kept.py"
+_THE_END = f"{_FOLDING}::test_the_end_of_a_history_is_explained_without_what_was_folded"
 _REASONS = "tests/agents/intentional/test_reasons.py"
 
 EXERCISED: Mapping[str, tuple[str, ...]] = {
@@ -26,15 +29,15 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "fine_planning": ("tests/asp/test_fine_planning.py", "tests/asp/test_fine_plans.py"),
     "history": (_AXIOMS,),
     "intentions": (_AXIOMS, "tests/agents/intentional/test_persistence.py"),
-    "joint": ("tests/agents/intentional/test_joint.py", _JOINT_LIVES),
-    "kept_diagnosis": (_REPORTS, _PREFERENCES, _LIVES),
+    "joint": (_JOINT, _JOINT_LIVES),
+    "kept_diagnosis": (_REPORTS, _THE_END, _PREFERENCES, _FOLDING, _LIVES),
     "kept_fine": ("tests/asp/test_refined.py",),
     "kept_fitted": ("tests/asp/test_fitted.py",),
     "kept_following": (_PLANS_KEPT, _LIVES),
     "kept_planning": (_PLANS_KEPT,),
     "kept_successors": (f"{_REASONS}::test_nor_where_some_fluents_are_defined",),
     "kept_transition": ("tests/asp/test_transitions.py",),
-    "kept_window": (f"{_LIVES}::test_whatever_is_folded", _FOLDING),
+    "kept_window": (_THE_END, _FOLDING),
     "order": (_EXPLANATIONS, "tests/asp/test_order.py"),
     "persistence": ("tests/agents/intentional/test_persistence.py",),
     "planning": (_AXIOMS, _PLANS, "tests/agents/intentional/test_persistence.py", _LIVES),
@@ -47,6 +50,6 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
         "tests/agents/traditional/test_told.py",
         "tests/agents/traditional/test_kept_planner.py",
     ),
-    "undivided": (_JOINT_LIVES,),
+    "undivided": (f"{_JOINT}::{_GOES_ON}", _JOINT_LIVES),
 }
 """By the theory's name: paths of test files, or of single tests in them."""

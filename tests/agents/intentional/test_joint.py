@@ -10,6 +10,7 @@ from agents.intentional.controller import IntentionalRobot
 from agents.intentional.intention import Intention
 from agents.intentional.joint import JointLogician
 from agents.intentional.logician import Logician
+from agents.intentional.undivided import UndividedLogician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import knowledge
@@ -108,3 +109,38 @@ def test_an_explanation_that_news_makes_needless_is_not_kept() -> None:
         second = reasoner.diagnose(history, first).diagnosis
         sizes[make] = [first.size, second.size]
     assert sizes == {Logician: [1, 1], JointLogician: [1, 0]}
+
+
+NOISE = """
+sorts
+  robot = {rob}.
+fluents
+  inertial lit.
+  inertial noise.
+actions
+  agent     light(robot).
+  exogenous strike.
+  exogenous bang.
+laws
+  light(R) causes lit.
+  strike   causes lit.
+  strike   causes noise.
+  bang     causes noise.
+"""
+
+
+@pytest.mark.parametrize("make", [JointLogician, UndividedLogician])
+def test_it_goes_on_where_some_smallest_explanation_lets_it(make: type[Logician]) -> None:
+    """There was a noise: with or without light, which is the goal."""
+    reasoner = make(knowledge("noise", NOISE), ("lit",), 3)
+    history = History(step=2)
+    history.observe(["-lit", "-noise"], 0)
+    history.happened(f"select({GOAL})", True, 0)
+    history.activities.append(Activity(1, ("light(rob)",)))
+    history.attempt("start(1)", 1)
+    history.happened("start(1)", True, 1)
+    history.observe(["noise"], 2)
+    intention = reasoner.intend(history, reasoner.diagnose(history, Diagnosis()))
+    assert intention.action == "light(rob)"
+    assert intention.under is not None
+    assert intention.under.diagnosis.unobserved == (Event(step=1, action="bang"),)

@@ -15,7 +15,9 @@ from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.memory import PACE
 from asp.kept import frontier
 from asp.kept.folding import Pace
-from asp.kept.pasts import Assumed
+from asp.kept.frontier import Frontier
+from asp.kept.pasts import Account, Assumed, Past
+from asp.kept.windows import Windows
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.agents.shared.wandering import Habits, wander
 
@@ -123,6 +125,21 @@ LATE = Habits(event=0.1, reported=0.9, false_report=0.0, late=12, looks=0.5)
 )
 def test_long_histories(name: str, steps: int, seed: int, habits: Habits, pace: Pace) -> None:
     assert compare(PLACES[name], steps, seed, habits, pace) > 0
+
+
+def test_the_end_of_a_history_is_explained_without_what_was_folded(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    smallest, found = Windows.smallest, list[bool]()
+
+    def counted(windows: Windows, known: Frontier, past: Past, fewest: int) -> Account | None:
+        account = smallest(windows, known, past, fewest)
+        found.append(account is not None)
+        return account
+
+    monkeypatch.setattr(Windows, "smallest", counted)
+    assert compare(OFFICE, 40, 13, LIVELY, replace(TINY, margin=2)) > 0
+    assert any(found)
 
 
 def _sees(history: History, *literals: str) -> None:
