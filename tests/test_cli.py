@@ -148,7 +148,8 @@ def test_resuming_another_configuration_is_refused_with_the_difference() -> None
 
 
 def test_a_trial_in_error_gives_exit_code_1_and_keeps_the_rest() -> None:
-    script = "scenario_settings.1.script=[{step: 1, action: 'exo_move(book1,office1)'}]"
+    held = "[{step: 2, action: 'exo_move(book1,office1)'}]"
+    script = f"scenario_settings.1.script={held}"
     done = _testbed(
         "run", "quickstart", "scenarios=[1,2]", "link=inprocess", script, "--out", "run"
     )
@@ -170,6 +171,10 @@ def test_a_trial_in_error_gives_exit_code_1_and_keeps_the_rest() -> None:
         (["check", "quickstart", "limts=2"], "command line: limts: unknown key"),
         (["check", "quickstart", "goal=[loc(book1,libary)]"], "did you mean 'library'?"),
         (["check", "quickstart", "robots=[intentinal]"], "did you mean 'intentional'?"),
+        (
+            ["check", "quickstart", "script=[{step: 1, action: exo_lock(library)}]"],
+            "script[0].step: at step 1 the robot 'intentional' starts its activity and waits",
+        ),
         (["report", "nowhere"], "nowhere: is not a run folder"),
         (["export", "nowhere"], "nowhere: is not a run folder"),
         (["replay", "nowhere", "--trial", "a"], "nowhere: is not a run folder"),

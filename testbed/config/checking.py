@@ -15,8 +15,9 @@ from asp.translation import translate
 from testbed.config.errors import ConfigError
 from testbed.config.grounds import grounds
 from testbed.config.levels import ground_findings, settings_findings
-from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings, ScriptEntry
+from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings
 from testbed.config.places import Key, Places
+from testbed.config.scripts import first_step_findings, script_findings
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
 from testbed.environment.errors import StateError
 from testbed.environment.world import World
@@ -25,9 +26,14 @@ Robots = Callable[[bool], Collection[str]]
 """The robots that may be asked for, at the fine resolution or at the coarse one."""
 
 
-def check(config: ExperimentConfig, places: Places, robots: Robots | None) -> None:
-    """Raise ConfigError with a line for everything in `config` that its domain does not allow."""
-    findings = [*_twice(config), *_robots(config, robots)]
+def check(
+    config: ExperimentConfig, places: Places, robots: Robots | None, starters: Collection[str]
+) -> None:
+    """Raise ConfigError with a line for everything in `config` that its domain does not allow.
+
+    `starters`: as for `load_config`.
+    """
+    findings = [*_twice(config), *_robots(config, robots), *first_step_findings(config, starters)]
     if config.is_fine:
         lines = _lines([*findings, *_of_the_levels(config, places)], places)
     else:
@@ -74,7 +80,7 @@ def _domain_findings(config: ExperimentConfig, description: Description) -> list
     for key, owner in _owners(config):
         findings += _goal((*key, "goal"), owner.goal or (), description)
         findings += _initial((*key, "initial"), owner.initial, description)
-        findings += _script((*key, "script"), owner.script or (), description)
+        findings += script_findings((*key, "script"), owner.script or (), description)
     return findings
 
 
@@ -199,14 +205,3 @@ def _initial(
             World(description).state(literals)
         except StateError as error:
             yield key, f"no such initial state: {error}"
-
-
-def _script(
-    key: Key, entries: Sequence[ScriptEntry], description: Description
-) -> Iterator[Finding]:
-    known = description.exogenous_actions
-    for index, entry in enumerate(entries):
-        if entry.action not in known:
-            yield (*key, index, "action"), unknown_atom(entry.action, known, "exogenous action")
-        if any(entry.step == earlier.step for earlier in entries[:index]):
-            yield (*key, index, "step"), f"step {entry.step} has an action already; one a step"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,12 +30,15 @@ def load_config(
     overrides: Sequence[str] = (),
     robots: Robots | None = None,
     given_in: str = "command line",
+    starters: Collection[str] = (),
 ) -> ExperimentConfig:
     """The validated configuration of a file or a packaged name, with dotted overrides applied.
 
     A `domain` given as a path, and a `refinement`, are taken relative to the configuration, and
     are absolute in the answer. `robots`, where given, says which kinds of robot may be asked
-    for. `given_in` is what errors call the place of the overrides.
+    for. `given_in` is what errors call the place of the overrides. `starters` are the robots that
+    never act on the world at step 1, so that a script cannot have an event there beside them unless
+    `exogenous_while_thinking`.
 
     Raises:
         ConfigError: one line an error, each with its place and what would be right.
@@ -44,7 +47,7 @@ def load_config(
     composed = _compose(path, text, overrides, given_in)
     places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
     config = _located(_validate(composed, places), path)
-    check(config, places, robots)
+    check(config, places, robots, starters)
     return config if config.scenarios or config.is_fine else _with_scenarios(config)
 
 

@@ -31,6 +31,8 @@ FINE = ("intentional", "intentional-nozoom")
 """Those that can act at the fine resolution."""
 ONLY_FINE = ("intentional-nozoom",)
 """Those that act there alone."""
+STARTERS = tuple(name for name in ROBOTS if name.startswith("intentional"))
+"""Those that at step 1 start an activity, or finish: they act on the world from step 2 on."""
 
 
 def known_robots(fine: bool) -> tuple[str, ...]:

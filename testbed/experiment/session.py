@@ -12,7 +12,7 @@ from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.levels.table import rich_level_table
 from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
-from testbed.experiment.registry import known_robots
+from testbed.experiment.registry import STARTERS, known_robots
 from testbed.experiment.report import Tables, write_report
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import (
@@ -35,7 +35,7 @@ WIDE, WIDEST = 120, 150
 
 def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
     """A configuration that may be run here. Raises ConfigError."""
-    return load_config(source, overrides, known_robots)
+    return load_config(source, overrides, known_robots, starters=STARTERS)
 
 
 def run_session(
@@ -103,6 +103,16 @@ def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Con
 
 
 def _show(console: Console, tables: Tables) -> None:
+    if tables.rows:
+        _show_tables(console, tables)
+    if tables.notice is not None:
+        _say(console, f"incomplete: {tables.notice}")
+    if tables.rows:
+        results = counted(sum(row.trials for row in tables.rows), "trial")
+        _say(console, f"digest of {results}, times aside: {tables.digest}")
+
+
+def _show_tables(console: Console, tables: Tables) -> None:
     console.print(rich_table(tables.rows))
     for levels in tables.levels:
         console.print()
@@ -112,8 +122,6 @@ def _show(console: Console, tables: Tables) -> None:
     for row in tables.rows:
         for note in row.notes():
             _say(console, note)
-    results = counted(sum(row.trials for row in tables.rows), "trial")
-    _say(console, f"digest of {results}, times aside: {tables.digest}")
 
 
 def _show_table1(console: Console, analysis: Analysis) -> None:

@@ -392,3 +392,49 @@ def test_the_dump_of_a_configuration_is_the_configuration(tmp_path: Path) -> Non
     config = load_config(_file(tmp_path, VALID))
     again = ExperimentConfig.model_validate(config.model_dump(mode="json", exclude_none=True))
     assert again == config
+
+
+AT_ONCE = 'script: [{step: 2, action: "exo_lock(library)"}, {step: 1, action: "exo_lock(library)"}]'
+EARLY = (
+    "at step 1 the robot 'slow' starts its activity and waits, when nothing exogenous happens; "
+    "give a later step, or exogenous_while_thinking: true"
+)
+
+
+def _loaded(folder: Path, text: str, *overrides: str) -> list[str]:
+    """The lines of a refusal, where `slow` only starts at step 1; none if it is accepted."""
+    try:
+        load_config(_file(folder, text), overrides, lambda _: ["slow", "quick"], starters=["slow"])
+    except ConfigError as error:
+        return [line.rpartition("tiny.yaml")[2] for line in error.lines]
+    return []
+
+
+@pytest.mark.parametrize(
+    ("overrides", "lines"),
+    [
+        (["robots=[quick,slow]"], [f":7: scenario_settings.1.script[1].step: {EARLY}"]),
+        (["robots=[quick]"], []),
+        (["robots=[slow]", "exogenous_while_thinking=true"], []),
+        (["robots=[slow]", "scenario_settings.1.exogenous_while_thinking=true"], []),
+        (
+            [
+                "robots=[slow]",
+                "exogenous_while_thinking=true",
+                "scenario_settings.1.exogenous_while_thinking=false",
+            ],
+            [f":7: scenario_settings.1.script[1].step: {EARLY}"],
+        ),
+        (["robots=[slow]", "scenarios=[random]"], []),
+    ],
+)
+def test_nothing_can_happen_at_step_1_beside_a_robot_that_waits_then(
+    tmp_path: Path, overrides: list[str], lines: list[str]
+) -> None:
+    assert _loaded(tmp_path, VALID.replace("script: []", AT_ONCE), *overrides) == lines
+
+
+@pytest.mark.parametrize("scenarios", ["scenarios: [1, 2, random]\n", ""])
+def test_a_script_that_scenarios_share_is_refused_once(tmp_path: Path, scenarios: str) -> None:
+    text = f"name: tiny\ngoal: [loc(book1,library)]\n{AT_ONCE}\nrobots: [slow]\n{scenarios}"
+    assert _loaded(tmp_path, text) == [f":3: script[1].step: {EARLY}"]

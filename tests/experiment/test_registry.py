@@ -1,0 +1,23 @@
+"""What configurations are told of the robots, against the robots."""
+
+import pytest
+
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.registry import ONLY_FINE, ROBOTS, STARTERS, make_robot
+from testbed.experiment.trial import play_trial
+from testbed.link.inprocess import InProcessRobot
+from tests.experiment.samples import Configure
+
+EVENT = "script=[{step: 1, action: 'exo_lock(library)'}]"
+
+
+@pytest.mark.parametrize("robot", [name for name in ROBOTS if name not in ONLY_FINE])
+@pytest.mark.parametrize("goal", ["loc(rob1,office1)", "loc(rob1,kitchen)"])
+def test_an_event_at_step_1_is_an_error_beside_those_that_only_start(
+    configure: Configure, robot: str, goal: str
+) -> None:
+    config = configure("scenarios=[1]", f"goal=[{goal}]", f"robots=[{robot}]", EVENT)
+    (spec,) = plan_trials(config)
+    outcome = play_trial(spec, InProcessRobot(lambda _: make_robot(robot))).record.outcome
+    nothing_to_do = goal == "loc(rob1,kitchen)"  # then whoever it is finishes at once
+    assert (outcome == "error") == (robot in STARTERS or nothing_to_do)
