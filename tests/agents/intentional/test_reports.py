@@ -196,3 +196,43 @@ def test_news_of_the_step_at_which_the_goal_is_selected_is_false(reasoner: Make)
     mind = Mind(reasoner)
     mind.next(news=[(0, "shut_gate")])
     assert mind.assumed == ([], [(0, "shut_gate")])
+
+
+GATE = """
+sorts
+  robot = {rob}.
+fluents
+  inertial shut.
+  inertial latched.
+actions
+  agent     knock(robot).
+  exogenous shut_gate.
+  exogenous unlatch.
+  exogenous swing_open.
+laws
+  shut_gate  causes shut.
+  shut_gate  causes latched.
+  unlatch    causes -latched.
+  swing_open causes -shut.
+  impossible knock(R)   if -shut.
+  impossible unlatch    if -latched.
+  impossible swing_open if latched.
+"""
+
+
+@both
+def test_a_report_is_believed_again_where_later_news_needs_it(reasoner: Make) -> None:
+    """Only what was latched is unlatched: the gate was shut, and then opened."""
+    gate = reasoner(knowledge("gate", GATE), ("shut",), 3)
+    history = History(step=4)
+    history.observe(["-shut", "-latched"], 0)
+    history.happened(f"select({GOAL})", True, 0)
+    history.happened("shut_gate", True, 1)
+    history.observe(["-shut"], 4)
+    first = gate.diagnose(history, Diagnosis()).diagnosis
+    assert [(e.step, e.action) for e in first.distrusted] == [(1, "shut_gate")]
+    history.happened("unlatch", True, 2)
+    history.happened("swing_open", True, 3)
+    explained = gate.diagnose(history, first)
+    assert explained.diagnosis == Diagnosis()
+    assert not explained.kept
