@@ -236,3 +236,15 @@ def test_a_report_is_believed_again_where_later_news_needs_it(reasoner: Make) ->
     explained = gate.diagnose(history, first)
     assert explained.diagnosis == Diagnosis()
     assert not explained.kept
+
+
+@both
+@pytest.mark.parametrize(("goal", "then"), [("at(right)", "go(right)"), ("safe", "switch_on")])
+def test_what_is_assumed_of_the_start_is_planned_from(goal: str, then: str, reasoner: Make) -> None:
+    """By default the gate is shut; the lamp is unknown, and assumed to be dark."""
+    mind = reasoner(knowledge("cart", f"{SOURCE}\ndefaults\n  gate: shut.\n"), (goal,), 3)
+    history = History(step=1)
+    history.observe(["at(left)", "-at(right)"], 0)
+    history.happened(f"select({GOAL})", True, 0)
+    intention = mind.intend(history, mind.diagnose(history, Diagnosis()))
+    assert (intention.action, intention.plan) == ("start(1)", ("open", then))
