@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -14,12 +15,25 @@ from testbed.experiment.record import COARSE
 from testbed.experiment.repeating import repeats_of
 from testbed.experiment.specs import TrialSpec, pair_specs, seed_words, setting_of
 
-__all__ = ["TrialSpec", "plan_trials"]
+__all__ = ["TrialSpec", "plan_trials", "planned_trials"]
 
 
 def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
     """The trials of a configuration in their order: scenario or level, pair, robot."""
     return list(level_specs(config)) if config.is_fine else _in_scenarios(config)
+
+
+def planned_trials(config: ExperimentConfig) -> dict[str, int]:
+    """How many trials each scenario, or level, has in the plan, without drawing what they are."""
+    robots = len(config.robots)
+    if config.is_fine:
+        own = [Path(config.refinement).stem] if config.refinement else []
+        return dict.fromkeys((*own, *config.levels), (config.limit or 0) * robots)
+    world = load_world(config.domain)
+    return {
+        scenario: sum(1 for _ in _starts(config, scenario, world)) * robots
+        for scenario in config.scenarios
+    }
 
 
 def _in_scenarios(config: ExperimentConfig) -> list[TrialSpec]:

@@ -17,15 +17,19 @@ from testbed.experiment.store import SUMMARY, read_records, replace_text
 
 
 def write_summary(
-    folder: Path, sure: Collection[str], published: Mapping[str, object], paper: Paper
+    folder: Path,
+    covered: Mapping[str, object],
+    sure: Collection[str],
+    published: Mapping[str, object],
+    paper: Paper,
 ) -> dict[str, object]:
     """Summarise the records of a run into its `summary.json`, and return what was written.
 
-    Beside what `summarise` says, `digest` is the one number for all of its results; `published` is
-    added as it is.
+    Beside what `summarise` says, `digest` is the one number for all of its results; `covered`, how
+    much of the plan they are, and `published` are added as they are.
     """
     number, found = digest(read_records(folder)), summarise(read_records(folder), sure, paper)
-    summary = {"digest": number, **found, **published}
+    summary = {"digest": number, **covered, **found, **published}
     replace_text(folder / SUMMARY, json.dumps(summary, indent=2) + "\n")
     return summary
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from testbed.experiment.record import COARSE, Explained
 from testbed.link.messages import Explanation
 
@@ -9,6 +11,11 @@ from testbed.link.messages import Explanation
 def counted(number: int, noun: str) -> str:
     """`1 trial`, `2 trials`: nouns whose plural ends in s."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def listed(names: Sequence[str]) -> str:
+    """`a`, `a and b`, `a, b and c`."""
+    return " and ".join([part for part in (", ".join(names[:-1]), *names[-1:]) if part])
 
 
 def place(scenario: str, level: str) -> str:

@@ -15,6 +15,7 @@ from asp.loading import read_domain
 from testbed.config import ExperimentConfig
 from testbed.experiment.comparison import OPTIMUM, comparisons, optima
 from testbed.experiment.counting import Apart, eventful, pairs_apart
+from testbed.experiment.coverage import coverage_of
 from testbed.experiment.levels.protocol import paper_of
 from testbed.experiment.levels.results import levels_of
 from testbed.experiment.levels.table import LevelTable, level_tables
@@ -36,10 +37,12 @@ PROTOCOL = "table1"
 class Tables:
     """What a run comes to: a row a scenario (or level) and robot, and the published tables.
 
-    `digest` is the one number for all of its results.
+    `digest` is the one number for all of its results, `notice` what is to be known of a run that is
+    not complete.
     """
 
     digest: str
+    notice: str | None
     rows: list[Row]
     levels: list[LevelTable]
     table1: list[Analysis] = field(default_factory=list)
@@ -48,11 +51,12 @@ class Tables:
 def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     """Write `summary.json` and `report.html` from the records of a run; its tables."""
     table1, sure, paper = _table1(folder, config), eventful(config), paper_of(config)
-    summary = write_summary(folder, sure, _numbers(table1), paper)
+    covered = coverage_of(read_records(folder), config)
+    summary = write_summary(folder, covered.numbers(), sure, _numbers(table1), paper)
     apart = pairs_apart(read_records(folder), sure)
     rows = rows_of(read_records(folder), apart)
     levels = level_tables(levels_of(summary), paper)
-    tables = Tables(str(summary["digest"]), rows, levels, table1)
+    tables = Tables(str(summary["digest"]), covered.notice(), rows, levels, table1)
     parts = {
         **_heading(config, tables),
         **_tables(config, tables, summary),
@@ -89,6 +93,7 @@ def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
         "achieved": sum(row.achieved for row in tables.rows),
         "failed": sum(row.failed for row in tables.rows),
         "digest": tables.digest,
+        "notice": tables.notice,
     }
 
 

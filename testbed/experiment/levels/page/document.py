@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.levels.page import prose
 from testbed.experiment.levels.page.commands import commands, workers_of
@@ -62,6 +63,7 @@ def _parts(run: Run) -> Iterator[str]:
         digest=digest(read_records(run.folder)),
         workers=_workers(run),
     )
+    yield _incomplete(run)
     yield from _compared(run)
     yield "## Seconds"
     yield "Means and standard deviations, and our medians."
@@ -72,6 +74,11 @@ def _parts(run: Run) -> Iterator[str]:
     yield "## Tests"
     yield TESTING
     yield markdown(TESTS, effect_rows(run.levels))
+
+
+def _incomplete(run: Run) -> str:
+    notice = coverage_of(read_records(run.folder), run.config).notice()
+    return "" if notice is None else prose.paragraph(f"**Incomplete:** {notice}.")
 
 
 def _workers(run: Run) -> str:

@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
@@ -25,6 +26,7 @@ from testbed.experiment.table1.page.hypotheses import (
 from testbed.experiment.table1.page.others import arguments, later, unaided
 from testbed.experiment.table1.page.released import released
 from testbed.experiment.table1.page.rows import row_by_row
+from testbed.experiment.table1.page.text import paragraph
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.runs import Run, released_weights, told_order
 from testbed.experiment.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
@@ -43,7 +45,7 @@ Whoever runs them gets the same results. Planning times depend on the machine, a
 does; times aside, the digests of the results, which are also said at the end of each run, are
 
 {digests}
-
+{incomplete}
 In each table: our mean with its 95% interval, our median, and the published value, with `*` where
 it does not lie in the interval of our mean. TP is `traditional`, ATI `intentional`; ratios are
 TP / ATI.
@@ -76,7 +78,11 @@ def document(sources: Sources) -> str:
     mind = sources.main.minds[0]
     analysis, pairs = sources.main.analyses[mind], sources.main.pairs[mind]
     parts = [
-        INTRODUCTION.format(commands=_commands(sources), digests=_digests(sources)),
+        INTRODUCTION.format(
+            commands=_commands(sources),
+            digests=_digests(sources),
+            incomplete=_incomplete(sources),
+        ),
         *_tables(analysis),
         drawing(analysis),
         blindness(pairs),
@@ -126,6 +132,17 @@ def _digests(sources: Sources) -> str:
         for run in (*_played(sources), *sources.told)
     ]
     return markdown(("run", "digest"), rows)
+
+
+def _incomplete(sources: Sources) -> str:
+    """A paragraph for each run that is not complete."""
+    runs = (*_played(sources), *sources.told)
+    notices = ((run, coverage_of(read_records(run.folder), run.config).notice()) for run in runs)
+    return "".join(
+        "\n" + paragraph(f"**Incomplete:** of `runs/{run.config.name}` {notice}.") + "\n"
+        for run, notice in notices
+        if notice is not None
+    )
 
 
 def _played(sources: Sources) -> list[Run]:
