@@ -33,6 +33,15 @@ def read_refinement(name_or_path: str) -> tuple[str, str]:
     return str(path), path.read_text(encoding="utf-8")
 
 
+def refined_name(name_or_path: str) -> str | None:
+    """What the `refines` statement of a file names, if it has one.
+
+    Raises SourceError, and FileNotFoundError where there is no such file.
+    """
+    file, text = read_refinement(name_or_path)
+    return next((statement.name for statement in parse_fine(text, file).each(Refines)), None)
+
+
 def _coarse(file: str, text: str) -> tuple[str, str]:
     statements = list(parse_fine(text, file).each(Refines))
     if not statements:

@@ -14,7 +14,8 @@ from asp.spelling import suggestion
 from asp.translation import translate
 from testbed.config.errors import ConfigError
 from testbed.config.grounds import grounds
-from testbed.config.levels import ground_findings, settings_findings
+from testbed.config.levels import ground_findings, map_findings, settings_findings
+from testbed.config.lines import lines_of, lines_of_the_domain, lines_of_the_map
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings
 from testbed.config.places import Key, Places
 from testbed.config.scripts import first_step_findings, script_findings
@@ -35,26 +36,28 @@ def check(
     """
     findings = [*_twice(config), *_robots(config, robots), *first_step_findings(config, starters)]
     if config.is_fine:
-        lines = _lines([*findings, *_of_the_levels(config, places)], places)
+        lines = [*lines_of(findings, places), *_of_the_levels(config, places)]
     else:
         description = _description(config, places)
-        lines = _lines([*findings, *_coarse_alone(config)], places)
-        lines += _of_the_domain(_domain_findings(config, description), places)
+        lines = lines_of([*findings, *_coarse_alone(config)], places)
+        lines += lines_of_the_domain(config, _domain_findings(config, description), places)
     if lines:
         raise ConfigError(lines)
 
 
-def _of_the_levels(config: ExperimentConfig, places: Places) -> list[Finding]:
-    """Findings at the fine resolution: what all levels have in common, or else what the first has.
+def _of_the_levels(config: ExperimentConfig, places: Places) -> list[str]:
+    """Lines at the fine resolution: what all levels have in common, or else what the first has.
 
     Raises ConfigError for mistakes in the texts of a map.
     """
     if findings := list(settings_findings(config)):
-        return findings
+        return lines_of(findings, places)
     with _texts_read(places, "refinement"):
+        if findings := list(map_findings(config)):
+            return lines_of(findings, places)
         for _, ground in grounds(config):
             if findings := list(ground_findings(config, ground.refinement)):
-                return findings
+                return lines_of_the_map(findings, places)
     return []
 
 
@@ -82,22 +85,6 @@ def _domain_findings(config: ExperimentConfig, description: Description) -> list
         findings += _initial((*key, "initial"), owner.initial, description)
         findings += script_findings((*key, "script"), owner.script or (), description)
     return findings
-
-
-def _of_the_domain(findings: list[Finding], places: Places) -> list[str]:
-    """Lines of what the domain does not know; one for all that was written for another domain."""
-    if not places.is_overridden(("domain",)):
-        return _lines(findings, places)
-    foreign = dict.fromkeys(str(key[0]) for key, _ in findings if not places.is_overridden(key))
-    if not foreign:
-        return _lines(findings, places)
-    own = [(key, message) for key, message in findings if places.is_overridden(key)]
-    wanted = f"{places.file} is about another domain; with this one give also {', '.join(foreign)}"
-    return [f"{places.of(('domain',))}: {wanted}", *_lines(own, places)]
-
-
-def _lines(findings: Sequence[Finding], places: Places) -> list[str]:
-    return [f"{places.of(key)}: {message}" for key, message in findings]
 
 
 def _description(config: ExperimentConfig, places: Places) -> Description:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
 from itertools import islice, product
+from pathlib import Path
 
 from asp import literals
 from asp.levels import LEVELS
 from asp.literals import atom
 from asp.refinement import Refinement
+from asp.refinement.reading import refined_name
 from asp.signature import Signature
 from asp.spelling import suggestion
-from testbed.config.models import ExperimentConfig
+from testbed.config.models import Drawing, ExperimentConfig
 from testbed.config.places import Key
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
 from testbed.environment.errors import StateError
@@ -56,13 +58,29 @@ def _names(config: ExperimentConfig) -> Iterator[Finding]:
             yield ("level_sizes", name), "is a published level; give your own another name"
 
 
+def map_findings(config: ExperimentConfig) -> Iterator[Finding]:
+    """A map whose text names another domain than the one by default, where no domain is given.
+
+    One that is given takes the place of the named one. Raises OSError and SourceError.
+    """
+    if config.refinement is None or "domain" in config.model_fields_set:
+        return
+    named = refined_name(config.refinement)
+    if named not in (None, config.domain):
+        yield (
+            ("refinement",),
+            f"{Path(config.refinement).name} refines {named}, and the domain is "
+            f"{config.domain} unless given; give domain: {named}",
+        )
+
+
 def ground_findings(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:
     """What the descriptions of one level do not allow."""
     coarse, weak = refinement.coarse_signature, refinement.weak_signature
     if not refinement.description.robots:
         yield ("domain",), NO_ROBOT
     yield from _literals(("goal",), config.goal, coarse)
-    yield from _patterns(config.draw.goal if not config.goal else (), coarse)
+    yield from () if config.goal else _drawn(config.draw, coarse)
     yield from _known(("observability",), config.observability, _named(weak, "exogenous"))
     actions = _named(refinement.strong_signature, "agent")
     yield from _known(("statistics",), config.statistics, actions)
@@ -95,6 +113,16 @@ def _literals(key: Key, given: Iterable[str], signature: Signature) -> Iterator[
         known = instances(signature, atom(literal), FLUENTS)
         if atom(literal) not in known:
             yield (*key, index), unknown_atom(atom(literal), known, "fluent")
+
+
+def _drawn(draw: Drawing, signature: Signature) -> Iterator[Finding]:
+    """What is wrong with the goal that is drawn; in one line, where it is the one by default."""
+    findings = list(_patterns(draw.goal, signature))
+    if findings and "goal" not in draw.model_fields_set:
+        why, sorts = findings[0][1].partition(";")[0], ", ".join(signature.sorts)
+        by_default = f"is by default {', '.join(draw.goal)}, which does not fit this domain: {why}"
+        findings = [(("draw", "goal"), f"{by_default}; give a goal with its sorts: {sorts}")]
+    yield from findings
 
 
 def _patterns(given: Iterable[str], signature: Signature) -> Iterator[Finding]:

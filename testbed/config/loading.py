@@ -24,6 +24,9 @@ from testbed.resources import find_config
 SCRIPT, NONE = "script", "none"
 """What a run without scenarios is called, in which a script is played, or nothing happens."""
 
+FINE_KEYS = ("levels", "level_sizes", "refinement", "draw", "statistics")
+"""What a configuration of the fine resolution may have given."""
+
 
 def load_config(
     source: str | Path,
@@ -129,7 +132,7 @@ def _describe(error: ErrorDetails, places: Places) -> str:
     if error["type"] == "extra_forbidden":
         return f"{where}: unknown key; {_unknown_key_hint(str(key[-1]), _known_keys(key[:-1]))}"
     if error["type"] == "missing":
-        return f"{where}: is missing{_example(key)}"
+        return f"{where}: is missing{_example(key)}{_or_level(key, error['input'])}"
     if error["type"] == "too_short":
         return f"{where}: should not be empty{_example(key)}"
     if error["type"] == "tuple_type":
@@ -150,6 +153,13 @@ def _shown(value: object) -> str:
 def _example(key: Key) -> str:
     field = ExperimentConfig.model_fields.get(str(key[0])) if len(key) == 1 else None
     return f"; for example {field.examples[0]}" if field and field.examples else ""
+
+
+def _or_level(key: Key, given: Any) -> str:
+    """Of a goal that is missing beside what belongs to levels: these may be what is."""
+    if key != ("goal",) or not any(name in given for name in FINE_KEYS):
+        return ""
+    return "; or give levels, as in levels: [L1], or a refinement: there goals are drawn"
 
 
 def _choice_hint(error: ErrorDetails) -> str:

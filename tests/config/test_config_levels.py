@@ -199,6 +199,60 @@ def test_levels_go_with_no_refinement(own_map: Path) -> None:
     assert line.startswith("command line: levels: goes with no refinement")
 
 
+TABLETOP = Path(__file__).parents[1] / "asp" / "refinement"
+
+
+def test_a_goal_that_was_written_for_other_levels_is_named_with_why() -> None:
+    given = ["levels=[]", f"domain={TABLETOP / 'tabletop.al'}"]
+    given += [f"refinement={TABLETOP / 'tabletop.fine'}", "statistics={}"]
+    with pytest.raises(ConfigError) as caught:
+        load_config("levels", given)
+    (line,) = caught.value.lines
+    assert line.startswith("command line: refinement: ")
+    assert line.endswith("with this one give also draw.goal (no fluent 'loc')")
+    own = load_config("levels", [*given, "draw.goal=[lies(block,zone)]"])
+    assert own.draw.goal == ("lies(block,zone)",)
+    with pytest.raises(ConfigError) as caught:
+        load_config("levels", [*given[:-1], "draw.goal=[lies(block,zon)]"])
+    why = "no such action at this resolution"
+    assert [line.partition("also ")[2] for line in caught.value.lines] == [
+        f"statistics ({why})",
+        "",
+    ]
+    assert caught.value.lines[1].startswith("command line: draw.goal[0]: unknown sort 'zon'")
+
+
+def test_the_goal_by_default_may_not_fit_a_map(tmp_path: Path) -> None:
+    files = f"domain: {TABLETOP / 'tabletop.al'}\nrefinement: {TABLETOP / 'tabletop.fine'}\n"
+    (line,) = _refusal(tmp_path, f"name: tiny\n{files}limit: 1\n")
+    assert line == (
+        "tiny.yaml: draw.goal: is by default loc(object,room), which does not fit this domain: "
+        "no fluent 'loc'; give a goal with its sorts: zone, arm, block, hue"
+    )
+
+
+def test_a_map_that_refines_another_domain_than_the_default_needs_that_one(own_map: Path) -> None:
+    text = own_map.read_text(encoding="utf-8")
+    (line,) = _refusal(own_map.parent, text.replace("domain: own.al\n", ""))
+    assert line == (
+        "tiny.yaml:2: refinement: flat.fine refines level, and the domain is office unless given; "
+        "give domain: level"
+    )
+
+
+@pytest.mark.parametrize("given", ["levels: []", "draw: {holding: 0.5}", "statistics: {move: 1.0}"])
+def test_where_the_goal_is_missing_it_may_be_the_levels_that_are(
+    tmp_path: Path, given: str
+) -> None:
+    (line,) = _refusal(tmp_path, f"name: tiny\n{given}\n")
+    assert line.startswith("tiny.yaml: goal: is missing; for example goal: ")
+    assert line.endswith(
+        "; or give levels, as in levels: [L1], or a refinement: there goals are drawn"
+    )
+    (line,) = _refusal(tmp_path, "name: tiny\n")
+    assert "levels" not in line
+
+
 def _robots(fine: bool) -> list[str]:
     return ["both", "zooming"] if fine else ["both", "planning"]
 

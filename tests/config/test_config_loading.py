@@ -3,10 +3,13 @@
 from pathlib import Path
 
 import pytest
+import yaml
 
 import asp
 from asp.loading import load_description
 from testbed.config import ConfigError, ExperimentConfig, load_config
+from testbed.config.models import AdversarySettings, Limits, Observability
+from testbed.resources import find_config
 
 VALID = """\
 name: tiny
@@ -285,14 +288,21 @@ def test_another_domain_over_a_file_needs_what_belongs_to_it(tmp_path: Path) -> 
     lamp.write_text(LAMP, encoding="utf-8")
     assert _refusal(tmp_path, VALID, f"domain={lamp}") == [
         "command line: domain: tiny.yaml is about another domain; with this one give also "
-        "scenarios, observability, goal, initial, scenario_settings"
+        "goal, initial, scenarios, scenario_settings, observability"
     ]
     given = [f"domain={lamp}", "scenarios=[1]", "scenario_settings={}", "goal=[lit]"]
     (line, *more) = _refusal(tmp_path, VALID, *given[:-1], "goal=[lid]")
-    assert line.endswith("give also observability, initial")
+    assert line.endswith("give also initial, observability")
     assert more == ["command line: goal[0]: no fluent 'lid'; did you mean 'lit'?"]
     config = load_config(_file(tmp_path, VALID), [*given, "observability={}", "initial=[lit]"])
     assert (config.observability, config.scenario_settings) == ({}, {})
+
+
+def test_what_fits_another_domain_by_chance_is_named_with_what_does_not(tmp_path: Path) -> None:
+    text = "name: tiny\ngoal: [loc(book1,library)]\nscenarios: [2]\n"
+    (line,) = _refusal(tmp_path, text, "domain=library")
+    assert line.endswith("with this one give also goal, scenarios")
+    assert load_config(_file(tmp_path, text), ["domain=library", "scenarios=[random]"])
 
 
 def test_a_domain_in_which_nobody_sees_anything_has_no_robot(tmp_path: Path) -> None:
@@ -438,3 +448,13 @@ def test_nothing_can_happen_at_step_1_beside_a_robot_that_waits_then(
 def test_a_script_that_scenarios_share_is_refused_once(tmp_path: Path, scenarios: str) -> None:
     text = f"name: tiny\ngoal: [loc(book1,library)]\n{AT_ONCE}\nrobots: [slow]\n{scenarios}"
     assert _loaded(tmp_path, text) == [f":3: script[1].step: {EARLY}"]
+
+
+def test_the_office_lists_every_key_of_the_coarse_resolution() -> None:
+    text = yaml.safe_load(find_config("office").read_text(encoding="utf-8"))
+    everything = ExperimentConfig.model_fields.keys()
+    assert everything - text.keys() == {"refinement", "levels", "level_sizes", "draw", "statistics"}
+    assert AdversarySettings.model_fields.keys() - text["adversary"].keys() == {"pace"}
+    assert Limits.model_fields.keys() == text["limits"].keys()
+    for entry in text["observability"].values():
+        assert Observability.model_fields.keys() == entry.keys()
