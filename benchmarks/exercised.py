@@ -28,7 +28,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "fine_inference": ("tests/asp/test_knowing.py",),
     "fine_planning": ("tests/asp/test_fine_planning.py", "tests/asp/test_fine_plans.py"),
     "history": (_AXIOMS, _REPORTS),
-    "intentions": (_AXIOMS, "tests/agents/intentional/test_persistence.py"),
+    "intentions": (_REPORTS, _AXIOMS, "tests/agents/intentional/test_persistence.py"),
     "joint": (_JOINT, _JOINT_LIVES),
     "kept_diagnosis": (_REPORTS, _THE_END, _PREFERENCES, _FOLDING, _LIVES),
     "kept_fine": ("tests/asp/test_refined.py",),

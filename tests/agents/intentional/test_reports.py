@@ -248,3 +248,13 @@ def test_what_is_assumed_of_the_start_is_planned_from(goal: str, then: str, reas
     history.happened(f"select({GOAL})", True, 0)
     intention = mind.intend(history, mind.diagnose(history, Diagnosis()))
     assert (intention.action, intention.plan) == ("start(1)", ("open", then))
+
+
+@both
+def test_a_goal_that_was_finished_is_a_past_like_others(reasoner: Make) -> None:
+    mind = Mind(reasoner)
+    mind.next()
+    mind.history.attempt("finish", 1)
+    mind.history.happened("finish", True, 1)
+    mind.next(seen=["at(left)", "shut"])
+    assert mind.assumed == ([(1, "shut_gate")], [])
