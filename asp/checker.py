@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from asp import roles, syntax
 from asp.reserved import is_reserved_constant
@@ -21,7 +21,7 @@ def check(source: syntax.Source, signature: Signature, problems: Problems) -> No
         for use in roles.uses(statement):
             _check_use(use, signature, problems)
         _check_form(statement, signature, problems)
-        if len(problems) > found or _uses_unknown_sort(statement, signature):
+        if len(problems) > found or _uses_unknown(statement, signature):
             faulty.add(statement)
     _check_defaults(source, problems)
     _check_scenarios(source, problems)
@@ -31,12 +31,19 @@ def check(source: syntax.Source, signature: Signature, problems: Problems) -> No
             _check_variables(statement, signature, problems)
 
 
-def _uses_unknown_sort(statement: syntax.Statement, signature: Signature) -> bool:
+def _uses_unknown(statement: syntax.Statement, signature: Signature) -> bool:
     """Whether an atom's declaration is in error, so that no more can be said of its places."""
-    names = {use.atom.name for use in roles.uses(statement)} & signature.symbols.keys()
+    names = {use.atom.name for use in roles.uses(statement)} - signature.sorts.keys()
+    if not names <= signature.symbols.keys():
+        return True
     return any(
         sort.name not in signature.sorts for name in names for sort in signature.symbols[name].sorts
     )
+
+
+def _may_be_meant(use: roles.Use, failed: Iterable[syntax.Declaration]) -> bool:
+    """Whether a declaration that failed may have been of this atom."""
+    return any(d.kind in use.kinds and len(d.sorts) == len(use.atom.args) for d in failed)
 
 
 def _check_defaults(source: syntax.Source, problems: Problems) -> None:
@@ -96,6 +103,8 @@ def _check_use(use: roles.Use, signature: Signature, problems: Problems) -> None
     atom = use.atom
     kind = _kind(atom.name, signature)
     if kind is None:
+        if _may_be_meant(use, problems.failed):
+            return
         known = [n for n, d in signature.symbols.items() if d.kind in use.kinds]
         noun = roles.noun(use.kinds)
         problems.report(atom.place, f"unknown {noun} '{atom.name}'; {suggestion(atom.name, known)}")

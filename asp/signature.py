@@ -12,11 +12,16 @@ from asp.spelling import suggestion
 
 
 class Problems(list[SourceError]):
-    """The mistakes found so far in one text."""
+    """The mistakes found so far in one text.
+
+    `failed` are the declarations whose names cannot be what they were meant to be: what uses
+    the names that were meant is right.
+    """
 
     def __init__(self, file: str) -> None:
         super().__init__()
         self.file = file
+        self.failed: list[syntax.Declaration] = []
 
     def report(self, place: syntax.Place, message: str) -> None:
         self.append(SourceError(self.file, place.line, place.column, message))
@@ -53,9 +58,13 @@ def signature_of(source: syntax.Source, problems: Problems) -> Signature:
                 report_reserved(statement.name, statement.place, problems)
             sorts[statement.name] = _members(statement, sorts, problems)
         elif isinstance(statement, syntax.Declaration):
+            found = len(problems)
             _claim(statement.name, statement, taken, problems)
             if is_reserved_symbol(statement.name, statement.kind):
                 report_reserved(statement.name, statement.place, problems)
+            if len(problems) > found:
+                first = symbols.get(statement.name, statement)
+                problems.failed += [first, statement]
             _check_sorts(statement, sorts, problems)
             symbols[statement.name] = statement
     return Signature(sorts, symbols)

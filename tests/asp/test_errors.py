@@ -56,6 +56,28 @@ def test_one_mistake_is_told_once(text: str) -> None:
     assert len(mistakes_in(text)) == 1
 
 
+FOLLOWING = """\
+  lies(T, L)     if loc(T, L), lies(T, L).
+  carry(T, L)    causes lies(T, L).
+  lift(T)        causes -lies(T, hall).
+  impossible lift(T) if -lies(T, L), next_to(L, L).
+sees
+  lamp sees lies(T, L) if lit.
+"""
+
+
+@pytest.mark.parametrize("declared", ["holds", "loc"])
+def test_a_declaration_that_failed_is_told_alone(declared: str) -> None:
+    house = HOUSE.replace("inertial lit.", f"inertial lit.\n  inertial {declared}(thing, room).")
+    house = house.replace("agent     carry", "agent  start(thing).\n  agent  carry")
+    with pytest.raises(SourceError) as caught:
+        parse_description(house + FOLLOWING)
+    assert [(e.line, e.column) for e in caught.value.all] == [(10, 3), (14, 3)]
+    with pytest.raises(SourceError) as caught:
+        parse_description(house + "lid if warm.\n")  # no such declaration can have been meant
+    assert [e.line for e in caught.value.all] == [10, 14, 18]
+
+
 @pytest.mark.parametrize("text", [text for text, *_ in MISTAKES.values()], ids=MISTAKES)
 def test_a_message_has_no_name_of_the_parsers_own(text: str) -> None:
     assert "__" not in mistakes_in(text)[0].message.lower()
