@@ -23,6 +23,8 @@ from testbed.link.inprocess import InProcessRobot
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+LEVEL_ROBOTS = ("zoom", "no zoom")
 LINK = re.compile(r"\]\(([^)#:]+)\)")
 
 
@@ -45,6 +47,45 @@ def test_python_blocks_run(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_links_lead_somewhere(document: Path) -> None:
     for target in LINK.findall(document.read_text(encoding="utf-8")):
         assert (document.parent / target).exists(), f"{document.name}: {target}"
+
+
+def _page(name: str) -> str:
+    return (ROOT / "docs" / name).read_text(encoding="utf-8")
+
+
+def _cells(page: str, row: str) -> list[list[str]]:
+    """The rows of the page's tables that begin so."""
+    found = (line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| "))
+    return [[cell.strip() for cell in cells] for cells in found if cells[0].strip() == row]
+
+
+def test_the_figures_of_the_published_comparison_are_those_of_its_page() -> None:
+    page, told = _page("published-and-measured.md"), " ".join(README.split())
+    failed = re.search(r"ATI was not correct in 0 of (\d+) trials", page)
+    assert failed
+    pairs = int(failed[1])
+    undone = page.partition("## When TP fails")[2].partition("## ")[0]
+    rows = [line.split(" | ") for line in undone.splitlines() if re.match(r"\| \w+, \d", line)]
+    counts = [[int(n) for cell in row[2::2] for n in re.findall(r"\d+", cell)] for row in rows]
+    wrong = sum(of - right + others - also for right, of, also, others in counts)
+    assert len(rows) > 5
+    assert f"right in all of {pairs} pairs of trials and TP in {1 - wrong / pairs:.0%}" in told
+    triggered, random = (float(row[7].split("%")[0]) for row in _cells(page, "all")[:2])
+    assert f"TP is right in {triggered:.0f}% where it was triggered" in told
+    assert f"and in {random:.0f}% where events were drawn at random" in told
+    (drawn,), (weighed,) = _cells(page, "as played"), _cells(page, "released draw")
+    inside = (next(cell for cell in row if " of " in cell) for row in (drawn, weighed))
+    assert "{} lie in our intervals as events are drawn here, and {} where".format(*inside) in told
+
+
+def test_the_figures_of_the_levels_are_those_of_their_page() -> None:
+    page = _page("levels-published-and-measured.md")
+    shares = page.partition("**Trials that achieved")[2].partition("**No zoom")[0]
+    rows = [line.split(" | ") for line in shares.splitlines() if re.match(r"\| L\d", line)]
+    assert {row[3].split("%")[0] for row in rows} == {"100.0"}
+    trials = {kind: sum(int(row[2]) for row in rows if row[1] == kind) for kind in LEVEL_ROBOTS}
+    assert f"of {sum(trials.values())} trials at [the levels]" in " ".join(README.split())
+    assert trials["zoom"] == trials["no zoom"]
 
 
 def _commands() -> set[str]:

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -128,16 +129,18 @@ def _fragile(victim: str) -> Iterator[Play]:
         yield play_or_die
 
 
-def test_a_killed_worker_costs_its_trial_alone(configure: Configure) -> None:
+@pytest.mark.parametrize("doomed", [0, 1])
+def test_a_killed_worker_costs_its_trial_alone(configure: Configure, doomed: int) -> None:
+    """Also where it was to play the other trial of the pair next."""
     specs = plan_trials(configure("scenarios=[1,2]"))
-    victim = specs[1].trial
+    victim = specs[doomed].trial
     results = dict(play_all(specs, 2, partial(_fragile, victim)))
     assert sorted(results) == [0, 1, 2, 3]
     records = [results[position].record for position in range(4)]
     assert ids(records) == [spec.trial for spec in specs]
     assert [record.outcome for record in records if record.trial != victim] == ["achieved"] * 3
-    assert records[1].outcome == "error"
-    assert records[1].reason == "worker process ended with exit code -9"
+    assert records[doomed].outcome == "error"
+    assert records[doomed].reason == "worker process ended with exit code -9"
 
 
 @contextmanager
@@ -166,6 +169,29 @@ def test_the_trials_of_a_pair_are_played_by_one_worker_one_after_the_other(
     for own in pairs.values():
         process, first = own[0]
         assert own == [(process, first + later) for later in range(3)]
+
+
+FIRST_WAITS_S = 1.0
+
+
+@contextmanager
+def _waiting(first: str) -> Iterator[Play]:
+    def play(spec: TrialSpec) -> Result:
+        if spec.trial == first:
+            time.sleep(FIRST_WAITS_S)
+        return Result(blank_record(spec))
+
+    yield play
+
+
+def test_no_more_trials_wait_for_an_earlier_one_than_memory_is_to_hold(
+    configure: Configure, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("testbed.experiment.pool.AHEAD", 6)
+    specs = plan_trials(configure("scenarios=[1,2,3,4,5,6]"))
+    came = [position for position, _ in play_all(specs, 2, partial(_waiting, specs[0].trial))]
+    assert sorted(came) == list(range(len(specs)))
+    assert max(came[: came.index(0)]) <= 6
 
 
 def _instantly(*_: object) -> AbstractContextManager[Play]:

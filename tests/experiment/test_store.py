@@ -19,6 +19,7 @@ from testbed.experiment.store import (
     config_text,
     read_config,
     read_records,
+    replace_text,
     write_config,
 )
 from tests.experiment.samples import Configure, a_record, ids
@@ -165,3 +166,36 @@ def test_a_domain_of_ones_own_is_kept_with_the_run(tmp_path: Path) -> None:
 def test_a_folder_without_a_run_is_said_to_be_none(tmp_path: Path) -> None:
     with pytest.raises(StoreError, match="is not a run folder"):
         read_config(tmp_path)
+
+
+def test_of_a_long_difference_the_beginning_is_shown_what_was_given_first(
+    tmp_path: Path, configure: Configure
+) -> None:
+    write_config(tmp_path, configure())
+    own = tmp_path / "own.yaml"
+    own.write_text('name: own\ngoal: ["loc(book1,office1)"]\nrepeats: 3\n', encoding="utf-8")
+    with pytest.raises(StoreError) as refused:
+        check_unchanged(tmp_path, load_config(own))
+    _, *changes, rest = str(refused.value).splitlines()
+    assert len(changes) == 8
+    # `repeats` stands behind more than 8 keys that differ by default.
+    assert {"name", "goal", "repeats"} <= {line.split(":")[0].strip() for line in changes}
+    with pytest.raises(StoreError) as few:
+        check_unchanged(tmp_path, configure("seed=77"))
+    assert str(few.value).splitlines()[1:] == ["  seed: 1 -> 77"]
+    assert rest.strip().removeprefix("and ").removesuffix(" more").isdigit()
+
+
+def test_a_file_is_the_old_one_until_the_new_one_is_whole(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "summary.json"
+    replace_text(path, "old")
+
+    def fail(*_: object) -> None:
+        raise OSError("no space left on the disk")
+
+    monkeypatch.setattr("testbed.experiment.run_folder.os.replace", fail)
+    with pytest.raises(OSError, match="no space"):
+        replace_text(path, "new")
+    assert path.read_text(encoding="utf-8") == "old"
