@@ -17,7 +17,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 
-from testbed.experiment.interrupts import interrupts_later
+from testbed.experiment.interrupts import SIGNALS, interrupts_later
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import Result, lost_worker
 
@@ -79,7 +79,7 @@ class _Worker:
         """End the process and return its exit code."""
         self.pipe.close()
         if at_once:
-            self.process.terminate()
+            self.process.kill()
         self.process.join(EXIT_S)
         if self.process.exitcode is None:
             self.process.kill()
@@ -111,7 +111,7 @@ class _Crew:
     def dismiss(self, at_once: bool) -> None:
         for worker in self._workers:
             if at_once:
-                worker.process.terminate()
+                worker.process.kill()
             worker.pipe.close()
         for worker in self._workers:
             worker.end(at_once)
@@ -154,7 +154,8 @@ def _by_pair(specs: Sequence[TrialSpec]) -> Iterator[list[int]]:
 
 def _serve(pipe: Connection, open_player: OpenPlayer) -> None:
     """A worker's life: until the pipe closes, which it also does when the driver dies."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in SIGNALS:  # where all of a group get one, it is for the driver to handle
+        signal.signal(number, signal.SIG_IGN)
     with suppress(EOFError, OSError), open_player() as play:
         while True:
             pipe.send(play(pipe.recv()))

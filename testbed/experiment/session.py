@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.coverage import coverage_of
+from testbed.experiment.interrupts import terminable
 from testbed.experiment.levels.table import rich_level_table
 from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
@@ -21,6 +23,7 @@ from testbed.experiment.store import (
     choose_folder,
     holds_run,
     read_config,
+    read_records,
     write_config,
 )
 from testbed.experiment.tables import rich_table
@@ -53,13 +56,16 @@ def run_session(
     """
     config = load(source, overrides)
     folder = choose_folder(out, config.name, resume)
+    console = _console(quiet)
+    if resume and not holds_run(folder):
+        _say(console, f"nothing to resume: a new run in {folder}")
     _prepare(folder, config)
-    provenance = Provenance(folder, config, session_arguments())
-    with progress(quiet) as notify:
-        tally = run_trials(config, folder, workers, notify)
-    code = _exit_code(tally)
-    provenance.close(code, tally.workers)
-    _conclude(folder, config, tally, _console(quiet))
+    with terminable():
+        provenance = Provenance(folder, config, session_arguments())
+        tally = _played(config, folder, workers, quiet)
+        code = _exit_code(tally)
+        provenance.close(code, tally.workers)
+        _conclude(folder, config, tally, console)
     return code
 
 
@@ -84,6 +90,17 @@ def _prepare(folder: Path, config: ExperimentConfig) -> None:
         write_config(folder, config)
 
 
+def _played(config: ExperimentConfig, folder: Path, workers: int | None, quiet: bool) -> Tally:
+    try:
+        with progress(quiet) as notify:
+            return run_trials(config, folder, workers, notify)
+    except KeyboardInterrupt:  # while the trials were planned: none was played
+        covered = coverage_of(read_records(folder), config)
+        planned = sum(covered.planned.values())
+        done = planned - sum(covered.missing.values())
+        return Tally(planned, done, failed=0, workers=0, interrupted=True)
+
+
 def _exit_code(tally: Tally) -> int:
     if tally.interrupted:
         return INTERRUPTED
@@ -91,11 +108,15 @@ def _exit_code(tally: Tally) -> int:
 
 
 def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Console) -> None:
-    _show(console, write_report(folder, config))
+    tables = write_report(folder, config)
+    if tables.rows:
+        _show(console, tables)
     if tally.interrupted:
         kept = f"{tally.done} of {counted(tally.planned, 'trial')}"
         _say(console, f"interrupted: {kept} kept in {folder}")
         _say(console, f"to go on: testbed run {folder / 'config.yaml'} --out {folder} --resume")
+        if not tables.rows:
+            return
     if tally.failed:
         failed = counted(tally.failed, "trial")
         _say(console, f"{failed} ended in error or without a robot; see the report")
