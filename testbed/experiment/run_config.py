@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import yaml
@@ -13,6 +14,7 @@ from testbed.experiment.errors import StoreError
 from testbed.experiment.run_folder import CONFIG, replace_text
 
 ANY_RESULT = ("link", "limits.answer_s")  # keys on which no logical result depends
+MOST_CHANGES = 8
 
 
 def read_config(folder: Path) -> ExperimentConfig:
@@ -57,20 +59,33 @@ def _yaml(keys: dict[str, object]) -> str:
 
 
 def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
-    """Raise StoreError, showing the difference, unless `config` is the one stored in `folder`."""
+    """Raise StoreError, showing the difference, unless `config` is the one stored in `folder`.
+
+    Of a long difference the beginning is shown: the keys that were given, then defaults.
+    """
     try:
         stored = flat_config(read_config(folder))
     except ConfigError as error:
         raise StoreError(str(error)) from None
     given = flat_config(config)
-    changes = [
-        f"  {key}: {stored.get(key, 'absent')} -> {given.get(key, 'absent')}"
-        for key in [*stored, *(key for key in given if key not in stored)]
+    changed = [
+        key
+        for key in dict.fromkeys((*stored, *given))
         if stored.get(key) != given.get(key) and key not in ANY_RESULT
     ]
-    if changes:
+    if changed:
         head = f"{folder}: its configuration is another one; resume it unchanged or choose --out"
-        raise StoreError("\n".join([head, *changes]))
+        changed.sort(key=lambda key: key.partition(".")[0] not in config.model_fields_set)
+        raise StoreError("\n".join([head, *_told(changed, stored, given)]))
+
+
+def _told(
+    changed: Sequence[str], stored: Mapping[str, object], given: Mapping[str, object]
+) -> Iterator[str]:
+    for key in changed[:MOST_CHANGES]:
+        yield f"  {key}: {stored.get(key, 'absent')} -> {given.get(key, 'absent')}"
+    if len(changed) > MOST_CHANGES:
+        yield f"  and {len(changed) - MOST_CHANGES} more"
 
 
 def flat_config(config: ExperimentConfig) -> dict[str, object]:
