@@ -10,6 +10,7 @@ import random
 import sys
 from collections.abc import Iterable, Iterator
 from importlib import import_module
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +41,7 @@ def main(size: str) -> list[Sheet]:
     if size == "small":
         axioms = sorted(draw.sample(axioms, SAMPLE), key=str)
         rules = [draw.choice([rule for rule in rules if rule.theory == name]) for name in QUICK]
-    rows = gathered([*map(_row, axioms), *_rows(rules)])
+    rows = gathered(chain(map(_row, axioms), _rows(rules)))
     marked = {rule.key for rule in rules if rule.redundant}
     needed = [row for row in rows if row["left_out"] not in marked]
     redundant = [row for row in rows if row["left_out"] in marked]
