@@ -18,10 +18,11 @@ COLUMNS = (
     "achieved",
     "plans",
     "actions",
-    "units",
+    "exec. units",
     "planning",
     "explained by",
 )
+AT_LEVELS = {"scenario": "level", "planning": "coarse planning"}
 MOST_COMMON = 3
 NONE_APART: Mapping[str, Apart] = {}
 
@@ -163,9 +164,12 @@ def _place(record: TrialRecord, reason: Apart | None) -> tuple[str, str, Apart |
 
 
 def headings(rows: Iterable[Row]) -> tuple[str, ...]:
-    """The columns by the names that fit the rows: the first is the level where all have one."""
+    """The columns by the names that fit the rows.
+
+    Where all have a level that is the first, and planning is said to be the coarse one alone.
+    """
     fine = all(row.level != COARSE for row in rows)
-    return ("level", *COLUMNS[1:]) if fine else COLUMNS
+    return tuple(AT_LEVELS.get(name, name) for name in COLUMNS) if fine else COLUMNS
 
 
 def rich_table(rows: Sequence[Row]) -> Table:

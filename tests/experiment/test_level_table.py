@@ -169,7 +169,9 @@ def test_totals_of_the_published_figures_are_the_sums_of_their_parts() -> None:
 def test_rows_are_by_level_and_a_run_without_levels_has_no_such_table() -> None:
     rows = rows_of([a_level_record("a", ZOOM)])
     assert headings(rows)[0] == "level"
+    assert headings(rows)[-2] == "coarse planning"
     assert rows[0].cells()[:2] == ("L3", ZOOM)
     coarse = [a_record("a")]
     assert headings(rows_of(coarse))[0] == "scenario"
+    assert headings(rows_of(coarse))[-2] == "planning"
     assert level_tables(_levels(*coarse), PAPER) == []

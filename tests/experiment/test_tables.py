@@ -45,7 +45,7 @@ def test_one_trial_a_row_is_shown_as_it_was() -> None:
         "achieved": "yes",
         "plans": "2",
         "actions": "8",
-        "units": "80",
+        "exec. units": "80",
         "planning": "12 ms",
         "explained by": "exo_lock(library)",
     }
@@ -70,7 +70,7 @@ def test_several_trials_are_counted_and_averaged() -> None:
 def test_means_have_one_decimal_whatever_they_are() -> None:
     rows = rows_of(a_record(n, action_count=100, execution_units=25 * int(n)) for n in "124")
     cells = dict(zip(COLUMNS, rows[0].cells(), strict=True))
-    assert (cells["actions"], cells["units"], cells["plans"]) == ("100.0", "58.3", "0.0")
+    assert (cells["actions"], cells["exec. units"], cells["plans"]) == ("100.0", "58.3", "0.0")
 
 
 def test_a_row_of_failures_alone_has_no_means() -> None:
