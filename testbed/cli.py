@@ -169,7 +169,7 @@ def export(
 
 @app.command(
     epilog=_examples(
-        "testbed replay runs/quickstart", "testbed replay runs/quickstart --trial 3f2a"
+        "testbed replay runs/quickstart", "testbed replay runs/quickstart --trial 107b"
     )
 )
 def replay(

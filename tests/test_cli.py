@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -12,6 +13,8 @@ from pathlib import Path
 import pytest
 
 import asp
+from testbed.config import load_config
+from testbed.experiment.plan import plan_trials
 
 COMMAND = [sys.executable, "-m", "testbed"]
 HELD = [sys.executable, "-m", "tests.held"]
@@ -281,6 +284,12 @@ def test_help_shows_an_example_a_line() -> None:
     overview = _testbed("--help").stdout
     for command in ("run", "check", "robot", "report", "export", "replay", "translate"):
         assert command in overview
+
+
+def test_the_trial_that_the_help_replays_is_one_of_the_quickstart() -> None:
+    (beginning,) = re.findall(r"runs/quickstart --trial (\w+)", _testbed("replay", "--help").stdout)
+    trials = [spec.trial for spec in plan_trials(load_config("quickstart"))]
+    assert sum(trial.startswith(beginning) for trial in trials) == 1
 
 
 def test_the_version_is_that_of_the_distribution() -> None:
