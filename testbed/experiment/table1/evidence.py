@@ -70,9 +70,10 @@ def _columns(row: Published) -> list[float]:
 
 
 def shares(table: Table) -> dict[str, float]:
-    """Which part of a table\'s pairs is in each scenario from 1 to 5."""
+    """Which part of a table's pairs is in each scenario from 1 to 5; 0 where none is in any."""
     counts = {row.name: row.pairs for row in table.rows if row.name in SCENARIOS}
-    return {name: counts.get(name, 0) / sum(counts.values()) for name in SCENARIOS}
+    whole = sum(counts.values()) or 1
+    return {name: counts.get(name, 0) / whole for name in SCENARIOS}
 
 
 def published_failures(scenario: str) -> dict[str, float]:

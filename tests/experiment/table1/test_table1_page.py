@@ -188,6 +188,12 @@ def test_shares_are_of_the_pairs_in_scenarios_one_to_five() -> None:
     assert _lines(drawing(_analysis(pairs)))["random"] != []
 
 
+def test_shares_of_no_pair_are_none() -> None:
+    table = _analysis([a_pair("6", intended="6")]).triggered
+    assert table is not None
+    assert evidence.shares(table) == dict.fromkeys("12345", 0.0)
+
+
 def test_what_became_what_is_counted_and_so_is_what_no_rule_fits() -> None:
     pairs = [a_pair("3"), a_pair("unclassified"), a_pair("unclassified", intended="4"), a_pair("4")]
     page = drawing(_analysis(pairs))
