@@ -1,6 +1,6 @@
 """The command line: run, check, robot, report, export, replay, translate.
 
-Exit codes: 0 done; 1 trials ended in error; 2 bad input; 130 interrupted.
+Exit codes: 0 done; 1 trials ended in error; 2 bad input; 130 interrupted or terminated.
 """
 
 # Imports that only one command needs are made in it: a robot's process is to be there quickly,
