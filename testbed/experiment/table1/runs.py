@@ -65,11 +65,23 @@ def _pairs(records: Iterable[TrialRecord], config: ExperimentConfig, mind: str) 
 
 
 def released_weights(run: Run, mind: str) -> dict[str, float]:
-    """What random pairs weigh under the released simulator's draw, by this robot's trial."""
+    """What random pairs weigh under the released simulator's draw, by this robot's trial.
+
+    Nothing where events are not drawn by triggers, beside physical actions alone: `redrawing` knows
+    no other draw.
+    """
+    if not _is_redrawable(run.config):
+        return {}
     world, rate = load_world(run.config.domain), run.config.adversary.rate
     played, other = as_stated(world, RANDOM, rate), passed_on(world, RANDOM, rate)
     own = (r for r in read_records(run.folder) if r.scenario == RANDOM and r.robot == mind)
     return {record.trial: weight(record, world, played, other) for record in own}
+
+
+def _is_redrawable(config: ExperimentConfig) -> bool:
+    own = config.settings(RANDOM)
+    by_triggers = own.script is None and config.adversary.strategy != "random"
+    return by_triggers and not (own.exogenous_while_thinking or config.is_fine)
 
 
 def told_order(run: Run) -> list[str]:

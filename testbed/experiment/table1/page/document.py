@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from testbed.experiment.coverage import coverage_of
@@ -104,9 +104,8 @@ def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
     if main.analyses[mind].random is None:
         return
     weights = released_weights(main, mind)
-    drawn = [pair for pair in main.pairs[mind] if pair.intended == RANDOM]
-    otherwise = sum(pair.meeting not in ("nothing", "same") for pair in drawn)
-    yield released(weigh(drawn, lambda pair: weights[pair.mind.trial]), otherwise)
+    if weights:
+        yield _released(main.pairs[mind], weights)
     found = hypotheses(main.pairs[mind], main.config.goal, weights)
     if sources.later is not None:
         own = weigh(sources.later.pairs[mind], lambda _: 1.0)
@@ -115,13 +114,20 @@ def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
         found += both(run.config.name, run.pairs[mind], released_weights(run, mind))
     for run in sources.told:
         name = ", ".join(("told", *told_order(run)))
-        found += both(name, _of(main, run, mind, weights), weights)
+        found += both(name, _of(main, run, mind), weights)
     yield compared(found, bool(sources.variants), bool(sources.told))
 
 
-def _of(main: Run, run: Run, mind: str, weights: Mapping[str, float]) -> list[Pair]:
+def _released(pairs: Iterable[Pair], weights: Mapping[str, float]) -> str:
+    drawn = [pair for pair in pairs if pair.intended == RANDOM]
+    otherwise = sum(pair.meeting not in ("nothing", "same") for pair in drawn)
+    return released(weigh(drawn, lambda pair: weights[pair.mind.trial]), otherwise)
+
+
+def _of(main: Run, run: Run, mind: str) -> list[Pair]:
     """The pairs of a run whose other robot met the same as in the main run."""
-    if any(pair.mind.trial not in weights for pair in run.pairs[mind]):
+    known = {pair.mind.trial for pair in main.pairs[mind] if pair.intended == RANDOM}
+    if any(pair.mind.trial not in known for pair in run.pairs[mind]):
         raise StoreError(f"{run.folder}: its pairs are not those of {main.folder}")
     return run.pairs[mind]
 

@@ -34,11 +34,11 @@ def hypotheses(
     """Those that only ask how often what was played would have happened.
 
     `released` has the weights of pairs under the released simulator's draw, by the intentional
-    robot's trial.
+    robot's trial; nothing where they are not known.
     """
     ways: dict[str, Weights] = {
         AS_PLAYED: lambda _: 1.0,
-        PASSED_ON: lambda pair: released[pair.mind.trial],
+        **_redrawn(released),
         "starts: something in hand": lambda pair: float(_undone(pair, goal, "-")),
         "starts: nothing in hand": lambda pair: float(not _undone(pair, goal, "-")),
         "starts: nothing in place": lambda pair: float(not _in_place(pair, goal)),
@@ -55,14 +55,15 @@ def weigh(pairs: Sequence[Pair], weights: Weights) -> Weighing:
     return weighing(drawn, [weights(pair) for pair in drawn])
 
 
-def both(
-    name: str, pairs: Sequence[Pair], released: Mapping[str, float]
-) -> tuple[Hypothesis, Hypothesis]:
-    """What was otherwise in a run of its own, under either draw."""
-    return (
-        Hypothesis(name, weigh(pairs, lambda _: 1.0)),
-        Hypothesis(f"{name}; {PASSED_ON}", weigh(pairs, lambda pair: released[pair.mind.trial])),
-    )
+def both(name: str, pairs: Sequence[Pair], released: Mapping[str, float]) -> tuple[Hypothesis, ...]:
+    """What was otherwise in a run of its own, under either draw where there are weights."""
+    plain = Hypothesis(name, weigh(pairs, lambda _: 1.0))
+    ways = _redrawn(released).items()
+    return plain, *(Hypothesis(f"{name}; {way}", weigh(pairs, own)) for way, own in ways)
+
+
+def _redrawn(released: Mapping[str, float]) -> dict[str, Weights]:
+    return {PASSED_ON: lambda pair: released[pair.mind.trial]} if released else {}
 
 
 def _in_place(pair: Pair, goal: Sequence[str]) -> bool:
