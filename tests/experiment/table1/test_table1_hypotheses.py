@@ -10,6 +10,7 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import Activity, Attempt, TrialRecord, encode
 from testbed.experiment.store import read_records, write_config
+from testbed.experiment.table1.evidence import closeness
 from testbed.experiment.table1.page.document import Sources, document
 from testbed.experiment.table1.page.hypotheses import (
     Hypothesis,
@@ -108,6 +109,25 @@ def test_of_as_many_inside_the_one_at_a_smaller_distance_is_nearer() -> None:
     near, far = [_as_published("5", 1.5)], [_as_published("5", 3.0)]
     assert "with `near`" in _two(near, far)
     assert "with `far`" in _two(far, near)
+
+
+def test_more_values_inside_are_nearer_than_a_smaller_distance() -> None:
+    """Of 0.2 and 3 times the published values the mean is far off, the interval holds them."""
+    wide = [_as_published("5", 0.2, "s1"), _as_published("5", 3.0, "s2")]
+    tight = [_as_published("5", 1.1, "s1"), _as_published("5", 1.1, "s2")]
+    ours, theirs = (closeness(weigh(own, lambda _: 1.0).table) for own in (wide, tight))
+    assert ours.inside > theirs.inside
+    assert ours.distance > theirs.distance
+    assert "with `near`" in _two(wide, tight)
+    assert "with `far`" in _two(tight, wide)
+
+
+@pytest.mark.parametrize("with_told", [True, False])
+def test_the_nearest_of_several_comes_with_a_caution(with_told: bool) -> None:
+    made = [Hypothesis("made", weigh([_as_published("5")], lambda _: 1.0))]
+    page = " ".join(compared(made, False, with_told).split())
+    nearest = page.split("Most published values")[1]
+    assert "The best of several looks a little better than it is." in nearest
 
 
 def test_the_table_shows_what_is_asked_of_each_row() -> None:

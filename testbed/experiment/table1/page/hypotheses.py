@@ -85,8 +85,7 @@ TOLD = """\
 `told`: in the released simulator TP is told, when it explains that its goal holds, whether it does,
 and takes another explanation if not; at the end of a plan it is told nothing. Here it tries the
 places of what it misses in the order given, else in the domain's. Which order the solver of the
-released simulator comes to is not known; several were tried, and the best of several looks a little
-better than it is.
+released simulator comes to is not known; several were tried.
 
 """
 
@@ -171,7 +170,8 @@ def _nearest(found: Sequence[Hypothesis]) -> str:
     fewest = ", ".join(f"{PAIRS * weights[name]:.0f} in row {name}" for name in ("2", "5"))
     return paragraph(
         f"Most published values, {near.inside} of {near.values}, lie inside with `{best.name}`"
-        f"{'; outside remain ' + ', '.join(left) if left else ''}. The published means are of a "
+        f"{'; outside remain ' + ', '.join(left) if left else ''}. The best of several looks a "
+        "little better than it is. The published means are of a "
         f"sample, too: {PAIRS} pairs in these shares are {fewest}.",
     )
 
