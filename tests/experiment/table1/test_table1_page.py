@@ -261,6 +261,26 @@ def test_without_feedback_each_robot_is_counted_under_the_first_ones_scenario() 
     assert "ATI does without feedback here" not in page
 
 
+def test_without_feedback_pairs_without_event_or_work_are_counted_apart() -> None:
+    quiet, names = a_side(event=None), ("intentional", "intentional-checking")
+    idle = a_side(event=None, trial="t3")
+    own = {
+        "intentional": [
+            a_pair("3", a_side(False), a_side(trial="t1"), intended="3"),
+            a_pair("1", quiet, a_side(trial="t2", event=None), intended="3"),
+            a_pair("nothing to do", quiet, idle),
+            a_pair("1", quiet, a_side(trial="t4", event=None)),
+        ]
+    }
+    own[names[1]] = [dataclasses.replace(pair, mind=a_side()) for pair in own[names[0]]]
+    page = _unaided(own)
+    rows = _lines(page)
+    assert rows["triggered, 3"] == ["1", "0.0% (0)", "100.0% (1)", "100.0% (1)"]
+    assert rows["random, 1"] == ["1", "100.0% (1)", "100.0% (1)", "100.0% (1)"]
+    assert "random, nothing to do" not in rows
+    assert "Counted apart: 1 pairs: no event; 1 pairs: nothing to do." in page
+
+
 def test_why_nothing_is_missed_is_said_only_where_nothing_is() -> None:
     pairs = [pair for pair in SPLIT if pair.mind.achieved]
     assert "ATI does without feedback here" in _unaided({"intentional": pairs})

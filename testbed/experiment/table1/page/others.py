@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO, Apart, eventful
 from testbed.experiment.domains import load_world
 from testbed.experiment.markdown import markdown
 from testbed.experiment.store import flat_config
@@ -93,7 +95,7 @@ away behind its back; `intentional-checking` goes to look before it finishes. Th
 is achieved:
 
 {markdown(columns, _achieved(run))}
-
+{_apart(run)}
 {_why(run)}The scenario is the one that was played, or, of a random event, what it came to be for
 the first of these robots. Where that one ends wrongly after all of its one activity, it is scenario
 1 by the rule.
@@ -114,13 +116,27 @@ def _why(run: Run) -> str:
 
 def _achieved(run: Run) -> Iterator[tuple[str, ...]]:
     """By the scenario of the first robot, for its pairs and those of the others beside them."""
-    first = run.minds[0]
-    places = {pair.base.trial: _place(pair) for pair in run.pairs[first]}
+    first, reasons = run.minds[0], _reasons(run)
+    counted = [p for p in run.pairs[first] if p.base.trial not in reasons]
+    places = {pair.base.trial: _place(pair) for pair in counted}
     for name in sorted(set(places.values())):
-        own = {m: [p for p in run.pairs[m] if places[p.base.trial] == name] for m in run.minds}
+        own = {m: [p for p in run.pairs[m] if places.get(p.base.trial) == name] for m in run.minds}
         minds = (_share([pair.mind.achieved for pair in own[m]]) for m in run.minds)
         base = _share([pair.base.achieved for pair in own[first]])
         yield (name, str(len(own[first])), *minds, base)
+
+
+def _reasons(run: Run) -> dict[str, Apart]:
+    """Why pairs are in no row, by the baseline's trial: no event, or nothing to do."""
+    sure = eventful(run.config)
+    reasons = {pair.base.trial: pair.apart(sure) for pair in run.pairs[run.minds[0]]}
+    return {t: reason for t, reason in reasons.items() if reason in (NO_EVENT, NOTHING_TO_DO)}
+
+
+def _apart(run: Run) -> str:
+    counts = sorted(Counter(_reasons(run).values()).items())
+    told = "; ".join(f"{count} pairs: {reason}" for reason, count in counts)
+    return f"\nCounted apart: {told}.\n" if told else ""
 
 
 def _place(pair: Pair) -> str:
