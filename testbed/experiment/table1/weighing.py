@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
 from testbed.experiment.resampling import BATCH, CONFIDENCE, RESAMPLES, SEED, Values
-from testbed.experiment.statistics import Estimate, proportion
+from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
 from testbed.experiment.table1.results import Ratio, Row, Table
@@ -40,7 +40,7 @@ def weighing(pairs: Sequence[Pair], weights: Sequence[float]) -> Weighing:
         table=Table(tuple(_row(name, own) for name, own in _rows(inside)), {}),
         shares={n: sum(w for p, w in inside if p.happened == n) / whole for n in SCENARIOS},
         inside=sum(w for _, w in inside) / everything,
-        worth=everything**2 / (sum(w * w for _, w in counted) or 1.0),
+        worth=_effective(w for _, w in counted),
     )
 
 
@@ -70,12 +70,36 @@ def _row(name: str, own: Sequence[Weighed]) -> Row:
 
 
 def _share(own: Sequence[Weighed], right: Callable[[Pair], bool]) -> Estimate | None:
-    """A weighted proportion; where all pairs are alike, the exact interval of equal weights."""
+    """A weighted proportion; where no resample differs, with the exact interval.
+
+    Its number of trials is that of the initial states of one weight that say as much (Kish).
+    """
     estimate = _mean(own, right)
     if estimate is None or estimate.low < estimate.high:
         return estimate
-    values = np.array([right(pair) for pair, _ in own], dtype=float)
-    return proportion([(values, 1)], [[pair.state for pair, _ in own]])
+    return _exact(estimate.value, _effective(_by_state(own).values()))
+
+
+def _exact(share: float, trials: float) -> Estimate:
+    """The exact (Clopper-Pearson) interval of a share of trials, whose number need not be whole."""
+    tail, right = (1 - CONFIDENCE) / 2, min(share, 1.0) * trials
+    wrong = trials - right
+    low = float(stats.beta.ppf(tail, right, wrong + 1)) if right else 0.0
+    high = float(stats.beta.ppf(1 - tail, right + 1, wrong)) if wrong else 1.0
+    return Estimate(share, low, high)
+
+
+def _by_state(own: Iterable[Weighed]) -> dict[str, float]:
+    weights: dict[str, float] = {}
+    for pair, weight in own:
+        weights[pair.state] = weights.get(pair.state, 0.0) + weight
+    return weights
+
+
+def _effective(weights: Iterable[float]) -> float:
+    """How many of equal weight say as much as these (Kish's effective sample size); 0 of none."""
+    known = list(weights)
+    return sum(known) ** 2 / (sum(w * w for w in known) or 1.0)
 
 
 def _ratio(own: Sequence[Weighed], measure: str) -> Ratio:

@@ -54,10 +54,29 @@ def test_what_weighs_nothing_is_not_there() -> None:
 
 def test_where_all_are_right_the_interval_is_the_exact_one_of_as_many_states() -> None:
     pairs = [a_pair("1", state=f"s{number % 5}") for number in range(10)]
-    row = _rows(weighing(pairs, [float(n + 1) for n in range(10)]))["1"]
+    row = _rows(weighing(pairs, [2.0] * 10))["1"]
     assert row.baseline is not None
     assert row.baseline.value == row.baseline.high == 1.0
     assert row.baseline.low == pytest.approx(0.025 ** (1 / 5))
+
+
+def test_states_that_weigh_differently_are_as_few_as_weigh_alike() -> None:
+    """Two states of weight 3 and 1 say as much as 16/10 of one weight, however they are split."""
+    right = [a_pair("1", state=state) for state in ("s1", "s1", "s2")]
+    wrong = [a_pair("1", base=a_side(False), state=state) for state in ("s1", "s1", "s2")]
+    above, below = (_rows(weighing(own, [1.0, 2.0, 1.0]))["1"].baseline for own in (right, wrong))
+    assert above is not None
+    assert below is not None
+    assert (above.low, above.high) == (pytest.approx(0.025 ** (1 / 1.6)), 1.0)
+    assert (below.low, below.high) == (0.0, pytest.approx(1 - 0.025 ** (1 / 1.6)))
+
+
+def test_a_single_state_with_both_outcomes_says_as_much_as_one_trial() -> None:
+    pairs = [a_pair("1"), a_pair("1", base=a_side(False))]
+    own = _rows(weighing(pairs, [1.0, 1.0]))["1"].baseline
+    assert own is not None
+    assert own.value == 0.5
+    assert own.low < 0.025 < 0.975 < own.high
 
 
 def test_lost_trials_are_in_no_row() -> None:
