@@ -38,6 +38,7 @@ from testbed.experiment.store import (
     write_config,
 )
 from testbed.experiment.table1.analysis import RANDOM
+from testbed.experiment.table1.runs import told_name
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 from testbed.link.messages import Percept, Task
@@ -95,8 +96,8 @@ def told(folder: Path, out: Path, order: Sequence[str]) -> Path:
     config = read_config(folder)
     reordered(load_world(config.domain).description, order)
     chosen = choose_folder(out, out.name, resume=False)
-    name = "-".join(("told", *order))
-    write_config(chosen, config.model_copy(update={"name": name, "scenarios": (RANDOM,)}))
+    update = {"name": told_name(order), "scenarios": (RANDOM,)}
+    write_config(chosen, config.model_copy(update=update))
     with TrialWriter(chosen) as writer:
         for record in (*_others(folder), *_played(config, order)):
             writer.append(record)

@@ -17,6 +17,7 @@ from testbed.experiment.table1.pairing import Pair, pairs_of
 from testbed.experiment.table1.redrawing import as_stated, passed_on, weight
 
 PROTOCOL = "table1"
+TOLD = "told"
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,22 @@ def _is_redrawable(config: ExperimentConfig) -> bool:
     return by_triggers and not (own.exogenous_while_thinking or config.is_fine)
 
 
+def told_name(order: Iterable[str]) -> str:
+    """The name of a run of `benchmarks/told.py` with this order of places; none: the domain's."""
+    return "-".join((TOLD, *order))
+
+
 def told_order(run: Run) -> list[str]:
-    """The order of places in a run of `benchmarks/told.py`, by its name; none: the domain's own."""
-    return run.config.name.split("-")[1:]
+    """The order that `told_name` was given.
+
+    Raises:
+        StoreError: for any other name: it is TOLD, alone or with all members of a sort.
+    """
+    own, *order = run.config.name.split("-")
+    sorts = load_world(run.config.domain).description.sorts.values()
+    if own == TOLD and (not order or sorted(order) in map(sorted, sorts)):
+        return order
+    raise StoreError(
+        f"{run.folder}: name: {run.config.name} is not that of a run of benchmarks/told.py; "
+        f"it would be {TOLD}, or {TOLD}- and all members of a sort of the domain"
+    )

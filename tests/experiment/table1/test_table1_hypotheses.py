@@ -22,7 +22,7 @@ from testbed.experiment.table1.page.hypotheses import (
 from testbed.experiment.table1.page.released import released
 from testbed.experiment.table1.pairing import Pair, Side
 from testbed.experiment.table1.published import MEASURES, PUBLISHED, SCENARIOS
-from testbed.experiment.table1.runs import read_run, told_order
+from testbed.experiment.table1.runs import read_run, told_name, told_order
 from tests.experiment.samples import a_record
 from tests.experiment.table1.made import a_pair, a_side
 
@@ -191,24 +191,28 @@ def _folder(folder: Path, pairs: int, *overrides: str) -> Path:
 
 def test_the_page_lists_commands_and_digests_of_all_its_runs(tmp_path: Path) -> None:
     main = _folder(tmp_path / "main", 3)
-    other = _folder(tmp_path / "other", 2, "name=told-kitchen-library")
+    other = _folder(tmp_path / "other", 2, "name=told-library-kitchen-office2-office1")
     later = _folder(tmp_path / "later", 1, "name=later", "adversary.rate=0.3")
     near = _folder(tmp_path / "near", 1, "name=near-first", f"domain={NEAR_FIRST}")
     runs = [read_run(folder) for folder in (main, later, other, near)]
     page = document(Sources(runs[0], None, runs[1], (runs[2],), (runs[3],)))
-    for folder, name in ((main, "table1"), (other, "told-kitchen-library"), (later, "later")):
+    for folder, name in (
+        (main, "table1"),
+        (other, "told-library-kitchen-office2-office1"),
+        (later, "later"),
+    ):
         assert f"| `runs/{name}` | `{digest(read_records(folder))}` |" in page
     assert (
-        "$ python -m benchmarks.told runs/table1 runs/told-kitchen-library"
-        " --order kitchen library\n" in page
+        "$ python -m benchmarks.told runs/table1 runs/told-library-kitchen-office2-office1"
+        " --order library kitchen office2 office1\n" in page
     )
-    assert "--later runs/later --variant runs/near-first --told runs/told-kitchen-lib" in page
+    assert "--later runs/later --variant runs/near-first --told runs/told-library-kit" in page
     near_run = "name=near-first domain=examples/near-first.al 'scenarios=[random]' --workers"
     assert f"$ testbed run table1 {near_run}" in page
     assert "| near-first; released draw | " in page
     assert "testbed run table1 name=told" not in page
     assert "| rate 0.3 | " in page
-    assert "| told, kitchen, library | " in page
+    assert "| told, library, kitchen, office2, office1 | " in page
 
 
 def test_the_variant_of_the_domain_differs_in_the_order_of_two_lines() -> None:
@@ -226,6 +230,19 @@ def test_a_told_run_of_other_pairs_is_refused(tmp_path: Path) -> None:
     assert told_order(read_run(other)) == []
     with pytest.raises(StoreError, match="its pairs are not those of"):
         document(Sources(read_run(main), told=(read_run(other),)))
+
+
+@pytest.mark.parametrize("name", ["near-first", "told-kitchen", "told-", "retold"])
+def test_a_run_of_another_name_was_told_nothing(tmp_path: Path, name: str) -> None:
+    other = read_run(_folder(tmp_path / "other", 1, f"name={name}"))
+    with pytest.raises(StoreError, match=f"name: {name} is not that of a run of benchmarks/told"):
+        told_order(other)
+
+
+def test_the_name_of_a_told_run_says_its_order(tmp_path: Path) -> None:
+    for order in ([], ["library", "office1", "kitchen", "office2"]):
+        folder = _folder(tmp_path / f"{len(order)}", 1, f"name={told_name(order)}")
+        assert told_order(read_run(folder)) == order
 
 
 def test_sides_made_by_hand_are_whole() -> None:

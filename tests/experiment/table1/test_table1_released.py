@@ -104,7 +104,7 @@ def test_where_events_come_while_the_robot_thinks_nothing_is_weighed(
 ) -> None:
     run = _run(tmp_path, "exogenous_while_thinking=true", "adversary.rate=0.5")
     assert released_weights(run, MIND) == {}
-    assert main([str(tmp_path), "--variant", str(tmp_path), "--told", str(tmp_path)]) == 0
+    assert main([str(tmp_path), "--variant", str(tmp_path)]) == 0
     page = capsys.readouterr().out
     assert "| as played |" in page
     assert "released draw" not in page
