@@ -67,8 +67,9 @@ def test_states_that_weigh_differently_are_as_few_as_weigh_alike() -> None:
     above, below = (_rows(weighing(own, [1.0, 2.0, 1.0]))["1"].baseline for own in (right, wrong))
     assert above is not None
     assert below is not None
-    assert (above.low, above.high) == (pytest.approx(0.025 ** (1 / 1.6)), 1.0)
-    assert (below.low, below.high) == (0.0, pytest.approx(1 - 0.025 ** (1 / 1.6)))
+    tail = 0.025 ** (1 / 1.6)
+    assert [above.low, above.high] == pytest.approx([tail, 1.0])
+    assert [below.low, below.high] == pytest.approx([0.0, 1 - tail])
 
 
 def test_a_single_state_with_both_outcomes_says_as_much_as_one_trial() -> None:
