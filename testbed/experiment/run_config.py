@@ -15,6 +15,10 @@ from testbed.experiment.run_folder import CONFIG, replace_text
 
 ANY_RESULT = ("link", "limits.answer_s")  # keys on which no logical result depends
 MOST_CHANGES = 8
+OWN_FILES = ("domain", "refinement")
+"""Keys that may lead to a file which is not packaged."""
+TEXT = " text"
+"""After the key of such a file: its text, which is no key of a configuration."""
 
 
 def read_config(folder: Path) -> ExperimentConfig:
@@ -102,5 +106,5 @@ def flat_config(config: ExperimentConfig) -> dict[str, object]:
     walk("", config.model_dump(mode="json", exclude_none=True))
     for key, file in _own_files(config).items():
         flat[key] = file.name
-        flat[f"{key} text"] = file.read_text(encoding="utf-8")
+        flat[key + TEXT] = file.read_text(encoding="utf-8")
     return flat

@@ -10,7 +10,7 @@ from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import Analysis, analyse
 from testbed.experiment.table1.page.drawing import drawing, unclassified
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
-from testbed.experiment.table1.page.others import arguments, later, unaided
+from testbed.experiment.table1.page.others import later, unaided
 from testbed.experiment.table1.page.rows import row_by_row
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import PUBLISHED
@@ -284,10 +284,3 @@ def test_without_feedback_pairs_without_event_or_work_are_counted_apart() -> Non
 def test_why_nothing_is_missed_is_said_only_where_nothing_is() -> None:
     pairs = [pair for pair in SPLIT if pair.mind.achieved]
     assert "ATI does without feedback here" in _unaided({"intentional": pairs})
-
-
-def test_a_command_names_what_differs_from_the_packaged_configuration() -> None:
-    config = load_config("table1", ["name=x", "goal_feedback=false", "robots=[traditional]"])
-    given = ["table1", "name=x", "robots=[traditional]", "goal_feedback=false"]
-    assert arguments(config) == given
-    assert arguments(load_config("table1")) == ["table1"]

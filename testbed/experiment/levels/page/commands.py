@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import shlex
 from pathlib import Path
 
-from testbed.config import ExperimentConfig, load_config
+from testbed.config import ExperimentConfig
+from testbed.experiment.commands import arguments, workers_of
+from testbed.experiment.commands import place as place_of
 from testbed.experiment.levels.protocol import PROTOCOL
-from testbed.experiment.store import PROVENANCE, flat_config
 
 PAGE, PICTURE = "docs/levels-published-and-measured.md", "docs/images/levels.svg"
 
@@ -16,7 +16,7 @@ PAGE, PICTURE = "docs/levels-published-and-measured.md", "docs/images/levels.svg
 def commands(folder: Path, config: ExperimentConfig) -> str:
     """The run, with as many workers as it had where that is on record; what is made of it."""
     workers = workers_of(folder)
-    run = ["testbed", "run", *_arguments(config)]
+    run = ["testbed", "run", *arguments(config, PROTOCOL)]
     run += [] if workers is None else ["--workers", str(workers)]
     where = place(config)
     return "\n".join(
@@ -29,26 +29,5 @@ def commands(folder: Path, config: ExperimentConfig) -> str:
 
 
 def place(config: ExperimentConfig) -> str:
-    """The folder in which the first command puts the run."""
-    return shlex.quote(f"runs/{config.name}")
-
-
-def workers_of(folder: Path) -> int | None:
-    """How many processes played the last session of a run; None where it is not on record."""
-    path = folder / PROVENANCE
-    kept = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    workers = kept.get("workers")
-    return workers if isinstance(workers, int) else None
-
-
-def _arguments(config: ExperimentConfig) -> list[str]:
-    """The packaged configuration, and what differs from it."""
-    packaged, own = flat_config(load_config(PROTOCOL)), flat_config(config)
-    changed = [key for key in own if own[key] != packaged.get(key)]
-    return [PROTOCOL, *(f"{key}={_value(own[key])}" for key in changed)]
-
-
-def _value(value: object) -> str:
-    if isinstance(value, list | tuple):
-        return "[" + ",".join(map(str, value)) + "]"
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    """The folder in which the first command puts the run, for a shell."""
+    return shlex.quote(place_of(config))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from testbed.experiment.commands import workers_of
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.levels.page import prose
-from testbed.experiment.levels.page.commands import commands, workers_of
+from testbed.experiment.levels.page.commands import commands
 from testbed.experiment.levels.page.differing import differences
 from testbed.experiment.levels.page.meeting import failures, meetings
 from testbed.experiment.levels.published import FIRST, PAPER

@@ -6,6 +6,7 @@ import shlex
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
+from testbed.experiment.commands import arguments
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
@@ -23,12 +24,12 @@ from testbed.experiment.table1.page.hypotheses import (
     hypotheses,
     weigh,
 )
-from testbed.experiment.table1.page.others import arguments, later, unaided
+from testbed.experiment.table1.page.others import later, unaided
 from testbed.experiment.table1.page.released import released
 from testbed.experiment.table1.page.rows import row_by_row
 from testbed.experiment.table1.page.text import paragraph
 from testbed.experiment.table1.pairing import Pair
-from testbed.experiment.table1.runs import Run, released_weights, told_order
+from testbed.experiment.table1.runs import PROTOCOL, Run, released_weights, told_order
 from testbed.experiment.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
 
 INTRODUCTION = """\
@@ -160,7 +161,8 @@ def _played(sources: Sources) -> list[Run]:
 def _commands(sources: Sources) -> str:
     main = f"runs/{sources.main.config.name}"
     played = _played(sources)
-    lines = [f"$ testbed run {shlex.join(arguments(run.config))} --workers 2" for run in played]
+    own = [shlex.join(arguments(run.config, PROTOCOL)) for run in played]
+    lines = [f"$ testbed run {given} --workers 2" for given in own]
     for run in sources.told:
         order = " ".join(["", "--order", *told_order(run)]) if told_order(run) else ""
         lines.append(f"$ python -m benchmarks.told {main} runs/{run.config.name}{order}")

@@ -5,37 +5,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO, Apart, eventful
 from testbed.experiment.domains import load_world
 from testbed.experiment.markdown import markdown
-from testbed.experiment.store import flat_config
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM, Row
 from testbed.experiment.table1.page.text import paragraph, percent
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
-from testbed.experiment.table1.runs import PROTOCOL, Run
+from testbed.experiment.table1.runs import Run
 from testbed.experiment.table1.table import HEADINGS, interval, number
-
-EXAMPLES = "examples"
-"""Where a domain that is not packaged is looked for."""
-DOMAIN_TEXT = "domain text"
-
-
-def arguments(config: ExperimentConfig) -> list[str]:
-    """What to give `testbed run` for a configuration: the packaged one, and what differs."""
-    packaged, own = flat_config(load_config(PROTOCOL)), flat_config(config)
-    if config.domain.endswith(".al"):
-        own["domain"] = f"{EXAMPLES}/{own['domain']}"
-    changed = [key for key in own if own[key] != packaged.get(key) and key != DOMAIN_TEXT]
-    return [PROTOCOL, *(f"{key}={_value(own[key])}" for key in changed)]
-
-
-def _value(value: object) -> str:
-    if isinstance(value, list | tuple):
-        return "[" + ",".join(map(str, value)) + "]"
-    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def later(run: Run, main: Sequence[Pair]) -> str:
