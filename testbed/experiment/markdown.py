@@ -1,8 +1,17 @@
-"""Tables of text in Markdown."""
+"""Tables and paragraphs of text in Markdown."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from textwrap import fill
+
+WIDTH = 100
+"""Columns of a line of a paragraph."""
+
+
+def paragraph(text: str) -> str:
+    """The same in lines of one width, whatever the length of the values in it."""
+    return fill(" ".join(text.split()), WIDTH, break_long_words=False, break_on_hyphens=False)
 
 
 def markdown(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -8,13 +8,12 @@ import pytest
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.levels.__main__ import main
-from testbed.experiment.levels.page import prose
 from testbed.experiment.levels.page.commands import PAGE, commands
 from testbed.experiment.levels.published import NO_ZOOM, ZOOM
-from testbed.experiment.provenance import PROVENANCE
+from testbed.experiment.markdown import WIDTH, paragraph
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run_trials
-from testbed.experiment.store import TrialWriter, read_records, write_config
+from testbed.experiment.store import PROVENANCE, TrialWriter, read_records, write_config
 from tests.experiment.samples import a_level_record
 
 SMALL = ["levels=[L1,L3]", "limit=3", "adversary.rate=0.2"]
@@ -122,6 +121,6 @@ def test_the_commands_are_those_that_make_the_run_again(tmp_path: Path) -> None:
 
 def test_paragraphs_keep_values_and_links_whole() -> None:
     link = "[Performance](performance.md#zooming)"
-    lines = prose.paragraph(" ".join(["1.00-2.00", link] * 9)).splitlines()
-    assert all(len(line) <= prose.WIDTH for line in lines)
+    lines = paragraph(" ".join(["1.00-2.00", link] * 9)).splitlines()
+    assert all(len(line) <= WIDTH for line in lines)
     assert sum(line.count(link) for line in lines) == 9

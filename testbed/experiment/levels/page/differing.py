@@ -9,12 +9,12 @@ from testbed.experiment.levels.comparing import CONDITIONS
 from testbed.experiment.levels.evidence import Scatter
 from testbed.experiment.levels.page.commands import place
 from testbed.experiment.levels.page.growing import growth
-from testbed.experiment.levels.page.prose import paragraph, times
+from testbed.experiment.levels.page.prose import times
 from testbed.experiment.levels.pairing import Trial
 from testbed.experiment.levels.published import FIRST, NO_ZOOM, PAPER, ZOOM
 from testbed.experiment.levels.runs import Run
 from testbed.experiment.levels.table import seconds
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 
 PLANNING = "[Performance](performance.md#zooming)"
 

@@ -25,7 +25,7 @@ from testbed.experiment.levels.table import (
     seconds_rows,
     share_rows,
 )
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.store import read_records
 
 INTRODUCTION = """\
@@ -79,7 +79,7 @@ def _parts(run: Run) -> Iterator[str]:
 
 def _incomplete(run: Run) -> str:
     notice = coverage_of(read_records(run.folder), run.config).notice()
-    return "" if notice is None else prose.paragraph(f"**Incomplete:** {notice}.")
+    return "" if notice is None else paragraph(f"**Incomplete:** {notice}.")
 
 
 def _workers(run: Run) -> str:

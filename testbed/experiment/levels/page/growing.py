@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 
 from testbed.experiment.levels import evidence
 from testbed.experiment.levels.evidence import Surprise, Work
-from testbed.experiment.levels.page.prose import paragraph, times
+from testbed.experiment.levels.page.prose import times
 from testbed.experiment.levels.published import FIRST, PAPER, ZOOM
 from testbed.experiment.levels.runs import Run
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 
 WORK = (
     "level",

@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from testbed.experiment.levels import evidence
 from testbed.experiment.levels.comparing import CONDITIONS
 from testbed.experiment.levels.page.commands import place
-from testbed.experiment.levels.page.prose import paragraph
 from testbed.experiment.levels.pairing import MEETINGS
 from testbed.experiment.levels.published import NO_ZOOM, ZOOM
 from testbed.experiment.levels.runs import Run
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 
 
 def meetings(run: Run) -> Iterator[str]:

@@ -3,14 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from textwrap import fill
-
-WIDTH = 100
-
-
-def paragraph(text: str) -> str:
-    """The same in lines of one width, whatever the length of the values in it."""
-    return fill(" ".join(text.split()), WIDTH, break_long_words=False, break_on_hyphens=False)
 
 
 def document(parts: Iterable[str]) -> str:

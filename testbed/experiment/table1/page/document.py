@@ -11,7 +11,7 @@ from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.store import read_records
 from testbed.experiment.table1 import optimum
 from testbed.experiment.table1.analysis import RANDOM, Analysis, Table
@@ -27,7 +27,6 @@ from testbed.experiment.table1.page.hypotheses import (
 from testbed.experiment.table1.page.others import later, unaided
 from testbed.experiment.table1.page.released import released
 from testbed.experiment.table1.page.rows import row_by_row
-from testbed.experiment.table1.page.text import paragraph
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.runs import PROTOCOL, Run, released_weights, told_order
 from testbed.experiment.table1.table import COLUMNS, HEADINGS, rows_of, tests_of

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import Analysis
 from testbed.experiment.table1.classify import UNCLASSIFIED
-from testbed.experiment.table1.page.text import paragraph, percent
+from testbed.experiment.table1.page.text import percent
 from testbed.experiment.table1.published import ALL, PUBLISHED, SCENARIOS
 
 

@@ -6,11 +6,11 @@ import shlex
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM
 from testbed.experiment.table1.evidence import Blindness
-from testbed.experiment.table1.page.text import paragraph, percent
+from testbed.experiment.table1.page.text import percent
 from testbed.experiment.table1.pairing import MEETINGS, Pair
 from testbed.experiment.table1.published import PUBLISHED
 from testbed.experiment.table1.runs import Run

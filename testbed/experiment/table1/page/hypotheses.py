@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM
 from testbed.experiment.table1.page.released import NAMES, PAIRS
-from testbed.experiment.table1.page.text import paragraph, percent
+from testbed.experiment.table1.page.text import percent
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import PUBLISHED, SCENARIOS
 from testbed.experiment.table1.table import number

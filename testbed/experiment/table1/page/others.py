@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 
 from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO, Apart, eventful
 from testbed.experiment.domains import load_world
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM, Row
-from testbed.experiment.table1.page.text import paragraph, percent
+from testbed.experiment.table1.page.text import percent
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
 from testbed.experiment.table1.runs import Run

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1 import evidence
-from testbed.experiment.table1.page.text import paragraph, percent
+from testbed.experiment.table1.page.text import percent
 from testbed.experiment.table1.published import PUBLISHED, SCENARIOS, Published
 from testbed.experiment.table1.results import Row
 from testbed.experiment.table1.weighing import Weighing

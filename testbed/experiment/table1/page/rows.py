@@ -8,10 +8,10 @@ from statistics import fmean, median
 
 from asp import literals as text
 from testbed.environment.world import World
-from testbed.experiment.markdown import markdown
+from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.table1 import evidence
 from testbed.experiment.table1.analysis import RANDOM
-from testbed.experiment.table1.page.text import paragraph, percent
+from testbed.experiment.table1.page.text import percent
 from testbed.experiment.table1.pairing import Pair, Side
 from testbed.experiment.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.experiment.table1.table import HEADINGS, number
