@@ -16,11 +16,11 @@ COMPARED = ("execution_units", "actions")
 
 
 class Needed(NamedTuple):
-    """The measures of a trial, the least of these, and how many times the trial counts."""
+    """The measures of a trial, the least of these, and what the trial weighs."""
 
     measures: Mapping[str, float]
     least: Mapping[str, int]
-    times: int = 1
+    weight: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -49,4 +49,4 @@ def _mean(known: Sequence[Needed], name: str) -> float | None:
     if not known:
         return None
     ratios = [own.measures[name] / own.least[name] for own in known]
-    return fmean(ratios, weights=[own.times for own in known])
+    return fmean(ratios, weights=[own.weight for own in known])

@@ -1,6 +1,6 @@
 """Samples of values that come in strata and clusters, and the bootstrap of what they come to.
 
-Samples are pooled of strata: of each stratum come its values, and how many times each counts. Where
+Samples are pooled of strata: of each stratum come its values, and the weight of each. Where
 values belong together (repeats from one initial state), labels of clusters say so: a label for each
 value of each stratum. A resample then draws clusters, each with all of its values, of whatever
 strata; without labels it draws values, in each stratum by itself.
@@ -20,26 +20,28 @@ CONFIDENCE = 0.95
 RESAMPLES = 1000
 BATCH = 50
 SEED = 1
+TIE = 1e-9
+"""Parts of a whole weight that differ by less are the same: what lies between is rounding."""
 DIGITS = 12
 """Decimals of a mean of differences: what comes behind them is rounding."""
 
 Values: TypeAlias = NDArray[np.float64]
 Counts: TypeAlias = NDArray[np.int64]
 Labels: TypeAlias = Iterable[Hashable]
-Strata: TypeAlias = Sequence[tuple[Values, int]]
+Strata: TypeAlias = Sequence[tuple[Values, float]]
 Clusters: TypeAlias = Sequence[Labels]
 
 
 @dataclass(frozen=True)
 class Sample:
-    """Values in ascending order, how often each counts, and to which cluster it belongs.
+    """Values in ascending order, what each weighs, and to which cluster it belongs.
 
     Clusters are numbered from 0 on; `blocks` says how many of them are resampled among themselves,
     the first so many, then the next.
     """
 
     values: Values
-    times: Counts
+    weights: Values
     cluster: Counts
     blocks: tuple[int, ...]
 
@@ -53,22 +55,23 @@ def sample_of(strata: Strata, clusters: Clusters | None) -> Sample:
     """The values of all strata, by cluster."""
     sizes = [len(values) for values, _ in strata]
     values = np.concatenate([np.empty(0), *(values for values, _ in strata)])
-    times = np.repeat([number for _, number in strata], sizes).astype(np.int64)
+    weights = np.repeat([weight for _, weight in strata], sizes).astype(np.float64)
     if clusters is None:
         cluster, blocks = np.arange(len(values)), tuple(size for size in sizes if size)
     else:
         cluster = _numbered(label for own in clusters for label in own)
         blocks = (len(set(cluster.tolist())),)
     order = np.argsort(values, kind="stable")
-    return Sample(values[order], times[order], cluster[order], blocks)
+    return Sample(values[order], weights[order], cluster[order], blocks)
 
 
-def cluster_means(values: Values, clusters: Labels | None) -> Values:
-    """The mean of each cluster; without labels the values themselves."""
+def cluster_means(values: Values, clusters: Labels | None, weights: Values | None = None) -> Values:
+    """The mean of each cluster, weighted if there are weights; without labels the values."""
     if clusters is None:
         return values
     cluster = _numbered(clusters)
-    means: Values = np.bincount(cluster, values) / np.bincount(cluster)
+    own = np.ones(len(values)) if weights is None else weights
+    means: Values = np.bincount(cluster, own * values) / np.bincount(cluster, own)
     return np.round(means, DIGITS)
 
 
@@ -85,18 +88,21 @@ Statistic: TypeAlias = Callable[[Sample, Counts], Values]
 
 def means(sample: Sample, drawn: Counts) -> Values:
     """The mean of each resample."""
-    counts = np.bincount(sample.cluster, sample.times, sample.clusters)
-    sums = np.bincount(sample.cluster, sample.times * sample.values, sample.clusters)
+    counts = np.bincount(sample.cluster, sample.weights, sample.clusters)
+    sums = np.bincount(sample.cluster, sample.weights * sample.values, sample.clusters)
     found: Values = (drawn @ sums) / (drawn @ counts)
     return found
 
 
 def medians(sample: Sample, drawn: Counts) -> Values:
-    """The middle one of a resample's values, each as often as it counts, or the mean of the two."""
-    until = np.cumsum(drawn[:, sample.cluster] * sample.times, axis=1)
-    total = until[:, -1:]
-    lower = np.argmax(until > (total - 1) // 2, axis=1)
-    upper = np.argmax(until > total // 2, axis=1)
+    """The value of each resample at which half of the weight is reached.
+
+    Where a value ends just there, the mean of it and the next: as in the median of so many copies.
+    """
+    until = np.cumsum(drawn[:, sample.cluster] * sample.weights, axis=1)
+    half = until[:, -1:] / 2
+    lower = np.argmax(until > half * (1 - TIE), axis=1)
+    upper = np.argmax(until > half * (1 + TIE), axis=1)
     found: Values = (sample.values[lower] + sample.values[upper]) / 2
     return found
 

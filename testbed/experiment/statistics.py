@@ -95,15 +95,17 @@ class Test:
     holm: float | None = None
 
 
-def signed_rank(differences: Values, clusters: Labels | None = None) -> Test | None:
+def signed_rank(
+    differences: Values, clusters: Labels | None = None, weights: Values | None = None
+) -> Test | None:
     """Wilcoxon's signed-rank test, with the matched-pairs rank-biserial correlation.
 
     Pairs without a difference are left out; None where there is no other. With labels both are of
-    the clusters' mean differences, which are independent.
+    the clusters' mean differences, which are independent; in these means the weights count.
     """
     if not differences.any():
         return None
-    tested = cluster_means(differences, clusters)
+    tested = cluster_means(differences, clusters, weights)
     nonzero = tested[tested != 0]
     if not len(nonzero):
         return Test(1.0, 0.0)
@@ -113,21 +115,24 @@ def signed_rank(differences: Values, clusters: Labels | None = None) -> Test | N
 
 
 def mcnemar(
-    first: NDArray[np.bool_], second: NDArray[np.bool_], clusters: Labels | None = None
+    first: NDArray[np.bool_],
+    second: NDArray[np.bool_],
+    clusters: Labels | None = None,
+    weights: Values | None = None,
 ) -> Test | None:
     """McNemar's exact test of paired outcomes; the effect is the difference of the proportions.
 
     None where no pair differs. With labels the test counts the clusters in which one of the two is
-    right more often than the other.
+    right more often than the other, by weight where there are weights.
     """
     differences = first.astype(float) - second.astype(float)
     if not differences.any():
         return None
-    tested = cluster_means(differences, clusters)
+    tested = cluster_means(differences, clusters, weights)
     only_first, only_second = int((tested > 0).sum()), int((tested < 0).sum())
     number = only_first + only_second
     p = float(stats.binomtest(only_first, number).pvalue) if number else 1.0
-    return Test(p, float(differences.mean()))
+    return Test(p, float(np.average(differences, weights=weights)))
 
 
 def holm(p_values: Sequence[float]) -> list[float]:

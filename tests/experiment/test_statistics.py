@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from testbed.experiment import resampling
 from testbed.experiment.statistics import (
     Estimate,
+    Test,
     holm,
     mcnemar,
     mean,
@@ -131,8 +132,10 @@ def test_the_median_of_a_resample_is_that_of_its_values(data: st.DataObject) -> 
     size = len(values)
     times = data.draw(st.lists(st.integers(1, 3), min_size=size, max_size=size))
     labels = data.draw(st.lists(st.integers(0, 3), min_size=size, max_size=size))
+    unit = data.draw(st.sampled_from([1.0, 0.1, 1 / 3, 4 / 3, 1e15 / 7]))
     strata = [
-        (np.array([float(value)]), number) for value, number in zip(values, times, strict=True)
+        (np.array([float(value)]), unit * number)
+        for value, number in zip(values, times, strict=True)
     ]
     sample = resampling.sample_of(strata, [[label] for label in labels])
     counts = data.draw(
@@ -214,3 +217,26 @@ def test_what_goes_both_ways_in_each_cluster_is_no_difference_of_clusters() -> N
     shares = mcnemar(values > 0, values < 0, labels)
     assert shares is not None
     assert (shares.p, shares.effect) == (1.0, 0.0)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.data())
+def test_in_a_test_a_weight_is_as_so_many_copies(data: st.DataObject) -> None:
+    rows = data.draw(
+        st.lists(
+            st.tuples(st.integers(-3, 3), st.integers(0, 4), st.integers(1, 4)),
+            min_size=1,
+            max_size=15,
+        )
+    )
+    unit = data.draw(st.sampled_from([1.0, 0.1, 4 / 3]))
+    values, labels, times = (np.array(column) for column in zip(*rows, strict=True))
+    copies, own = np.repeat(values, times).astype(float), np.repeat(labels, times)
+    weighed = signed_rank(values.astype(float), labels, unit * times)
+    assert _numbers(weighed) == pytest.approx(_numbers(signed_rank(copies, own)))
+    shares = mcnemar(values > 0, values < 0, labels, unit * times)
+    assert _numbers(shares) == pytest.approx(_numbers(mcnemar(copies > 0, copies < 0, own)))
+
+
+def _numbers(test: Test | None) -> tuple[float, ...]:
+    return () if test is None else (test.p, test.effect)

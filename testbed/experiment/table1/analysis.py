@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from math import lcm
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from testbed.experiment.statistics import (
     Clusters,
     Strata,
     Test,
+    Values,
     holm,
     mcnemar,
     mean,
@@ -69,8 +71,9 @@ def _table(
         groups.setdefault(scenario_of(pair), []).append(pair)
     scenarios = {name: groups[name] for name in sorted(groups) if name.isdigit()}
     played = Counter(pair.intended for pair in pairs)
-    times = {name: max(played.values()) // count for name, count in played.items()}
-    rows = _corrected([_row(*named, times, who) for named in _rows(scenarios)])
+    # Weights in whole numbers: sums of them are exact, and what is alike stays alike.
+    weights = {name: lcm(*played.values()) / count for name, count in played.items()}
+    rows = _corrected([_row(*named, weights, who) for named in _rows(scenarios)])
     apart = {name: len(own) for name, own in sorted(groups.items()) if not name.isdigit()}
     return Table(tuple(rows), apart)
 
@@ -89,7 +92,9 @@ def _without_failures(pairs: Iterable[Pair]) -> list[Pair]:
     return [pair for pair in pairs if pair.base.correct or pair.base.failed]
 
 
-def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int], who: tuple[str, str]) -> Row:
+def _row(
+    name: str, pairs: Sequence[Pair], weights: Mapping[str, float], who: tuple[str, str]
+) -> Row:
     counted = [pair for pair in pairs if pair.played]
     return Row(
         name=name,
@@ -98,47 +103,50 @@ def _row(name: str, pairs: Sequence[Pair], times: Mapping[str, int], who: tuple[
         unsolvable=sum(not (pair.solvable or pair.failed) for pair in pairs),
         out_of_reach=sum(p.mind.out_of_reach or p.base.out_of_reach for p in counted),
         meetings=dict(sorted(Counter(pair.meeting for pair in counted).items())),
-        intentional=proportion(*_sample(counted, times, lambda pair: pair.mind.correct)),
-        baseline=proportion(*_sample(counted, times, lambda pair: pair.base.correct)),
-        accuracy=_accuracy(_weighted(counted, times)),
-        ratios={measure: _ratio(counted, measure, times) for measure in MEASURES},
-        advantage=mean(*_sample(counted, times, lambda p: p.mind.correct - p.base.correct)),
-        optimum=dict(zip(who, both_optima(counted, times), strict=True)),
+        intentional=proportion(*_sample(counted, weights, lambda pair: pair.mind.correct)),
+        baseline=proportion(*_sample(counted, weights, lambda pair: pair.base.correct)),
+        accuracy=_accuracy(counted, weights),
+        ratios={measure: _ratio(counted, measure, weights) for measure in MEASURES},
+        advantage=mean(*_sample(counted, weights, lambda p: p.mind.correct - p.base.correct)),
+        optimum=dict(zip(who, both_optima(counted, weights), strict=True)),
     )
 
 
-def _accuracy(pairs: Sequence[Pair]) -> Test | None:
+def _accuracy(pairs: Sequence[Pair], weights: Mapping[str, float]) -> Test | None:
     minds = np.array([pair.mind.correct for pair in pairs], dtype=bool)
     bases = np.array([pair.base.correct for pair in pairs], dtype=bool)
-    return mcnemar(minds, bases, [pair.state for pair in pairs])
+    states = [pair.state for pair in pairs]
+    return mcnemar(minds, bases, states, _weights_of(pairs, weights))
 
 
-def _weighted(pairs: Iterable[Pair], times: Mapping[str, int]) -> list[Pair]:
-    """Each pair as often as it counts: it weighs so in the mean of its initial state."""
-    return [pair for pair in pairs for _ in range(times[pair.intended])]
+def _weights_of(pairs: Iterable[Pair], weights: Mapping[str, float]) -> Values:
+    """What each pair weighs in the mean of its initial state."""
+    return np.array([weights[pair.intended] for pair in pairs], dtype=float)
 
 
-def _ratio(pairs: Sequence[Pair], measure: str, times: Mapping[str, int]) -> Ratio:
+def _ratio(pairs: Sequence[Pair], measure: str, weights: Mapping[str, float]) -> Ratio:
     with_ratio = [pair for pair in pairs if pair.mind.measures[measure]]
-    own = _sample(with_ratio, times, lambda p: p.base.measures[measure] / p.mind.measures[measure])
-    weighted = _weighted(pairs, times)
-    differences = [pair.base.measures[measure] - pair.mind.measures[measure] for pair in weighted]
+    own = _sample(
+        with_ratio, weights, lambda p: p.base.measures[measure] / p.mind.measures[measure]
+    )
+    differences = [pair.base.measures[measure] - pair.mind.measures[measure] for pair in pairs]
+    states = [pair.state for pair in pairs]
     return Ratio(
         pairs=len(with_ratio),
         mean=mean(*own),
         median=median(*own),
-        test=signed_rank(np.array(differences, dtype=float), [pair.state for pair in weighted]),
+        test=signed_rank(np.array(differences, dtype=float), states, _weights_of(pairs, weights)),
     )
 
 
 def _sample(
-    pairs: Iterable[Pair], times: Mapping[str, int], value: Callable[[Pair], float]
+    pairs: Iterable[Pair], weights: Mapping[str, float], value: Callable[[Pair], float]
 ) -> Sample:
     """By the scenario that was played: each counts as if it had been repeated like the others."""
     played: dict[str, list[Pair]] = {}
     for pair in pairs:
         played.setdefault(pair.intended, []).append(pair)
-    strata = [(np.array([*map(value, own)], dtype=float), times[n]) for n, own in played.items()]
+    strata = [(np.array([*map(value, own)], dtype=float), weights[n]) for n, own in played.items()]
     return strata, [[pair.state for pair in own] for own in played.values()]
 
 

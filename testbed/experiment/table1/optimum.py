@@ -30,19 +30,19 @@ TP that did not achieve the goal are in no mean: where they are many, its number
 """
 
 
-def both_optima(pairs: Sequence[Pair], times: Mapping[str, int]) -> tuple[Optimum, Optimum]:
+def both_optima(pairs: Sequence[Pair], weights: Mapping[str, float]) -> tuple[Optimum, Optimum]:
     """Of the intentional robot, and of the traditional one, over pairs that count.
 
-    `times`: how many times a pair counts, by the scenario that was played.
+    `weights`: what a pair weighs, by the scenario that was played.
     """
     return (
-        optimum(_needed(pair, pair.mind, times) for pair in pairs if pair.mind.achieved),
-        optimum(_needed(pair, pair.base, times) for pair in pairs if pair.base.achieved),
+        optimum(_needed(pair, pair.mind, weights) for pair in pairs if pair.mind.achieved),
+        optimum(_needed(pair, pair.base, weights) for pair in pairs if pair.base.achieved),
     )
 
 
-def _needed(pair: Pair, side: Side, times: Mapping[str, int]) -> Needed:
-    return Needed(side.measures, pair.minimal, times[pair.intended])
+def _needed(pair: Pair, side: Side, weights: Mapping[str, float]) -> Needed:
+    return Needed(side.measures, pair.minimal, weights[pair.intended])
 
 
 def section(analysis: Analysis) -> str:

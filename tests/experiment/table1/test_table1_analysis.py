@@ -131,6 +131,37 @@ def test_in_the_row_of_all_each_scenario_weighs_as_if_played_equally_often() -> 
     assert mean.value == pytest.approx((4 * 9.0 + 4 * 1.0) / 8)
 
 
+@pytest.mark.parametrize(("few", "many"), [(3, 4), (2, 5), (6, 7), (40, 41)])
+def test_scenarios_weigh_alike_where_one_number_is_no_multiple_of_the_other(
+    few: int, many: int
+) -> None:
+    """Half of the row of all is scenario 2, however many of its pairs are on record."""
+    pairs = [_pair("2", _side(), _side(9.0, correct=False)) for _ in range(few)]
+    pairs += [_pair("3", _side(), _side(1.0)) for _ in range(many)]
+    row = _named(_analyse(pairs).triggered)["all"]
+    ratio = row.ratios["actions"]
+    assert ratio.mean is not None
+    assert ratio.median is not None
+    assert row.baseline is not None
+    assert row.accuracy is not None
+    assert ratio.mean.value == pytest.approx(5.0)
+    assert ratio.median.value == pytest.approx(5.0)
+    assert row.baseline.value == pytest.approx(0.5)
+    assert row.accuracy.effect == pytest.approx(0.5)
+
+
+def test_in_the_tests_of_all_scenarios_of_three_and_of_four_repeats_weigh_alike() -> None:
+    """From each state three pairs of 2, and four of 3 that say the opposite."""
+    pairs = []
+    for _ in range(8):
+        own = [_pair("2", _side(1.0), _side(2.0)) for _ in range(3)]
+        own += [_pair("3", _side(2.0), _side(1.0)) for _ in range(4)]
+        pairs += [dataclasses.replace(pair, state=own[0].state) for pair in own]
+    test = _named(_analyse(pairs).triggered)["all"].ratios["actions"].test
+    assert test is not None
+    assert (test.p, test.effect) == (1.0, 0.0)
+
+
 def test_pairs_from_one_state_are_one_witness() -> None:
     pairs = [_pair("3", _side(1.0), _side(2.0 + n)) for n in range(8)]
     again = [dataclasses.replace(pair) for pair in pairs]
