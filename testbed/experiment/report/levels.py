@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from testbed.experiment.levels import comparing
-from testbed.experiment.levels.comparing import CONDITIONS, RATIO, Cell, Levels
-from testbed.experiment.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM, Paper
+from testbed.experiment.levels.comparing import Cell, Levels
+from testbed.experiment.levels.published import FIRST, PARTS, Paper
 from testbed.experiment.levels.results import Spread
 from testbed.experiment.levels.table import (
     GROWTH,
@@ -19,20 +19,10 @@ from testbed.experiment.levels.table import (
     seconds,
     spread,
 )
-from testbed.experiment.report import svg
-from testbed.experiment.report.figures import Panel, Point, Series, curves, forest
 
-__all__ = ["TESTS", "Line", "Value", "View", "effect_rows", "panels", "ratio_panels", "views"]
+__all__ = ["TESTS", "Line", "Value", "View", "effect_rows", "views"]
 
 REASONING = ("level", "reasoning", "trials", "achieved", *HEADINGS)
-TITLES = {
-    "total": "all reasoning of a trial",
-    "fine": "at the fine resolution",
-    "coarse": "at the coarse resolution",
-    "refined_plan": "one refined plan",
-}
-LOOKS = {ZOOM: (svg.FIRST, "o"), NO_ZOOM: (svg.SECOND, "s")}
-LEAST = 0.1
 
 
 @dataclass(frozen=True)
@@ -141,64 +131,3 @@ def _time(own: Spread | None, theirs: tuple[float, float] | None) -> Value:
     if own is None:
         return Value("-", published=published)
     return Value(spread(own.mean, own.sd), median=seconds(own.median), published=published)
-
-
-def panels(levels: Levels, paper: Paper) -> list[Panel]:
-    """A figure for each part of the time; none where no level was played."""
-    if not levels:
-        return []
-    return [
-        curves(f"levels-{part}", TITLES[part], list(levels), list(_series(levels, paper, part)))
-        for part in PARTS
-    ]
-
-
-def ratio_panels(levels: Levels, paper: Paper) -> list[Panel]:
-    """A figure for each of the ratios that zooming is about; none where no pair was played."""
-    lines = list(comparing.ratios(levels, paper))
-    if not lines:
-        return []
-    rows = [line.level for line in lines]
-    return [
-        forest(f"levels-ratio-{part}", f"{RATIO}, {TITLES[part]}", rows, _compared(lines, part))
-        for part in ("total", "refined_plan")
-    ]
-
-
-def _compared(lines: Iterable[comparing.Line], part: str) -> list[Series]:
-    cells = [(line.level, line.cells[PARTS.index(part)]) for line in lines]
-    ours = tuple(Point(n, c.ours.value, c.ours.low, c.ours.high) for n, c in cells if c.ours)
-    theirs = tuple(Point(n, c.published.value) for n, c in cells if c.published)
-    return [
-        Series(RATIO, svg.SECOND, ours, "s"),
-        *[Series("published", svg.PAPER, theirs, "D", True)] * bool(theirs),
-    ]
-
-
-def _series(levels: Levels, paper: Paper, part: str) -> Iterator[Series]:
-    for robot, (colour, marker) in LOOKS.items():
-        label = CONDITIONS[robot]
-        ours = tuple(_ours(levels, robot, part))
-        theirs = tuple(_theirs(levels, paper, robot, part))
-        yield from [Series(label, colour, ours, marker)] * bool(ours)
-        yield from [Series(f"{label}, published", colour, theirs, marker, True)] * bool(theirs)
-
-
-def _ours(levels: Levels, robot: str, part: str) -> Iterator[Point]:
-    for name, level in levels.items():
-        own = level.reasoning.get(robot)
-        found: Spread | None = None if own is None else getattr(own, part)
-        if found is not None and found.mean > 0:
-            yield _point(name, found.mean, found.sd)
-
-
-def _theirs(levels: Levels, paper: Paper, robot: str, part: str) -> Iterator[Point]:
-    for name in levels:
-        known = paper.seconds(name, robot, part)
-        if known is not None:
-            yield _point(name, *known)
-
-
-def _point(level: str, mean: float, deviation: float) -> Point:
-    """A deviation beyond zero ends at a tenth of the mean: the scale is logarithmic."""
-    return Point(level, mean, max(mean - deviation, LEAST * mean), mean + deviation)

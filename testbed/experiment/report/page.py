@@ -129,7 +129,8 @@ def _compared_panels(folder: Path, apart: Mapping[str, Apart]) -> list[Any]:
 
 
 def _levels(config: ExperimentConfig, summary: Mapping[str, Any]) -> dict[str, Any]:
-    from testbed.experiment.report.levels import TESTS, effect_rows, panels, ratio_panels, views
+    from testbed.experiment.report.level_panels import panels, ratio_panels
+    from testbed.experiment.report.levels import TESTS, effect_rows, views
 
     levels, paper = levels_of(summary), paper_of(config)
     return {

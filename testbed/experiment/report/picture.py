@@ -12,7 +12,7 @@ from markupsafe import Markup
 from testbed.experiment.errors import StoreError
 from testbed.experiment.levels.protocol import paper_of
 from testbed.experiment.levels.results import levels_of
-from testbed.experiment.report import levels, table1
+from testbed.experiment.report import level_panels, table1
 from testbed.experiment.report.figures import Panel
 from testbed.experiment.report.rendering import environment
 from testbed.experiment.store import read_config, read_records
@@ -70,7 +70,7 @@ def picture(folder: Path) -> str:
     if analyses:
         label = "Table 1: accuracy and ratios by scenario"
         return _drawn(table1.panels(analyses[0]), TABLE1_KEYS, label)
-    panels = levels.panels(levels_of(summarise(read_records(folder))), paper_of(config))
+    panels = level_panels.panels(levels_of(summarise(read_records(folder))), paper_of(config))
     if not panels:
         raise StoreError(f"{folder}: has no figures; only published experiments have")
     return _drawn(panels, LEVEL_KEYS, "Reasoning time by level, zoom and no zoom")

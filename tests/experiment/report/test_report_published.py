@@ -7,7 +7,7 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
 from testbed.experiment.levels.results import levels_of
-from testbed.experiment.report import levels, table1
+from testbed.experiment.report import level_panels, levels, table1
 from testbed.experiment.report.figures import Panel
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.statistics import Estimate, Test
@@ -126,7 +126,7 @@ def test_one_condition_has_no_ratio_and_one_level_no_growth() -> None:
 
 def _ratio_figures(paper: Paper, *robots: str) -> list[Panel]:
     records = [a_level_record("p", robot) for robot in robots]
-    return levels.ratio_panels(levels_of(summarise(records)), paper)
+    return level_panels.ratio_panels(levels_of(summarise(records)), paper)
 
 
 def test_ratios_are_drawn_beside_the_published_ones_where_there_are() -> None:
