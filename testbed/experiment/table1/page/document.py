@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
-from testbed.experiment.commands import arguments
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
@@ -15,6 +12,7 @@ from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.store import read_records
 from testbed.experiment.table1 import optimum
 from testbed.experiment.table1.analysis import RANDOM, Analysis, Table
+from testbed.experiment.table1.page.commands import Sources, commands, played
 from testbed.experiment.table1.page.drawing import drawing
 from testbed.experiment.table1.page.failing import blindness, failures, meetings
 from testbed.experiment.table1.page.hypotheses import (
@@ -28,8 +26,10 @@ from testbed.experiment.table1.page.others import later, unaided
 from testbed.experiment.table1.page.released import released
 from testbed.experiment.table1.page.rows import row_by_row
 from testbed.experiment.table1.pairing import Pair
-from testbed.experiment.table1.runs import PROTOCOL, Run, released_weights, told_order
+from testbed.experiment.table1.runs import Run, released_weights, told_order
 from testbed.experiment.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
+
+__all__ = ["Sources", "document"]
 
 INTRODUCTION = """\
 # Published and measured
@@ -62,24 +62,13 @@ pair differs.
 """
 
 
-@dataclass(frozen=True)
-class Sources:
-    """The runs of a page: the main one; others, where there are any, for single questions."""
-
-    main: Run
-    unaided: Run | None = None
-    later: Run | None = None
-    told: tuple[Run, ...] = ()
-    variants: tuple[Run, ...] = ()
-
-
 def document(sources: Sources) -> str:
     """The page as Markdown: the tables, then a section a question, the tests last."""
     mind = sources.main.minds[0]
     analysis, pairs = sources.main.analyses[mind], sources.main.pairs[mind]
     parts = [
         INTRODUCTION.format(
-            commands=_commands(sources),
+            commands=commands(sources),
             digests=_digests(sources),
             incomplete=_incomplete(sources),
         ),
@@ -135,47 +124,20 @@ def _of(main: Run, run: Run, mind: str) -> list[Pair]:
 def _digests(sources: Sources) -> str:
     rows = [
         (f"`runs/{run.config.name}`", f"`{digest(read_records(run.folder))}`")
-        for run in (*_played(sources), *sources.told)
+        for run in (*played(sources), *sources.told)
     ]
     return markdown(("run", "digest"), rows)
 
 
 def _incomplete(sources: Sources) -> str:
     """A paragraph for each run that is not complete."""
-    runs = (*_played(sources), *sources.told)
+    runs = (*played(sources), *sources.told)
     notices = ((run, coverage_of(read_records(run.folder), run.config).notice()) for run in runs)
     return "".join(
         "\n" + paragraph(f"**Incomplete:** of `runs/{run.config.name}` {notice}.") + "\n"
         for run, notice in notices
         if notice is not None
     )
-
-
-def _played(sources: Sources) -> list[Run]:
-    """The runs that are made by `testbed run`."""
-    single = (sources.main, sources.unaided, sources.later)
-    return [*(run for run in single if run is not None), *sources.variants]
-
-
-def _commands(sources: Sources) -> str:
-    main = f"runs/{sources.main.config.name}"
-    played = _played(sources)
-    own = [shlex.join(arguments(run.config, PROTOCOL)) for run in played]
-    lines = [f"$ testbed run {given} --workers 2" for given in own]
-    for run in sources.told:
-        order = " ".join(["", "--order", *told_order(run)]) if told_order(run) else ""
-        lines.append(f"$ python -m benchmarks.told {main} runs/{run.config.name}{order}")
-    options = [
-        f"--{option} runs/{run.config.name}"
-        for option, run in (("unaided", sources.unaided), ("later", sources.later))
-        if run is not None
-    ]
-    for option, several in (("variant", sources.variants), ("told", sources.told)):
-        if several:
-            options.append(" ".join([f"--{option}", *(f"runs/{r.config.name}" for r in several)]))
-    page = " ".join([main, *options])
-    lines.append(f"$ python -m testbed.experiment.table1 {page} > docs/published-and-measured.md")
-    return "\n".join(lines)
 
 
 def _tables(analysis: Analysis) -> Iterator[str]:
