@@ -1,4 +1,10 @@
-"""One number for all results of a run, times aside: equal wherever and however it was played."""
+"""One number for all results of a run: equal wherever and however it was played.
+
+The digest covers a fixed list of fields, so that it stays the same when a record gains a field:
+what a trial is (the seed, which follows from its seed path, scenario, level, robot, initial state,
+goal), and what came of it (outcome, actions, exogenous events, explanations, mental actions, plans,
+execution units). Ids, settings, times, statistics and prose are left out.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +13,41 @@ from collections.abc import Iterable
 
 import msgspec
 
-from testbed.experiment.record import TrialRecord, logical
+from testbed.experiment.record import Activity, At, Explained, TrialRecord
 
 
 def digest(records: Iterable[TrialRecord]) -> str:
-    """The SHA-256 of the records without their times, whatever their order in the file."""
-    of_each = sorted((record.trial, _of(record)) for record in records)
-    return hashlib.sha256(b"".join(own for _, own in of_each)).hexdigest()
+    """The SHA-256 of the results in the records, in hexadecimal, whatever the records' order."""
+    lines = sorted(msgspec.json.encode(_results(record)) for record in records)
+    return hashlib.sha256(b"\n".join(lines)).hexdigest()
 
 
-def _of(record: TrialRecord) -> bytes:
-    line = msgspec.json.encode(logical(record), order="deterministic")
-    return hashlib.sha256(line).digest()
+def _results(record: TrialRecord) -> list[object]:
+    """The fields of a record that the digest covers; another list changes every digest."""
+    return [
+        record.seed,
+        record.scenario,
+        record.level,
+        record.robot,
+        record.initial,
+        record.goal,
+        record.outcome,
+        [[own.step, own.action, own.happened] for own in record.actions],
+        [[event.step, event.action, event.observed] for event in record.exogenous],
+        [_explanation(own) for own in record.explanations],
+        _at(record.mental),
+        [record.plans, *(_plan(own) for own in record.activities)],
+        record.execution_units,
+    ]
+
+
+def _explanation(own: Explained) -> list[object]:
+    return [own.step, _at(own.unobserved), own.exceptions, _at(own.distrusted)]
+
+
+def _plan(own: Activity) -> list[object]:
+    return [own.start, own.plan]
+
+
+def _at(actions: Iterable[At]) -> list[list[object]]:
+    return [[own.step, own.action] for own in actions]

@@ -130,7 +130,7 @@ def _show(console: Console, tables: Tables) -> None:
         _say(console, f"incomplete: {tables.notice}")
     if tables.rows:
         results = counted(sum(row.trials for row in tables.rows), "trial")
-        _say(console, f"digest of {results}, times aside: {tables.digest}")
+        _say(console, f"digest of {results}: {tables.digest}")
 
 
 def _show_tables(console: Console, tables: Tables) -> None:

@@ -36,7 +36,7 @@ counted. Nothing in the robots or in the levels was chosen to come near the publ
 {commands}
 ```
 
-Whoever runs the first command gets the same results: their digest, times aside, is
+Whoever runs the first command gets the same results: their digest is
 `{digest}`. Times depend on the machine, and on
 what else it does{workers}."""
 

@@ -42,7 +42,7 @@ and how. Nothing in the robots or in the triggers was chosen to come near the pu
 ```
 
 Whoever runs them gets the same results. Planning times depend on the machine, and on what else it
-does; times aside, the digests of the results, which are also said at the end of each run, are
+does. The digests of the results, which are also said at the end of each run, are
 
 {digests}
 {incomplete}
