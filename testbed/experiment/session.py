@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
 
-from testbed.config import ExperimentConfig, load_config
+from testbed.config import ExperimentConfig
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.interrupts import terminable
 from testbed.experiment.levels.table import rich_level_table
 from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
-from testbed.experiment.registry import STARTERS, known_robots
 from testbed.experiment.report import Tables, write_report
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import (
@@ -22,7 +20,6 @@ from testbed.experiment.store import (
     check_unchanged,
     choose_folder,
     holds_run,
-    read_config,
     read_records,
     write_config,
 )
@@ -36,14 +33,8 @@ DONE, FAILED, INTERRUPTED = 0, 1, 130
 WIDE, WIDEST = 120, 150
 
 
-def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
-    """A configuration that may be run here. Raises ConfigError."""
-    return load_config(source, overrides, known_robots, starters=STARTERS)
-
-
 def run_session(
-    source: str,
-    overrides: Sequence[str],
+    config: ExperimentConfig,
     out: Path | None,
     workers: int | None,
     resume: bool,
@@ -52,9 +43,8 @@ def run_session(
     """Run a configuration and report; the exit code.
 
     Raises:
-        ConfigError, StoreError: before anything is run.
+        StoreError: before anything is run.
     """
-    config = load(source, overrides)
     folder = choose_folder(out, config.name, resume)
     console = _console(quiet)
     if resume and not holds_run(folder):
@@ -69,9 +59,8 @@ def run_session(
     return code
 
 
-def report_again(folder: Path) -> None:
-    """Table, summary and report of a run, made again. Raises StoreError or ConfigError."""
-    config = read_config(folder)
+def report_again(folder: Path, config: ExperimentConfig) -> None:
+    """Table, summary and report of a run, made again. Raises StoreError."""
     console = _console()
     _show(console, write_report(folder, config))
     _say(console, f"report: {folder / REPORT}")

@@ -1,0 +1,55 @@
+"""The command line, one module per command.
+
+Exit codes: 0 done; 1 trials ended in error; 2 bad input; 130 interrupted or terminated.
+
+A command imports what only it needs when it is called: a robot's process is to be there quickly, a
+mistyped command is to be refused quickly, and statistics alone take longer to import than either.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+from typing import Annotated
+
+import typer
+
+from testbed.cli import check, export, replay, report, robot, run, translate
+from testbed.cli.common import DONE
+
+__all__ = ["app", "main"]
+
+COMMANDS = (run, check, robot, report, export, replay, translate)
+"""In the order of the help. Each has a function of its own name, and the end of its help."""
+
+app = typer.Typer(
+    name="testbed",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"testbed {importlib.metadata.version('intention-testbed')}")
+        raise typer.Exit(DONE)
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=_version, is_eager=True, help="Say it, and exit."),
+    ] = False,
+) -> None:
+    """Reasoning robots in a world that others change: run experiments, look into them."""
+
+
+def main() -> None:
+    """Entry point of the distribution."""
+    app(prog_name="testbed")
+
+
+for _module in COMMANDS:
+    app.command(_module.__name__.rpartition(".")[2], epilog=_module.EPILOG)(_module.command)

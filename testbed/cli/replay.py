@@ -1,0 +1,38 @@
+"""Tell a stored trial step by step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from testbed.cli.common import DONE, FAILED, examples, input_errors
+
+EPILOG = examples("testbed replay runs/quickstart", "testbed replay runs/quickstart --trial 107b")
+
+
+def command(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")],
+    trial: Annotated[
+        str | None,
+        typer.Option(metavar="ID", help="Id of the trial, or its beginning; without it: a list."),
+    ] = None,
+) -> None:
+    """Tell a trial step by step: world, belief, intention, explanation.
+
+    Without --trial the trials of the run are listed. With it the trial is played again in this
+    process; where that differs from the record it says so, and the exit code is 1.
+    """
+    from testbed.experiment.run_config import read_config
+
+    with input_errors():
+        read_config(folder)
+        from testbed.experiment.replay import list_trials
+        from testbed.experiment.replay import replay as tell
+
+        if trial is None:
+            list_trials(folder, typer.echo)
+            return
+        as_recorded = tell(folder, trial, typer.echo)
+    raise typer.Exit(DONE if as_recorded else FAILED)

@@ -1,0 +1,26 @@
+"""Make a run's report again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from testbed.cli.common import examples, input_errors
+
+EPILOG = examples("testbed report runs/quickstart")
+
+
+def command(
+    folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
+) -> None:
+    """Make tables, summary.json and report.html again from the stored trials."""
+    from testbed.experiment.run_config import read_config
+
+    with input_errors():
+        configs = [read_config(folder) for folder in folders]
+        from testbed.experiment.session import report_again
+
+        for folder, config in zip(folders, configs, strict=True):
+            report_again(folder, config)

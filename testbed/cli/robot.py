@@ -1,0 +1,40 @@
+"""Serve a robot over zenoh."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from testbed.cli.common import input_errors
+
+EPILOG = (
+    "Examples: testbed robot (with a router on this machine: zenohd) | "
+    "testbed robot --name arm --connect tcp/192.168.0.7:7447 (with a router or driver there) | "
+    "testbed robot --config zenoh.json5"
+)
+
+
+def command(
+    connect: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ENDPOINT",
+            help="Driver or router to serve; the robot ends with it. Without this and --config: "
+            "whoever listens at tcp/127.0.0.1:7447, zenoh's usual endpoint, now or later.",
+        ),
+    ] = None,
+    name: Annotated[str, typer.Option(help="Name under which the robot offers itself.")] = "robot",
+    config: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="zenoh configuration, JSON5; --connect adds an endpoint to it."
+        ),
+    ] = None,
+) -> None:
+    """Serve a robot over zenoh until interrupted."""
+    from testbed.experiment.serving import serve_robot
+
+    with input_errors():
+        serve_robot(connect, name, config)

@@ -1,0 +1,51 @@
+"""Run a configuration."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from testbed.cli.common import Config, Overrides, examples, input_errors
+
+EPILOG = examples(
+    "testbed run quickstart",
+    "testbed run office limit=5 robots=[intentional] --workers 2",
+    "testbed run office --out runs/office --resume",
+)
+
+
+def command(
+    config: Config,
+    overrides: Overrides = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Run folder; without it runs/NAME, numbered if taken.")
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            min=1,
+            help="Processes that play trials; without it one a core, and one at most for each "
+            "50 trials.",
+        ),
+    ] = None,
+    resume: Annotated[
+        bool,
+        typer.Option(
+            "--resume",
+            help="Go on with the trials that the folder lacks: that of --out, else the newest of "
+            "runs/NAME, runs/NAME-2 and so on.",
+        ),
+    ] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")] = False,
+) -> None:
+    """Run every trial of a configuration and print a table of what came out."""
+    from testbed.experiment.loading import load
+
+    with input_errors():
+        loaded = load(config, overrides or [])
+        from testbed.experiment.session import run_session
+
+        code = run_session(loaded, out, workers, resume, quiet)
+    raise typer.Exit(code)

@@ -1,0 +1,45 @@
+"""Translate an action description."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from testbed.cli.common import examples, input_errors
+
+EPILOG = examples("testbed translate office -o office.lp", "testbed translate office.fine")
+
+
+def command(
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="A description (.al), the refinement of one (.fine), or a packaged domain's name.",
+        ),
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE.lp", help="Instead of printing.")
+    ] = None,
+) -> None:
+    """Translate an action description from AL_d to answer set programming.
+
+    Of a refinement it is the program of the refined description with its theory of observation.
+    """
+    from asp.loading import read_domain
+    from asp.refinement import load_refinement
+    from asp.translation import translate as translated
+    from asp.translation import translate_source
+
+    with input_errors():
+        if source.endswith(".fine"):
+            refinement = load_refinement(source)
+            program = translate_source(refinement.strong, refinement.strong_signature)
+        else:
+            program = translated(*reversed(read_domain(source)))
+        if output is None:
+            typer.echo(program, nl=False)
+        else:
+            output.write_text(program, encoding="utf-8")

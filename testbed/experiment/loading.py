@@ -1,0 +1,14 @@
+"""Configurations that may be run here: with the robots that there are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.registry import STARTERS, known_robots
+
+
+def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
+    """The configuration of a file or a packaged name, with overrides. Raises ConfigError."""
+    return load_config(source, overrides, known_robots, starters=STARTERS)
