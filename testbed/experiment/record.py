@@ -12,6 +12,8 @@ import msgspec
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 FAILURES: tuple[Outcome, ...] = ("robot_lost", "error")
+Cause = Literal["robot", "infrastructure", "testbed"]
+"""What a trial failed for: the robot's own error; a process that ended, or the link to it; ours."""
 COARSE = "coarse"
 """The level of trials at the coarse resolution."""
 TIMES = (
@@ -114,7 +116,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     abstract ones, each at the step at which it began. `in_reach` says of a trial that does not
     achieve its goal whether that could still be achieved from where the trial ended.
     `reason` is one line that says why a trial was lost, given up, or ended in error, or that it was
-    over before its script. `minimal_actions` and `minimal_units` are the oracle's, from the initial
+    over before its script; `cause` is None unless it was lost or ended in error.
+    `minimal_actions` and `minimal_units` are the oracle's, from the initial
     state with nothing exogenous; None where no plan exists. The plan with the fewest actions need
     not be the one that costs least.
     `mental` holds `start(N)`, `stop(N)` and `finish`; times are seconds.
@@ -136,6 +139,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     minimal_units: int | None = None
     outcome: Outcome = "error"
     reason: str | None = None
+    cause: Cause | None = None
     steps: int = 0
     actions: list[Attempt] = []
     exogenous: list[Occurrence] = []

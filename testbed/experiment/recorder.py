@@ -10,6 +10,7 @@ from testbed.experiment.record import (
     Activity,
     At,
     Attempt,
+    Cause,
     Contradicted,
     Explained,
     FineCounts,
@@ -127,10 +128,10 @@ class Recorder:
             which = several if len(steps) > 1 else f"step {steps[0]} was"
             self.record.reason = f"script {which} not reached"
 
-    def fail(self, outcome: Outcome, reason: str) -> None:
+    def fail(self, outcome: Outcome, reason: str, cause: Cause) -> None:
         """The trial could not be played to its end."""
         self.record.outcome = outcome
-        self.record.reason = reason
+        self.record.reason, self.record.cause = reason, cause
 
 
 def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:

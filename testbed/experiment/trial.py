@@ -17,7 +17,7 @@ from testbed.experiment.record import FineCounts, TrialRecord
 from testbed.experiment.recorder import FineRecorder, Recorder
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.stage import load_stage
-from testbed.link.errors import RobotLost, RobotStopped
+from testbed.link.errors import RobotGone, RobotLost, RobotStopped
 from testbed.link.exchange import in_one_line
 from testbed.link.messages import Decision, Percept
 from testbed.link.robot import RobotClient
@@ -57,14 +57,15 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
     try:
         _play(spec, client, recorder, watch)
     except RobotStopped as stop:
-        recorder.fail("error", stop.reason)
+        recorder.fail("error", stop.reason, "robot")
     except RobotLost as loss:
-        recorder.fail("robot_lost", loss.reason)
+        gone = isinstance(loss, RobotGone)
+        recorder.fail("robot_lost", loss.reason, "infrastructure" if gone else "robot")
         details = loss.details or None
     except IllegalActionError as error:
-        recorder.fail("error", str(error))
+        recorder.fail("error", str(error), "testbed")
     except Exception as error:  # whatever it is, it is this trial's outcome and not the run's
-        recorder.fail("error", in_one_line(error))
+        recorder.fail("error", in_one_line(error), "testbed")
         details = traceback.format_exc()
     recorder.record.wall_time_s = time.perf_counter() - started
     return Result(recorder.record, details)
@@ -73,7 +74,8 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
 def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
     """The result of a trial whose worker process ended in the middle of it."""
     recorder = _recorder(spec)
-    recorder.fail("error", f"worker process ended with exit code {exit_code}")
+    reason = f"worker process ended with exit code {exit_code}"
+    recorder.fail("error", reason, "infrastructure")
     return Result(recorder.record)
 
 

@@ -27,4 +27,4 @@ class RobotStopped(RobotLost):
 
 
 class RobotGone(RobotLost):
-    """The robot is not there any more, or was never there."""
+    """The robot is not there any more, or was never there: its process ended, or the link did."""

@@ -1,6 +1,7 @@
 """A robot behind zenoh, seen from its driver."""
 
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
+from math import ceil
 from queue import Empty, SimpleQueue
 from threading import Event
 from typing import TypeAlias
@@ -11,9 +12,10 @@ from testbed.link import keys
 from testbed.link.errors import RobotGone, RobotLost
 from testbed.link.exchange import failed, read_decision
 from testbed.link.messages import Decision, Percept, Question, Task, encode
+from testbed.link.session import LEASE_S
 
 PRESENCE_S = 10.0
-_GRACE_S = 1.0
+_PIECE_S = 1.0
 _LEFT = "robot is gone"
 
 _Inbox: TypeAlias = SimpleQueue[zenoh.Reply | RobotLost]
@@ -67,7 +69,7 @@ class RemoteRobot:
             raise RobotGone(_LEFT)
         self._send(trial, question, inbox)
         try:
-            return _payload(inbox.get(timeout=self._answer_s))
+            return _payload(_next(inbox, self._answer_s))
         except Empty:
             raise RobotLost(f"no answer within {self._answer_s:g} s") from None
 
@@ -82,8 +84,9 @@ class RemoteRobot:
             target=zenoh.QueryTarget.ALL,
             consolidation=zenoh.ConsolidationMode.NONE,
             payload=question,
-            # Later than our own limit: zenoh's timeout would look like an error of the robot's.
-            timeout=self._answer_s + _GRACE_S,
+            # Later than our own limit: zenoh's timeout would look like an error of the robot's,
+            # and it counts the time in which this process is paused.
+            timeout=self._answer_s + LEASE_S,
         )
 
     def _on_presence(self, sample: zenoh.Sample) -> None:
@@ -92,6 +95,18 @@ class RemoteRobot:
         else:
             self._present.clear()
             self._inbox.put(RobotGone(_LEFT))
+
+
+def _next(inbox: _Inbox, seconds: float) -> zenoh.Reply | RobotLost:
+    """What comes within so many seconds; of a pause of this process one piece counts at most.
+
+    Raises Empty.
+    """
+    pieces = max(1, ceil(seconds / _PIECE_S))
+    for _ in range(pieces):
+        with suppress(Empty):
+            return inbox.get(timeout=seconds / pieces)
+    raise Empty
 
 
 def _payload(received: zenoh.Reply | RobotLost) -> bytes:

@@ -16,12 +16,20 @@ import zenoh
 
 LOOPBACK = "tcp/127.0.0.1:0"
 CONNECT_S = 10.0
+LEASE_S = 3600
+"""How long the other end waits for a process that is silent because it is paused.
 
+The end of a process is noticed at once, for its connection closes, and a robot that does not
+answer meets the answer limit. zenoh's own 10 s would end trials in a pause of any longer.
+"""
+
+_NO_SHARED_MEMORY = {"transport/shared_memory/enabled": False}  # /dev/shm may be read-only
 _SECLUDED: dict[str, Any] = {
     "mode": "peer",
     "scouting/multicast/enabled": False,
     "scouting/gossip/enabled": False,
-}
+    "transport/link/tx/lease": LEASE_S * 1000,
+} | _NO_SHARED_MEMORY
 
 
 def open_driver() -> zenoh.Session:
@@ -60,12 +68,15 @@ def open_waiting(endpoint: str) -> zenoh.Session:
 def open_as_configured(file: Path, also: str | None = None) -> zenoh.Session:
     """Open a session as a zenoh configuration says, and connect to one more endpoint.
 
-    Raises zenoh.ZError for a configuration that zenoh does not accept.
+    Shared memory is off unless the configuration has a word on it. Raises zenoh.ZError for a
+    configuration that zenoh does not accept.
     """
     config = zenoh.Config.from_file(str(file))
+    if "shared_memory" not in file.read_text(encoding="utf-8"):
+        _insert(config, _NO_SHARED_MEMORY)
     if also is not None:
         stated = json.loads(config.get_json("connect/endpoints"))
-        config.insert_json5("connect/endpoints", json.dumps(_with(also, stated)))
+        _insert(config, {"connect/endpoints": _with(also, stated)})
     return zenoh.open(config)
 
 
@@ -92,6 +103,10 @@ def _first_locator(description: str) -> str:
 
 def _open(settings: dict[str, Any]) -> zenoh.Session:
     config = zenoh.Config()
-    for key, value in (_SECLUDED | settings).items():
-        config.insert_json5(key, json.dumps(value))
+    _insert(config, _SECLUDED | settings)
     return zenoh.open(config)
+
+
+def _insert(config: zenoh.Config, settings: dict[str, Any]) -> None:
+    for key, value in settings.items():
+        config.insert_json5(key, json.dumps(value))

@@ -88,7 +88,7 @@ class SpawnedRobot:
         if self.process is None:
             return loss
         how = self.process.ending(_EXIT_S) if isinstance(loss, RobotGone) else None
-        return RobotLost(how or loss.reason, self.process.errors)
+        return type(loss)(how or loss.reason, self.process.errors)
 
 
 def _await_start(process: RobotProcess, remote: RemoteRobot) -> None:
@@ -97,4 +97,4 @@ def _await_start(process: RobotProcess, remote: RemoteRobot) -> None:
             return
         if process.ending() is not None:
             raise RobotGone("robot ended before it was there")
-    raise RobotLost(f"robot did not start within {START_S:g} s")
+    raise RobotGone(f"robot did not start within {START_S:g} s")

@@ -108,7 +108,7 @@ def test_a_killed_robot_costs_its_trial_alone(configure: Configure) -> None:
 
         lost = play_trial(doomed, robot, watch=kill).record
         fine = play_trial(after, robot).record
-    assert lost.outcome == "robot_lost"
+    assert (lost.outcome, lost.cause) == ("robot_lost", "infrastructure")
     assert lost.reason is not None
     assert "signal 9" in lost.reason
     assert (lost.steps, lost.finished, lost.achieved) == (3, False, False)
@@ -139,7 +139,7 @@ def test_a_killed_worker_costs_its_trial_alone(configure: Configure, doomed: int
     records = [results[position].record for position in range(4)]
     assert ids(records) == [spec.trial for spec in specs]
     assert [record.outcome for record in records if record.trial != victim] == ["achieved"] * 3
-    assert records[doomed].outcome == "error"
+    assert (records[doomed].outcome, records[doomed].cause) == ("error", "infrastructure")
     assert records[doomed].reason == "worker process ended with exit code -9"
 
 

@@ -160,6 +160,7 @@ def test_what_the_world_says_counts_also_where_a_trial_breaks_off(
     spec = _spec(configure, "1", *([impossible] if outcome == "error" else []))
     record = _play(spec, Reciter([*PUBLISHED[:played], trouble]))
     assert (record.outcome, record.achieved) == (outcome, played == 6)
+    assert record.cause == ("robot" if outcome == "robot_lost" else "testbed")
     assert (record.finished, record.correct) == (False, False)
 
 
@@ -169,7 +170,7 @@ def test_a_robot_that_fails_is_lost_with_its_words(configure: Configure) -> None
             raise KeyError(f"no such book at step {percept.step}")
 
     result = play_trial(_spec(configure, "1"), InProcessRobot(lambda _: Failing([])))
-    assert result.record.outcome == "robot_lost"
+    assert (result.record.outcome, result.record.cause) == ("robot_lost", "robot")
     assert result.record.reason is not None
     assert "no such book" in result.record.reason
     assert result.details is not None
@@ -186,6 +187,7 @@ def test_a_robot_that_stops_ends_the_trial_with_its_reason(configure: Configure)
     spec = _spec(configure, "1")
     result = play_trial(spec, InProcessRobot(lambda _: Stopping(PUBLISHED)))
     assert (result.record.outcome, result.record.steps) == ("error", 1)
+    assert result.record.cause == "robot"
     assert result.record.reason == "inconsistent history: a and b cannot both hold"
     assert result.details is None
 

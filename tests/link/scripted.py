@@ -9,6 +9,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -77,6 +78,14 @@ def _think(_: Percept) -> Decision:
     raise AssertionError("nobody waits this long")
 
 
+def _held(percept: Percept) -> Decision:
+    """Answer when a file `go` is there; one called `asked` says that the question is."""
+    Path("asked").touch()
+    while not Path("go").exists():
+        time.sleep(0.01)
+    return decision(percept)
+
+
 BEHAVIOURS: dict[str, Callable[[Percept], Any]] = {
     "sound": decision,
     "raising": _raise,
@@ -84,6 +93,7 @@ BEHAVIOURS: dict[str, Callable[[Percept], Any]] = {
     "dying": _die,
     "exiting": _exit,
     "thinking": _think,
+    "held": _held,
     "babbling": lambda _: msgspec.Raw(b"\xc1 no MessagePack starts like this"),
     "foreign": lambda _: {"version": 1, "action": "wait"},
     "newer": lambda percept: decision(percept, version=2),
