@@ -46,7 +46,10 @@ def _trials(folder: str | Path) -> list[dict[str, object]]:
 
 
 def _untimed(folder: str | Path) -> list[dict[str, object]]:
-    return [{k: v for k, v in t.items() if not k.endswith("_time_s")} for t in _trials(folder)]
+    return [
+        {k: v for k, v in t.items() if not k.endswith(("_time_s", "_cpu_s"))}
+        for t in _trials(folder)
+    ]
 
 
 def test_a_run_leaves_everything_in_its_folder_and_a_table_on_the_screen() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from msgspec import structs
@@ -14,8 +14,9 @@ from agents.intentional.reasons import Reasons
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
+from agents.shared.phases import Phases
 from agents.shared.relevance import goal_fluents, relevant_literals
-from asp.kept.clock import reasoning_clock
+from asp.kept.clock import preparation, reasoning_clock
 from asp.literals import is_positive
 from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Decision, Percept, Task, Trace
@@ -45,6 +46,12 @@ class IntentionalRobot:
 
     def begin(self, task: Task) -> None:
         """Selects the task's goal at step 0, where it knows `task.initial`."""
+        began = reasoning_clock()
+        with preparation():
+            self._begin(task)
+        self._prepared = reasoning_clock().since(began).preparation_cpu
+
+    def _begin(self, task: Task) -> None:
         self._task = task
         self._domain = domain = knowledge(task.domain, task.source)
         self._description = domain.description
@@ -65,13 +72,14 @@ class IntentionalRobot:
         Raises InconsistentHistoryError.
         """
         self._observe(percept)
-        thought = _Thought(self._diagnosis, began=reasoning_clock())
+        thought = _Thought(self._diagnosis)
         try:
             with time_limit(self._task.decision_s):
                 self._think(thought)
         except TimeLimitError:
-            thought.stop(reasoning_clock())
-        trace = self._trace(thought)
+            thought.phases.end()
+        trace = thought.phases.timed(self._trace(thought), self._prepared)
+        self._prepared = 0.0
         intention = thought.intention
         self._attempt(intention)
         if intention is not None:
@@ -88,10 +96,10 @@ class IntentionalRobot:
     def _think(self, thought: _Thought) -> None:
         """Both phases. Raises TimeLimitError, after which what was found so far is kept."""
         explained = self._logician.diagnose(self._history, self._diagnosis)
-        thought.diagnosed = reasoning_clock()
+        thought.phases.diagnosis_is_over()
         thought.explained, self._diagnosis = explained, explained.diagnosis
         intention = self._logician.intend(self._history, explained)
-        thought.stop(reasoning_clock())
+        thought.phases.end()
         thought.intention = intention
         if intention.under is not None:
             self._diagnosis = intention.under.diagnosis
@@ -134,8 +142,6 @@ class IntentionalRobot:
             reason=OUT_OF_TIME,
             activity=None if explained is None else max(explained.indices, default=None),
             plans=len(self._history.activities),
-            planning_time_s=thought.planning_s,
-            diagnosis_time_s=thought.diagnosis_s,
         )
         if explained is not None:
             trace = self._with_explanation(trace, explained, thought.before)
@@ -174,25 +180,9 @@ class IntentionalRobot:
 
 @dataclass
 class _Thought:
-    """What is found in one round of the loop, as far as it comes, and when by the clock."""
+    """What is found in one round of the loop, as far as it comes, and what it takes."""
 
     before: Diagnosis
-    began: float
-    diagnosed: float | None = None
-    ended: float | None = None
+    phases: Phases = field(default_factory=Phases)
     explained: Explained | None = None
     intention: Intention | None = None
-
-    def stop(self, now: float) -> None:
-        self.ended = now
-
-    @property
-    def diagnosis_s(self) -> float:
-        ended = self.diagnosed if self.diagnosed is not None else self.ended
-        return 0.0 if ended is None else ended - self.began
-
-    @property
-    def planning_s(self) -> float:
-        if self.diagnosed is None or self.ended is None:
-            return 0.0
-        return self.ended - self.diagnosed

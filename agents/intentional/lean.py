@@ -18,7 +18,7 @@ from msgspec import structs
 
 from asp import syntax
 from asp.description import Description
-from asp.kept.clock import standing_still
+from asp.kept.clock import preparation
 from asp.kept.independence import Independence
 from asp.literals import arguments, atom, is_positive
 from asp.loading import analyse, parse_description
@@ -115,7 +115,7 @@ class LeanRobot:
 @lru_cache(maxsize=16)
 def _independence(source: str, domain: str) -> Independence:
     file = f"{domain}.al"
-    with standing_still():
+    with preparation():
         return Independence(parse_description(source, file), *analyse(source, file))
 
 
@@ -138,7 +138,7 @@ def _needed(task: Task) -> frozenset[str]:
 @lru_cache(maxsize=16)
 def _may_leave_out(source: str, domain: str) -> bool:
     """Whether anything of a domain may be left out."""
-    with standing_still():
+    with preparation():
         description = parse_description(source, f"{domain}.al")
         candidates = _independence(source, domain).candidates
         return not description.defaults and not _may_hinder(description, candidates)
@@ -173,7 +173,7 @@ def _without(text: str, domain: str, dropped: frozenset[str]) -> str:
     """The AL_d text without some constants, and without what says nothing of the diagram."""
     if not dropped:
         return text
-    with standing_still():
+    with preparation():
         source = restrict(analyse(text, f"{domain}.al")[0], dropped)
         spoken = (s for s in source.statements if not isinstance(s, _SILENT))
         return "".join(f"{_section(s)}\n  {text_of(s)}\n" for s in spoken)

@@ -13,7 +13,7 @@ from agents.intentional.executor.execution import Execution, Steps
 from agents.intentional.executor.mind import Mind
 from agents.intentional.executor.report import Outcome, Reporter
 from agents.intentional.lean import LeanRobot
-from asp.kept.clock import reasoning_clock, standing_still
+from asp.kept.clock import preparation, reasoning_clock
 from asp.literals import is_positive
 from asp.refinement import load
 from testbed.link.messages import Decision, Percept, Task, Trace
@@ -34,9 +34,12 @@ class RefinedRobot:
         self._zooms = zooms
 
     def begin(self, task: Task) -> None:
-        """Takes the task on. Raises SourceError for its texts."""
+        """Takes the task on; what this takes beside preparation counts as planning.
+
+        Raises SourceError for the task's texts.
+        """
         began = reasoning_clock()
-        with standing_still():
+        with preparation():
             file = f"{task.domain}.al"
             refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
         self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
@@ -50,10 +53,20 @@ class RefinedRobot:
         self._execution: Execution | None = None
         self._steps: Steps | None = None
         self._outcome: Outcome | None = None
-        self._mind.tally.prepared(reasoning_clock() - began)
+        spent = reasoning_clock().since(began)
+        self._mind.tally.planned(spent)
+        self._prepared = spent.preparation_cpu
 
     def act(self, percept: Percept) -> Decision:
         """The next concrete action. Raises InconsistentHistoryError."""
+        began, prepared = reasoning_clock(), self._prepared
+        decision = self._next(percept)
+        self._prepared = 0.0
+        spent = prepared + reasoning_clock().since(began).preparation_cpu
+        trace = structs.replace(decision.trace, preparation_cpu_s=spent)
+        return structs.replace(decision, trace=trace)
+
+    def _next(self, percept: Percept) -> Decision:
         if self._steps is None:
             self._mind.hear(percept)
             return self._decide(percept)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 from msgspec import structs
@@ -12,10 +12,11 @@ from agents.shared.contradicting import Contradicting
 from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
+from agents.shared.phases import Phases
 from agents.shared.relevance import outcome_literals
 from agents.traditional.kept import KeptPlanner
 from agents.traditional.planner import Plan
-from asp.kept.clock import reasoning_clock
+from asp.kept.clock import preparation, reasoning_clock
 from asp.kept.control import State
 from asp.literals import is_positive
 from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
@@ -47,6 +48,12 @@ class TraditionalRobot:
 
     def begin(self, task: Task) -> None:
         """Takes the task on; the first plan is made with the first percept."""
+        began = reasoning_clock()
+        with preparation():
+            self._begin(task)
+        self._prepared = reasoning_clock().since(began).preparation_cpu
+
+    def _begin(self, task: Task) -> None:
         self._domain = domain = knowledge(task.domain, task.source)
         self._description = domain.description
         self._reasoner = self._make_reasoner(domain, tuple(task.goal), task.plan_limit)
@@ -67,14 +74,15 @@ class TraditionalRobot:
         Raises InconsistentHistoryError.
         """
         self._observe(percept)
-        thought = _Thought(began=reasoning_clock())
+        thought = _Thought()
         try:
             with time_limit(self._decision_s):
                 self._think(thought)
         except TimeLimitError:
-            thought.ended = reasoning_clock()
+            thought.phases.end()
         plan = thought.plan
-        trace = self._trace(thought, percept.step)
+        trace = thought.phases.timed(self._trace(thought, percept.step), self._prepared)
+        self._prepared = 0.0
         if plan is not None:
             self._attempt(plan)
         return Decision(
@@ -88,13 +96,14 @@ class TraditionalRobot:
     def _think(self, thought: _Thought) -> None:
         """Diagnosis, and a plan if there is none. What was found remains if the time runs out."""
         explained = self._reasoner.diagnose(self._history, self._diagnosis)
-        thought.diagnosed = reasoning_clock()
+        thought.phases.diagnosis_is_over()
         self._diagnosis = explained.diagnosis
         if not explained.kept:
             self._plan = None
         thought.made = self._plan is None
         plan = self._plan or self._reasoner.plan(self._history, self._diagnosis)
-        thought.ended, thought.plan = reasoning_clock(), plan
+        thought.phases.end()
+        thought.plan = plan
 
     def _attempt(self, plan: Plan) -> None:
         """Step by step through the plan: what is attempted is recorded, the rest remains."""
@@ -116,15 +125,7 @@ class TraditionalRobot:
 
     def _trace(self, thought: _Thought, step: int) -> Trace:
         """The mind behind the decision, before anything of it is recorded."""
-        trace = self._with_explanation(
-            Trace(
-                reason=OUT_OF_TIME,
-                plans=self._plans,
-                planning_time_s=thought.planning_s,
-                diagnosis_time_s=thought.diagnosis_s,
-            ),
-            step,
-        )
+        trace = self._with_explanation(Trace(reason=OUT_OF_TIME, plans=self._plans), step)
         plan = thought.plan
         if plan is None:
             return trace
@@ -171,21 +172,11 @@ class TraditionalRobot:
 
 @dataclass
 class _Thought:
-    """What is found in one decision, as far as it comes, and when by the clock."""
+    """What is found in one decision, as far as it comes, and what it takes."""
 
-    began: float
-    diagnosed: float | None = None
-    ended: float = 0.0
+    phases: Phases = field(default_factory=Phases)
     plan: Plan | None = None
     made: bool = False
-
-    @property
-    def diagnosis_s(self) -> float:
-        return (self.ended if self.diagnosed is None else self.diagnosed) - self.began
-
-    @property
-    def planning_s(self) -> float:
-        return 0.0 if self.diagnosed is None else self.ended - self.diagnosed
 
 
 def _next(plan: Plan) -> str:

@@ -8,7 +8,7 @@ from functools import lru_cache
 import clingo
 from clingo import Symbol
 
-from asp.kept.clock import standing_still
+from asp.kept.clock import preparation
 from asp.solving import fact, ground, theory
 
 State = frozenset[str]
@@ -26,7 +26,7 @@ class KeptControl:
         ranks: Iterable[Symbol],
         **constants: int,
     ) -> None:
-        with standing_still():
+        with preparation():
             self.control = ground([program, theory(theory_name)], constants, ranks)
             # The first call prepares the solver, whatever it is asked.
             self.control.solve()

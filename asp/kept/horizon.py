@@ -8,7 +8,7 @@ from itertools import chain
 import clingo
 from clingo import Function, Number, Symbol
 
-from asp.kept.clock import standing_still
+from asp.kept.clock import preparation
 from asp.literals import atom, is_positive
 from asp.solving import ground, solving, symbol, theory
 
@@ -28,7 +28,7 @@ class Horizon:
         ranks = [Function("rank", [symbol(a), Number(n)]) for n, a in enumerate(actions)]
         ranks.append(Function("ranks", [Number(len(actions))]))
         constants = {"n": length, "ordered": min(length, MOST_LEVELS // (len(actions) + 1))}
-        with standing_still():
+        with preparation():
             self.control = ground([program, theory("kept_fine")], constants, ranks)
             self.control.ground([("open", [])])
             self._initial = _literals(self.control, "holds", 2)

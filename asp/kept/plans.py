@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from asp.grounding import ground_description
-from asp.kept.clock import standing_still
+from asp.kept.clock import preparation
 from asp.kept.control import State
 from asp.kept.independence import Independence, symmetric_pairs
 from asp.kept.planner import Planner
@@ -65,7 +65,7 @@ class Plans:
         return self._planners.get(dropped, lambda: self._make_planner(dropped))
 
     def _make_planner(self, dropped: frozenset[str]) -> Planner:
-        with standing_still():
+        with preparation():
             source = restrict(without_exogenous(self._source, self._signature), dropped)
             signature = narrowed(self._signature, dropped)
             return Planner(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import clingo
 from clingo import Number
 
-from asp.kept.clock import standing_still
+from asp.kept.clock import preparation
 from asp.kept.horn import Clauses, Graph, Spread
 from asp.literals import is_positive
 from asp.solving import theory
@@ -26,7 +26,7 @@ class Relaxed:
     """
 
     def __init__(self, program: str) -> None:
-        with standing_still():
+        with preparation():
             clauses = Clauses()
             control = clingo.Control(["--warn=none", "-c", "n=1"])
             control.register_observer(clauses)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import cached_property
 from math import prod
 
-from asp.kept.clock import standing_still
+from asp.kept.clock import preparation
 from asp.kept.operators import Encoding
 from asp.kept.recent import Recent
 from asp.kept.statesets import Space, StateSet
@@ -160,7 +160,7 @@ class Spaces:
 
     def _make_space(self, variables: tuple[int, ...]) -> Space:
         # Like grounding, which it stands for: made once, not interrupted, no part of reasoning.
-        with standing_still():
+        with preparation():
             return Space(self._sizes, self._encoding.operators, variables)
 
     def _chosen(self, wanted: Iterable[int]) -> list[tuple[int, ...]]:

@@ -22,6 +22,10 @@ TIMES = (
     "reasoning_time_s",
     "wall_time_s",
     "infer_time_s",
+    "planning_cpu_s",
+    "diagnosis_cpu_s",
+    "preparation_cpu_s",
+    "infer_cpu_s",
 )
 
 
@@ -99,7 +103,7 @@ class FineCounts(msgspec.Struct):
     """What was done at the fine resolution: how many refined plans, concrete actions and tests.
 
     `planning_time_s` is that of zooming and planning, `infer_time_s` that of what follows from
-    observations.
+    observations, both by the wall clock; `planning_cpu_s` and `infer_cpu_s` in process time.
     """
 
     plans: int = 0
@@ -107,6 +111,8 @@ class FineCounts(msgspec.Struct):
     tests: int = 0
     planning_time_s: float = 0.0
     infer_time_s: float = 0.0
+    planning_cpu_s: float = 0.0
+    infer_cpu_s: float = 0.0
 
 
 class TrialRecord(msgspec.Struct, kw_only=True):
@@ -120,7 +126,10 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     `minimal_actions` and `minimal_units` are the oracle's, from the initial
     state with nothing exogenous; None where no plan exists. The plan with the fewest actions need
     not be the one that costs least.
-    `mental` holds `start(N)`, `stop(N)` and `finish`; times are seconds.
+    `mental` holds `start(N)`, `stop(N)` and `finish`.
+    Times are seconds, `..._time_s` by the wall clock, `..._cpu_s` process time of the robot, its
+    solver included. `preparation_cpu_s` is what the trial's decisions caused but others can reuse
+    (encoding, grounding, sets of states); no other time of reasoning has it.
     """
 
     trial: str
@@ -154,6 +163,9 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     diagnosis_time_s: float = 0.0
     reasoning_time_s: float = 0.0
     wall_time_s: float = 0.0
+    planning_cpu_s: float = 0.0
+    diagnosis_cpu_s: float = 0.0
+    preparation_cpu_s: float = 0.0
     fine: FineCounts | None = None
     in_reach: bool | None = None
 

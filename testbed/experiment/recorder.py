@@ -42,6 +42,9 @@ class Recorder:
         record.planning_time_s += trace.planning_time_s
         record.diagnosis_time_s += trace.diagnosis_time_s
         record.reasoning_time_s = record.planning_time_s + record.diagnosis_time_s
+        record.planning_cpu_s += trace.planning_cpu_s
+        record.diagnosis_cpu_s += trace.diagnosis_cpu_s
+        record.preparation_cpu_s += trace.preparation_cpu_s
         self._believes_goal = decision.believes_goal
         self._last_reason = trace.reason or None
         self._acted(decision, happened, costs)
@@ -178,4 +181,6 @@ class FineRecorder(Recorder):
         counts.plans, counts.actions, counts.tests = fine.plans, fine.actions, fine.tests
         counts.planning_time_s += fine.planning_time_s
         counts.infer_time_s += fine.infer_time_s
+        counts.planning_cpu_s += fine.planning_cpu_s
+        counts.infer_cpu_s += fine.infer_cpu_s
         self.record.reasoning_time_s += counts.planning_time_s + counts.infer_time_s

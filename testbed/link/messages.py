@@ -120,7 +120,8 @@ class FineTrace(Part, frozen=True, kw_only=True):
     ``inferred`` are the coarse literals that follow from what was observed during it, and
     ``happened`` says whether it had its effects; None while no action is over.
     ``planning_time_s`` is that of zooming and refined plans at this step, ``infer_time_s`` that of
-    what follows from observations.
+    what follows from observations, both by the wall clock; ``planning_cpu_s`` and ``infer_cpu_s``
+    are the same in process time.
     """
 
     abstract: str = ""
@@ -137,6 +138,8 @@ class FineTrace(Part, frozen=True, kw_only=True):
     happened: bool | None = None
     planning_time_s: float = 0.0
     infer_time_s: float = 0.0
+    planning_cpu_s: float = 0.0
+    infer_cpu_s: float = 0.0
 
 
 class Trace(Part, frozen=True, kw_only=True):
@@ -148,7 +151,11 @@ class Trace(Part, frozen=True, kw_only=True):
     and ``alternatives``, the other explanations that are as small (``more_alternatives`` if not
     all are given). ``reason`` says why the intention is what it is; where an activity is stopped,
     ``futile_at`` is the first step at which its plan, projected from now on, breaks. ``plans`` is
-    the number of activities so far. Times are seconds for this step, without those for reasons.
+    the number of activities so far. Times are seconds for this step, without those for reasons:
+    ``planning_time_s`` and ``diagnosis_time_s`` by the wall clock, ``planning_cpu_s`` and
+    ``diagnosis_cpu_s`` in process time of the robot, its solver included; all four without
+    ``preparation_cpu_s``, the process time spent on what other decisions and trials can reuse:
+    encoding, grounding, sets of states. At the first step that of beginning the trial is with it.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
     one, empty in the steps between the first and the last of an abstract action.
     """
@@ -167,6 +174,9 @@ class Trace(Part, frozen=True, kw_only=True):
     plans: int = 0
     planning_time_s: float = 0.0
     diagnosis_time_s: float = 0.0
+    planning_cpu_s: float = 0.0
+    diagnosis_cpu_s: float = 0.0
+    preparation_cpu_s: float = 0.0
     fine: FineTrace | None = None
 
 

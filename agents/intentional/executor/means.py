@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cached_property
 
 from agents.intentional.executor.laws import Effects, Tests, conditions, direct_effects
-from asp.kept.clock import standing_still
+from asp.kept.clock import preparation
 from asp.kept.horizons import Horizons
 from asp.kept.recent import Recent
 from asp.kept.refined import MOST_STEPS, FinePlanner, LiteralPlanner, fine_planner
@@ -32,44 +32,51 @@ class Means:
     def planner(self) -> FinePlanner | LiteralPlanner:
         """Plans of concrete actions."""
         refinement = self._refinement
-        with standing_still():
+        with preparation():
             return fine_planner(refinement.weak, refinement.weak_signature, self._horizons)
 
     @cached_property
     def quick(self) -> Quick:
         """Inferences where the laws are simple."""
-        return Quick(self._refinement)
+        with preparation():
+            return Quick(self._refinement)
 
     @cached_property
     def theory(self) -> Theory:
         """Inferences by `fine_inference.lp`."""
-        return Theory(self._refinement)
+        with preparation():
+            return Theory(self._refinement)
 
     @cached_property
     def effects(self) -> Effects:
         """The direct effects of concrete actions and of events."""
-        return Effects(self._refinement)
+        with preparation():
+            return Effects(self._refinement)
 
     def tests(self, robot: str) -> Tests:
         """The tests of a robot."""
         if robot not in self._tests:
-            self._tests[robot] = Tests(self._refinement, robot)
+            with preparation():
+                self._tests[robot] = Tests(self._refinement, robot)
         return self._tests[robot]
 
     @cached_property
     def shares_places(self) -> bool:
         """Whether the components of anything are always in the same place."""
-        return bool(shared_places(self._refinement.weak))
+        with preparation():
+            return bool(shared_places(self._refinement.weak))
 
     @cached_property
     def conditions(self) -> Mapping[str, frozenset[str]]:
         """Of each coarse action, the fluents on which it depends whether it is possible."""
-        return conditions(self._refinement)
+        with preparation():
+            return conditions(self._refinement)
 
     @cached_property
     def direct_effects(self) -> Mapping[str, frozenset[str]]:
         """Of each coarse action, what causal laws say that it may bring about."""
-        return direct_effects(self._refinement)
+        with preparation():
+            return direct_effects(self._refinement)
 
 
 _HORIZONS = Horizons(MOST_STEPS)

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from msgspec import structs
 
-from asp.kept.clock import reasoning_clock
+from asp.kept.clock import Reading, reasoning_clock
 from testbed.link.messages import FineTrace
 
 
@@ -60,10 +60,22 @@ class Tally:
     def failed(self, what: str) -> None:
         self._now = structs.replace(self._now, failed=what)
 
-    def prepared(self, seconds: float) -> None:
-        """So long it took to begin with the trial; it counts as planning."""
-        total = self._now.planning_time_s + seconds
-        self._now = structs.replace(self._now, planning_time_s=total)
+    def planned(self, spent: Reading) -> None:
+        """So much was spent on planning, and on beginning with the trial, which counts as such."""
+        now = self._now
+        self._now = structs.replace(
+            now,
+            planning_time_s=now.planning_time_s + spent.wall,
+            planning_cpu_s=now.planning_cpu_s + spent.cpu,
+        )
+
+    def _inferred(self, spent: Reading) -> None:
+        now = self._now
+        self._now = structs.replace(
+            now,
+            infer_time_s=now.infer_time_s + spent.wall,
+            infer_cpu_s=now.infer_cpu_s + spent.cpu,
+        )
 
     @contextmanager
     def planning(self) -> Iterator[None]:
@@ -72,7 +84,7 @@ class Tally:
         try:
             yield
         finally:
-            self.prepared(reasoning_clock() - began)
+            self.planned(reasoning_clock().since(began))
 
     @contextmanager
     def inferring(self) -> Iterator[None]:
@@ -81,5 +93,4 @@ class Tally:
         try:
             yield
         finally:
-            spent = reasoning_clock() - began
-            self._now = structs.replace(self._now, infer_time_s=self._now.infer_time_s + spent)
+            self._inferred(reasoning_clock().since(began))
