@@ -36,6 +36,9 @@ RECORD: dict[str, tuple[type, ...]] = {
     "diagnosis_time_s": (float,),
     "reasoning_time_s": (float,),
     "wall_time_s": (float,),
+    "planning_cpu_s": (float,),
+    "diagnosis_cpu_s": (float,),
+    "preparation_cpu_s": (float,),
     "fine": (type(None),),
 }
 ITEMS: dict[str, dict[str, type]] = {
