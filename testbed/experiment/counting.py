@@ -13,9 +13,12 @@ from testbed.experiment.record import FAILURES, TrialRecord
 BASELINE, INTENTIONAL = "traditional", "intentional"
 """The robots that a summary compares."""
 
-Apart: TypeAlias = Literal["incomplete", "failed", "unsolvable", "nothing to do", "no event"]
+Apart: TypeAlias = Literal[
+    "incomplete", "failed", "deadline", "unsolvable", "nothing to do", "no event"
+]
 NOTHING_TO_DO: Apart = "nothing to do"
 NO_EVENT: Apart = "no event"
+DEADLINE: Apart = "deadline"
 CERTAIN = 1.0
 
 
@@ -23,11 +26,13 @@ CERTAIN = 1.0
 class Standing:
     """What decides of a trial whether its pair counts.
 
-    `failed`: it ended in error or without its robot; `solvable`: some plan achieves the goal from
-    the initial state; `idle`: the goal held from there on; `quiet`: nothing exogenous happened.
+    `failed`: it ended in error or without its robot; `late`: a decision was cut off by the clock;
+    `solvable`: some plan achieves the goal from the initial state; `idle`: the goal held from there
+    on; `quiet`: nothing exogenous happened.
     """
 
     failed: bool
+    late: bool
     solvable: bool
     idle: bool
     quiet: bool
@@ -37,6 +42,7 @@ def standing(record: TrialRecord) -> Standing:
     """That of a trial on record."""
     return Standing(
         failed=record.outcome in FAILURES,
+        late=record.deadline,
         solvable=record.minimal_actions is not None,
         idle=is_idle(record),
         quiet=not record.exogenous,
@@ -86,6 +92,8 @@ def why_apart(
         return "incomplete"
     if any(own.failed for own in known):
         return "failed"
+    if any(own.late for own in known):
+        return DEADLINE
     if not all(own.solvable for own in known):
         return "unsolvable"
     if all(own.idle for own in judges):

@@ -19,6 +19,7 @@ ACCURACY = "accuracy"
 COUNTS: Mapping[Apart, str] = {
     "incomplete": "incomplete",
     "failed": "failed_pairs",
+    "deadline": "deadline",
     "unsolvable": "unsolvable",
     "nothing to do": "nothing_to_do",
     "no event": "without_event",

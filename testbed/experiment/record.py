@@ -9,6 +9,8 @@ from typing import Any, Literal, get_args
 
 import msgspec
 
+from testbed.link.messages import Minimality
+
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 FAILURES: tuple[Outcome, ...] = ("robot_lost", "error")
@@ -73,7 +75,8 @@ class Explained(msgspec.Struct):
     """An explanation that the robot adopted at `step`, and why it needed one.
 
     `distrusted` are reports that it takes for false, `alternatives` the number of other
-    explanations that are as small; there are more of them if `more_alternatives`.
+    explanations that are as small; there are more of them if `more_alternatives`. `minimal` is
+    `unproved` where the budget of the decision did not suffice to rule out a smaller one.
     """
 
     step: int
@@ -83,6 +86,7 @@ class Explained(msgspec.Struct):
     contradictions: list[Contradicted] = []
     alternatives: int = 0
     more_alternatives: bool = False
+    minimal: Minimality = "proved"
 
 
 class Activity(msgspec.Struct):
@@ -168,6 +172,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     preparation_cpu_s: float = 0.0
     fine: FineCounts | None = None
     in_reach: bool | None = None
+    deadline: bool = False
 
 
 def encode(record: TrialRecord) -> bytes:

@@ -45,6 +45,7 @@ class Recorder:
         record.planning_cpu_s += trace.planning_cpu_s
         record.diagnosis_cpu_s += trace.diagnosis_cpu_s
         record.preparation_cpu_s += trace.preparation_cpu_s
+        record.deadline = record.deadline or trace.deadline
         self._believes_goal = decision.believes_goal
         self._last_reason = trace.reason or None
         self._acted(decision, happened, costs)
@@ -146,6 +147,7 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
         contradictions=[Contradicted(c.step, c.observed, c.believed) for c in trace.contradictions],
         alternatives=len(trace.alternatives),
         more_alternatives=trace.more_alternatives,
+        minimal=explanation.minimal,
     )
 
 

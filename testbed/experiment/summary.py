@@ -40,18 +40,20 @@ def summarise(
     """Counts, accuracy, ratios (traditional / intentional) and tests by scenario and by level.
 
     At a level of the fine resolution come its columns of Tables 2 and 3 (`summarise_levels`), and
-    what the `paper` has of them.
+    what the `paper` has of them. `deadline` counts the trials with a decision that was cut off by
+    the clock, which are in none of these numbers.
     `sure` are the eventful scenarios: a pair of theirs without its event is counted apart, and so
     is every other that compares nothing (`counting.why_apart`). A ratio is left out of the mean
     where the intentional robot's measure is 0; a measure without any ratio, and a test without any
     difference, is null.
     """
-    trials = 0
+    trials = late = 0
     pairs: dict[tuple[str, str, str], dict[str, Outline]] = {}
     fine: dict[str, list[FineOutline]] = {}
     for record in records:
         trials += 1
-        if record.fine is not None:
+        late += record.deadline
+        if record.fine is not None and not record.deadline:
             fine.setdefault(record.level, []).append(fine_outline(record, record.fine))
         place = record.scenario, record.level, record.pair
         pairs.setdefault(place, {})[record.robot] = Outline(record)
@@ -62,6 +64,7 @@ def summarise(
     columns = summarise_levels(fine, paper)
     return {
         "trials": trials,
+        "deadline": late,
         "scenarios": {name: next(values) for name in scenarios},
         "levels": {name: next(values) | columns.get(name, {}) for name in levels},
     }

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from rich.table import Table
 
-from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.experiment.counting import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
 from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome, TrialRecord
 from testbed.experiment.wording import counted, exception, in_words, of_place, place
 
@@ -145,8 +145,9 @@ def rows_of(records: Iterable[TrialRecord], apart: Mapping[str, Apart] = NONE_AP
     """The rows of a table: places as the records name them first, robots by name.
 
     `apart` are the pairs that are not compared (`counting.pairs_apart`). Where the event of their
-    scenario never fired they have rows behind it, where there was nothing to do rows at the end;
-    others stand in their scenario, where it is told how they ended.
+    scenario never fired, or a decision was cut off by the clock, they have rows behind it; where
+    there was nothing to do, rows at the end; others stand in their scenario, where it is told how
+    they ended.
     """
     rows: dict[tuple[str, str, Apart | None, str], Row] = {}
     for record in records:
@@ -160,7 +161,7 @@ def rows_of(records: Iterable[TrialRecord], apart: Mapping[str, Apart] = NONE_AP
 def _place(record: TrialRecord, reason: Apart | None) -> tuple[str, str, Apart | None]:
     if reason == NOTHING_TO_DO:
         return "", record.level, reason
-    return record.scenario, record.level, reason if reason == NO_EVENT else None
+    return record.scenario, record.level, reason if reason in (NO_EVENT, DEADLINE) else None
 
 
 def headings(rows: Iterable[Row]) -> tuple[str, ...]:

@@ -6,13 +6,16 @@ logical is ASP text as in the documents: an atom is ``"loc(book1,kitchen)"``, it
 selection of the goal, the first decision is the one of step 1.
 """
 
-from typing import TypeVar
+from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
 
 from testbed.link.errors import LinkError
 
 PROTOCOL_VERSION = 1
+
+Minimality: TypeAlias = Literal["proved", "unproved"]
+"""Whether it is proved that no explanation is smaller than an adopted one."""
 
 
 class Part(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -86,13 +89,15 @@ class Explanation(Part, frozen=True, kw_only=True):
     """What makes a history consistent (D 2.4), found at ``step``.
 
     ``unobserved`` are exogenous actions, ``exceptions`` the literals that hold at step 0 against
-    a default, ``distrusted`` reports of what did not happen.
+    a default, ``distrusted`` reports of what did not happen. ``minimal`` is ``"unproved"`` where
+    the budget of the decision was used up before a smaller explanation was ruled out.
     """
 
     step: int
     unobserved: list[Event]
     exceptions: list[str]
     distrusted: list[Event] = []
+    minimal: Minimality = "proved"
 
 
 class Contradiction(Part, frozen=True, kw_only=True):
@@ -156,6 +161,8 @@ class Trace(Part, frozen=True, kw_only=True):
     ``diagnosis_cpu_s`` in process time of the robot, its solver included; all four without
     ``preparation_cpu_s``, the process time spent on what other decisions and trials can reuse:
     encoding, grounding, sets of states. At the first step that of beginning the trial is with it.
+    ``deadline`` says that the decision was cut off by the clock, so that it need not be the same on
+    another machine.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
     one, empty in the steps between the first and the last of an abstract action.
     """
@@ -177,6 +184,7 @@ class Trace(Part, frozen=True, kw_only=True):
     planning_cpu_s: float = 0.0
     diagnosis_cpu_s: float = 0.0
     preparation_cpu_s: float = 0.0
+    deadline: bool = False
     fine: FineTrace | None = None
 
 

@@ -5,8 +5,8 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.counting import Standing, compared, eventful, pair_apart, why_apart
 
-PLAYED = Standing(failed=False, solvable=True, idle=False, quiet=False)
-QUIET = Standing(failed=False, solvable=True, idle=False, quiet=True)
+PLAYED = Standing(failed=False, late=False, solvable=True, idle=False, quiet=False)
+QUIET = Standing(failed=False, late=False, solvable=True, idle=False, quiet=True)
 
 
 @pytest.mark.parametrize(
@@ -45,6 +45,11 @@ def test_a_missing_trial_is_told_before_anything_else() -> None:
     assert why_apart("2", [PLAYED, None], [PLAYED], {"2"}) == "incomplete"
     robots = ["intentional", "traditional"]
     assert pair_apart("2", {"intentional": QUIET}, robots, {"2"}) == "incomplete"
+
+
+def test_a_pair_with_a_trial_that_the_clock_cut_off_counts_apart() -> None:
+    late = Standing(failed=False, late=True, solvable=True, idle=False, quiet=False)
+    assert why_apart("2", [PLAYED, late], [PLAYED], {"2"}) == "deadline"
 
 
 def test_the_intentional_robots_trial_says_whether_the_event_fired() -> None:

@@ -115,3 +115,8 @@ def test_a_run_and_its_report_tell_the_digest_and_keep_it(tmp_path: Path) -> Non
     summary.unlink()
     assert _says("report", str(tmp_path / "run")) == told
     assert json.loads(summary.read_text(encoding="utf-8")) == kept
+
+
+def test_a_trial_that_the_clock_cut_off_is_left_out() -> None:
+    cut_off = a_record("c", deadline=True, outcome="step_limit")
+    assert digest([ONE, cut_off, OTHER]) == digest([ONE, OTHER])

@@ -118,8 +118,10 @@ def _value(
 def _notes(table: Table) -> Iterator[str]:
     everything = [row for row in table.rows if row.name.isdigit()]
     apart = [f"{counted(number, 'pair')} of {name}" for name, number in table.apart.items()]
-    failed, never = (sum(getattr(r, key) for r in everything) for key in ("failed", "unsolvable"))
+    keys = ("failed", "late", "unsolvable")
+    failed, late, never = (sum(getattr(row, key) for row in everything) for key in keys)
     apart += [f"{counted(failed, 'pair')} with an error or a lost robot"] * (failed > 0)
+    apart += [f"{counted(late, 'pair')} with a decision cut off by the clock"] * (late > 0)
     apart += [f"{counted(never, 'pair')} whose goal no plan achieves"] * (never > 0)
     if apart:
         yield f"In no row: {', '.join(apart)}"

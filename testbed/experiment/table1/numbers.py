@@ -40,6 +40,7 @@ def _row(row: Row, of: Analysis) -> Numbers:
     return {
         "pairs": row.pairs,
         "failed": row.failed,
+        "deadline": row.late,
         "unsolvable": row.unsolvable,
         "out_of_reach": row.out_of_reach,
         "meetings": dict(row.meetings),

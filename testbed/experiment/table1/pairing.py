@@ -40,6 +40,7 @@ class Side:
     undone: bool
     before: tuple[str, ...]
     measures: Mapping[str, float]
+    late: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,18 +62,24 @@ class Pair:
     @property
     def played(self) -> bool:
         """Whether both trials ended by themselves, and the goal could be achieved at all."""
-        return self.solvable and not self.failed
+        return self.solvable and not self.failed and not self.late
 
     @property
     def failed(self) -> bool:
         """Whether one of the trials ended in error or lost its robot."""
         return self.mind.failed or self.base.failed
 
+    @property
+    def late(self) -> bool:
+        """Whether a decision in one of the trials was cut off by the clock."""
+        return self.mind.late or self.base.late
+
     def apart(self, sure: Collection[str]) -> Apart | None:
         """Why the pair is not counted under the scenario that was played; `sure` as `why_apart`."""
         idle, quiet = self.happened == NOTHING_TO_DO, self.mind.event is None
         mind, base = (
-            Standing(side.failed, self.solvable, idle, quiet) for side in (self.mind, self.base)
+            Standing(side.failed, side.late, self.solvable, idle, quiet)
+            for side in (self.mind, self.base)
         )
         return why_apart(self.intended, (mind, base), (mind,), sure)
 
@@ -120,6 +127,7 @@ def _side(record: TrialRecord, world: World) -> Side:
     return Side(
         trial=record.trial,
         failed=record.outcome in FAILURES,
+        late=record.deadline,
         achieved=record.achieved,
         correct=record.correct,
         out_of_reach=record.in_reach is False,

@@ -26,7 +26,7 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the table; `pairs` are those counted, `failed` and `unsolvable` those left out.
+    """A row of the table; `pairs` are those counted; `failed`, `late`, `unsolvable` those left out.
 
     The test of the accuracies has its effect above 0 where the intentional robot was right more
     often; `advantage` is that difference of the proportions with its interval. `out_of_reach` are
@@ -45,6 +45,7 @@ class Row:
     ratios: Mapping[str, Ratio]
     advantage: Estimate | None = None
     optimum: Mapping[str, Optimum] = field(default_factory=dict)
+    late: int = 0
 
 
 @dataclass(frozen=True)
