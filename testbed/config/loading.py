@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping, Sequence
+import re
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
-from omegaconf import OmegaConf
-from omegaconf.errors import OmegaConfBaseException
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 import asp
 from asp.spelling import suggestion
 from testbed.config.checking import Robots, check
+from testbed.config.composing import compose
 from testbed.config.errors import ConfigError
 from testbed.config.models import ExperimentConfig, Section
 from testbed.config.places import Key, Places
@@ -23,6 +22,20 @@ from testbed.resources import find_config
 
 SCRIPT, NONE = "script", "none"
 """What a run without scenarios is called, in which a script is played, or nothing happens."""
+
+LONGEST = 80
+"""How much of a value a line shows."""
+
+FORMS = {
+    "int_type": "; write it in decimal digits alone, without quotes",
+    "float_type": "; write it in decimal, without quotes",
+    "bool_type": "; write true or false",
+    "string_type": "; put it in quotes",
+}
+"""How the values of a type are written, by the error that they are not of it."""
+
+LIKE_A_VALUE = re.compile(r"^[-+.]*\d|^\.(inf|nan)$|^(y|n|yes|no|on|off)$", re.IGNORECASE)
+"""What YAML 1.1 takes for a number or a truth value."""
 
 FINE_KEYS = ("levels", "level_sizes", "refinement", "draw", "statistics")
 """What a configuration of the fine resolution may have given."""
@@ -47,8 +60,8 @@ def load_config(
         ConfigError: one line an error, each with its place and what would be right.
     """
     path, text = _read(source)
-    composed = _compose(path, text, overrides, given_in)
     places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
+    composed = compose(text, overrides, places)
     config = _located(_validate(composed, places), path)
     check(config, places, robots, starters)
     return config if config.scenarios or config.is_fine else _with_scenarios(config)
@@ -78,46 +91,6 @@ def _read(source: str | Path) -> tuple[Path, str]:
         raise ConfigError([message]) from None
 
 
-def _compose(path: Path, text: str, overrides: Sequence[str], given_in: str) -> dict[str, Any]:
-    try:
-        base = OmegaConf.to_container(OmegaConf.create(text))
-    except yaml.YAMLError as error:
-        raise ConfigError([_yaml_line(path, error)]) from None
-    except OmegaConfBaseException as error:
-        raise ConfigError([f"{path}: {_first_line(error)}"]) from None
-    if not isinstance(base, dict) or not all(isinstance(key, (str, int)) for key in base):
-        raise ConfigError([f"{path}: should hold `key: value` lines"])
-    return _override(path, _string_keys(base), overrides, given_in)
-
-
-def _override(
-    path: Path, base: dict[str, Any], overrides: Sequence[str], given_in: str
-) -> dict[str, Any]:
-    composed = OmegaConf.create(base)
-    for item in overrides:
-        key, equals, value = item.partition("=")
-        if not (equals and key.strip()):
-            raise ConfigError([f"{given_in}: '{item}': an override is KEY=VALUE, e.g. limit=5"])
-        try:
-            given = OmegaConf.from_dotlist([f"value={value}"])["value"]
-            OmegaConf.update(composed, key.strip(), given, merge=given != {}, force_add=True)
-        except (yaml.YAMLError, OmegaConfBaseException, ValueError, TypeError, IndexError) as error:
-            raise ConfigError([f"{given_in}: {key}: {_first_line(error)}"]) from None
-    try:
-        resolved = OmegaConf.to_container(composed, resolve=True, throw_on_missing=True)
-    except OmegaConfBaseException as error:
-        raise ConfigError([f"{path}: {_first_line(error)}"]) from None
-    composed_keys: dict[str, Any] = _string_keys(resolved)
-    return composed_keys
-
-
-def _string_keys(value: Any) -> Any:
-    """Keys as text at every depth: `4:` and `"4":` name the same scenario."""
-    if isinstance(value, Mapping):
-        return {str(key): _string_keys(item) for key, item in value.items()}
-    return [_string_keys(item) for item in value] if isinstance(value, list) else value
-
-
 def _validate(composed: dict[str, Any], places: Places) -> ExperimentConfig:
     try:
         return ExperimentConfig.model_validate(composed)
@@ -131,6 +104,8 @@ def _describe(error: ErrorDetails, places: Places) -> str:
     where = places.of(key)
     if error["type"] == "extra_forbidden":
         return f"{where}: unknown key; {_unknown_key_hint(str(key[-1]), _known_keys(key[:-1]))}"
+    if error["input"] == "":
+        return f"{where}: has no value; give one, or null for none"
     if error["type"] == "missing":
         return f"{where}: is missing{_example(key)}{_or_level(key, error['input'])}"
     if error["type"] == "too_short":
@@ -138,16 +113,17 @@ def _describe(error: ErrorDetails, places: Places) -> str:
     if error["type"] == "tuple_type":
         return f"{where}: should be a list such as [{_shown(error['input'])}]"
     message = error["msg"].removeprefix("Input ").replace("a valid integer", "an integer")
-    message = message.replace("a valid ", "a ")
+    message = message.replace("a valid ", "a ").partition(" or instance of")[0]
     message = message[0].lower() + message[1:]
-    return f"{where}: {message}, not {_shown(error['input'])}{_choice_hint(error)}"
+    return f"{where}: {message}, not {_shown(error['input'])}{_hint(error)}"
 
 
 def _shown(value: object) -> str:
-    """A value as YAML writes it."""
+    """A value as YAML writes it, of a long one the beginning."""
     if value is None or isinstance(value, bool):
         return json.dumps(value)
-    return repr(value)
+    text = repr(value)
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
 
 
 def _example(key: Key) -> str:
@@ -162,12 +138,18 @@ def _or_level(key: Key, given: Any) -> str:
     return "; or give levels, as in levels: [L1], or a refinement: there goals are drawn"
 
 
-def _choice_hint(error: ErrorDetails) -> str:
+def _hint(error: ErrorDetails) -> str:
+    """What would be right: the form that the type has in YAML, or the nearest choice."""
+    given = error["input"]
+    if error["type"] in FORMS and (
+        isinstance(given, float | int) or LIKE_A_VALUE.search(str(given))
+    ):
+        return FORMS[error["type"]]
     expected = error.get("ctx", {}).get("expected")
-    if expected is None or not isinstance(error["input"], str):
+    if expected is None or not isinstance(given, str):
         return ""
     choices = str(expected).replace("'", "").replace(" or ", ", ").split(", ")
-    near = suggestion(error["input"], choices)
+    near = suggestion(given, choices)
     return f"; {near}" if near.startswith("did") else ""
 
 
@@ -203,13 +185,3 @@ def _beside(path: Path, file: str) -> str:
     """The file beside the configuration or here; a packaged one keeps its bare name."""
     found = (candidate for candidate in (path.parent / file, Path(file)) if candidate.is_file())
     return str(next((candidate.resolve() for candidate in found), file))
-
-
-def _yaml_line(path: Path, error: yaml.YAMLError) -> str:
-    mark = getattr(error, "problem_mark", None)
-    where = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)
-    return f"{where}: not YAML: {getattr(error, 'problem', None) or _first_line(error)}"
-
-
-def _first_line(error: Exception) -> str:
-    return str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__

@@ -20,6 +20,11 @@ Pace = Literal["concrete", "abstract"]
 Protocol = Literal["table1", "levels"]
 FINE_STEPS = 5000
 """Environment steps of a trial at the fine resolution, unless given."""
+MOST = 2**31 - 1
+"""The largest count: a solver calculates with 32 bits."""
+LARGEST_SEED = 2**63 - 1
+LONGEST_S = 31_536_000.0
+"""The longest time: a year, which every clock and timer can measure."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
 """How a goal is written."""
 
@@ -54,7 +59,8 @@ def _named_keys(value: object) -> object:
 Text = Annotated[str, BeforeValidator(_tidy), Field(min_length=1)]
 Literals = Annotated[tuple[Text, ...], BeforeValidator(_whole)]
 Name = Annotated[str, BeforeValidator(_named), Field(min_length=1)]
-Count = Annotated[int, Field(strict=True, ge=1)]
+Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
+Seconds = Annotated[float, Field(strict=True, gt=0.0, le=LONGEST_S)]
 Probability = Annotated[float, Field(strict=True, ge=0.0, le=1.0)]
 Flag = Annotated[bool, Field(strict=True)]
 
@@ -75,7 +81,7 @@ class Observability(Section):
     mode: rules.Mode = "never"
     probability: Probability = 1.0
     false_reports: Probability = 0.0
-    delay: Annotated[int, Field(strict=True, ge=0)] = 0
+    delay: Annotated[int, Field(strict=True, ge=0, le=MOST)] = 0
 
 
 class ScriptEntry(Section):
@@ -93,8 +99,8 @@ class Limits(Section):
 
     steps: Count = 100
     plan: Count = 30
-    answer_s: Annotated[float, Field(strict=True, gt=0.0)] = 60.0
-    decision_s: Annotated[float, Field(strict=True, gt=0.0)] | None = None
+    answer_s: Seconds = 60.0
+    decision_s: Seconds | None = None
 
 
 class AdversarySettings(Section):
@@ -114,7 +120,7 @@ class AdversarySettings(Section):
 class LevelSettings(Section):
     """Rooms in a row, each a grid of cells; `objects` are kinds of them, each (number, parts)."""
 
-    rooms: Annotated[int, Field(strict=True, ge=2)]
+    rooms: Annotated[int, Field(strict=True, ge=2, le=MOST)]
     rows: Count
     columns: Count
     objects: Annotated[tuple[tuple[Count, Count], ...], Field(min_length=1)]
@@ -159,7 +165,7 @@ class ExperimentConfig(Section):
 
     name: Annotated[Name, Field(pattern=r"^[A-Za-z0-9][\w.-]*$", examples=["name: quickstart"])]
     protocol: Protocol | None = None
-    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    seed: Annotated[int, Field(strict=True, ge=0, le=LARGEST_SEED)] = 0
     domain: Name = "office"
     refinement: Name | None = None
     goal: Annotated[Literals, Field(examples=[GOAL])]
@@ -192,7 +198,7 @@ class ExperimentConfig(Section):
         """At the fine resolution a goal may be drawn, and a trial has many more steps."""
         if not isinstance(given, Mapping) or not (given.get("levels") or given.get("refinement")):
             return given
-        limits, goal = given.get("limits") or {}, given.get("goal")
+        limits, goal = given.get("limits", {}), given.get("goal")
         if isinstance(limits, Mapping):
             limits = {"steps": FINE_STEPS, **limits}
         return {**given, "goal": () if goal is None else goal, "limits": limits}

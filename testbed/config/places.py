@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from functools import cached_property
 from pathlib import Path
 
 import yaml
 
 Key = tuple[str | int, ...]
+PART = re.compile(r"\[([^\]]*)\]|([^.\[\]]+)")
 
 
 def dotted(key: Key) -> str:
     """`("limits", "steps")` as `limits.steps`, positions of a list as `[0]`."""
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in key)
     return text.removeprefix(".")
+
+
+def parsed(text: str) -> Key:
+    """A dotted key as its parts: what `dotted` makes text."""
+    found = PART.findall(text)
+    return tuple(int(index) if index.isdecimal() else index or name for index, name in found)
 
 
 class Places:
@@ -23,15 +32,15 @@ class Places:
         self, file: str | Path, text: str, overridden: Sequence[str], elsewhere: str
     ) -> None:
         self.file = str(file)
-        self._elsewhere = elsewhere
-        self._root = _compose(text)
+        self.elsewhere = elsewhere
+        self._text = text
         self._overridden = tuple(overridden)
 
     def of(self, key: Key) -> str:
         """`FILE:LINE: KEY`, or as in `command line: KEY` for an overridden one."""
         name = dotted(key)
         if self.is_overridden(key):
-            return f"{self._elsewhere}: {name}"
+            return f"{self.elsewhere}: {name}"
         line = self._line(key)
         where = self.file if line is None else f"{self.file}:{line}"
         return f"{where}: {name}" if name else where
@@ -39,6 +48,10 @@ class Places:
     def is_overridden(self, key: Key) -> bool:
         """Whether the value, or a part of it, does not come from the file."""
         return any(_covers(given, key) for given in self._overridden)
+
+    @cached_property
+    def _root(self) -> yaml.Node | None:
+        return _compose(self._text)
 
     def _line(self, key: Key) -> int | None:
         node, line = self._root, None
@@ -61,9 +74,9 @@ def _compose(text: str) -> yaml.Node | None:
 
 def _covers(given: str, key: Key) -> bool:
     """Whether one of the two keys leads to the other."""
-    parts = [part for part in given.replace("[", ".").replace("]", "").split(".") if part]
+    parts = parsed(given)
     shared = min(len(parts), len(key))
-    return shared > 0 and [str(part) for part in key[:shared]] == parts[:shared]
+    return shared > 0 and [*map(str, key[:shared])] == [*map(str, parts[:shared])]
 
 
 def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, int] | None:

@@ -6,10 +6,9 @@ import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-import yaml
-
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.levels import SCENARIO_KEYS
+from testbed.config.yaml_core import write_yaml
 from testbed.experiment.errors import StoreError
 from testbed.experiment.run_folder import CONFIG, replace_text
 
@@ -53,13 +52,9 @@ def config_text(config: ExperimentConfig) -> str:
     """
     keys = config.model_dump(mode="json", exclude=set(SCENARIO_KEYS) if config.is_fine else None)
     if config.is_fine:
-        return _yaml(keys)
+        return write_yaml(keys)
     own = config.model_dump(mode="json", include={"scenario_settings"}, exclude_none=True)
-    return _yaml(keys | own)
-
-
-def _yaml(keys: dict[str, object]) -> str:
-    return str(yaml.safe_dump(keys, sort_keys=False, width=100, allow_unicode=True))
+    return write_yaml(keys | own)
 
 
 def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
