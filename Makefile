@@ -2,16 +2,18 @@
 # make test   the test suite
 # make check  formatting, lint, types, import directions
 # make bench  the benchmarks at full size
+# make lowest a part of the suite with the lowest version of each dependency that pyproject.toml allows
 #
 # Each target prepares .venv by itself from constraints.txt; Python 3.11 and make are enough.
 
 PYTHON ?= python3
 VENV   := .venv
+LOWEST := .venv-lowest
 BIN    := $(VENV)/bin
 PIP    := PIP_CONSTRAINT=$(CURDIR)/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1 \
           $(BIN)/python -m pip install --quiet
 
-.PHONY: demo test check bench clean
+.PHONY: demo test check bench lowest clean
 
 demo: $(VENV)/.demo
 	$(BIN)/testbed run configs/quickstart.yaml
@@ -28,8 +30,13 @@ check: $(VENV)/.test
 bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks
 
+lowest: $(VENV)/.test
+	$(BIN)/uv venv --quiet --clear --python $(PYTHON) $(LOWEST)
+	$(BIN)/uv pip install --quiet --python $(LOWEST) --resolution lowest-direct --editable '.[test,cluster]'
+	$(LOWEST)/bin/python -m pytest -n 2 --dist worksteal -m versions
+
 clean:
-	rm -rf $(VENV)
+	rm -rf $(VENV) $(LOWEST)
 
 $(VENV)/.demo: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)

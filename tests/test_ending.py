@@ -13,6 +13,8 @@ from typer.testing import CliRunner
 
 from testbed.cli import app
 
+pytestmark = pytest.mark.load
+
 HELD = [sys.executable, "-m", "tests.held"]
 RUN = ["run", "quickstart", "scenarios=[2,4,5,6]", "robots=[held]", "link=inprocess"]
 

@@ -26,6 +26,8 @@ from asp.solving import (
     time_limit,
 )
 
+pytestmark = pytest.mark.versions
+
 # Eleven pigeons and ten holes: the solver would need hours to see that it is impossible.
 PIGEONS = """
 { crowd }.

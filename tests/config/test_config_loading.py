@@ -11,6 +11,8 @@ from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.models import AdversarySettings, Limits, Observability
 from testbed.resources import find_config
 
+pytestmark = pytest.mark.versions
+
 VALID = """\
 name: tiny
 seed: 3

@@ -16,6 +16,8 @@ from testbed.config import ConfigError
 from testbed.environment.agents import ADVERSARY, ROBOT
 from testbed.environment.errors import IllegalActionError, StateError
 
+pytestmark = pytest.mark.versions
+
 IN_KITCHEN = ["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)"]
 WAIT, FINISH = 0, 1
 

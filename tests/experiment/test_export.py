@@ -15,6 +15,8 @@ from testbed.experiment.runner import run_trials
 from testbed.experiment.store import TrialWriter, read_records, write_config
 from tests.experiment.samples import Configure, a_record
 
+pytestmark = pytest.mark.versions
+
 
 @pytest.fixture
 def run(tmp_path: Path, configure: Configure) -> Path:

@@ -16,6 +16,8 @@ from testbed.experiment.report import SHOWN, timeline, write_report
 from testbed.experiment.store import TrialWriter
 from tests.experiment.samples import a_record
 
+pytestmark = pytest.mark.versions
+
 LOADING = {"src", "srcset", "action", "poster", "data"}
 ROOT = Path(__file__).parents[2]
 VOID = {"meta", "link", "br", "img", "hr", "input"}

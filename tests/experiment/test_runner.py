@@ -25,6 +25,8 @@ from testbed.link.robot import Robot
 from testbed.link.spawned import spawned_robot
 from tests.experiment.samples import Configure, ids
 
+pytestmark = pytest.mark.load
+
 SMALL = ("scenarios=[1,2,6]",)
 
 

@@ -16,6 +16,8 @@ from testbed.experiment import serving
 from testbed.link.remote import RemoteRobot
 from testbed.link.session import endpoint, open_driver
 
+pytestmark = pytest.mark.load
+
 PATIENCE_S = 60.0
 SERVE = "import sys; from testbed.experiment import serving; {setting}; serving.serve_robot({call})"
 

@@ -20,6 +20,8 @@ from testbed.experiment.statistics import (
     signed_rank,
 )
 
+pytestmark = pytest.mark.versions
+
 ESTIMATES = (mean, median, proportion)
 P_VALUES = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=12)
 

@@ -12,6 +12,8 @@ from testbed.link.robot import RobotClient
 from testbed.link.spawned import spawned_robot
 from tests.experiment.samples import Configure
 
+pytestmark = pytest.mark.load
+
 PATIENCE_S = 120.0
 # Nobody unlocks a room but the robot.
 LOCKED, UNLOCKED = "locked(library)", "-locked(library)"

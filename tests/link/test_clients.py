@@ -6,6 +6,8 @@ from testbed.link.errors import RobotLost, RobotStopped
 from testbed.link.robot import RobotClient
 from tests.link.scripted import percept, task
 
+pytestmark = [pytest.mark.load, pytest.mark.versions]
+
 FAULTS = {
     "raising": "robot failed: ArithmeticError: out of ideas",
     "babbling": "answer not understood: not a Decision: ",

@@ -9,6 +9,8 @@ from testbed.link.session import open_driver
 from testbed.link.spawned import SpawnedRobot
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
+pytestmark = pytest.mark.load
+
 
 def test_the_keys_are_the_published_ones() -> None:
     asked = keys.act("demo", "3f2a")

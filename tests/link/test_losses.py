@@ -16,6 +16,8 @@ from testbed.link.session import endpoint, open_driver, open_robot
 from testbed.link.spawned import SpawnedRobot
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
+pytestmark = pytest.mark.load
+
 
 def _lose(robot: SpawnedRobot, kind: str) -> RobotLost:
     robot.begin(task(kind))

@@ -22,6 +22,8 @@ from testbed.link.messages import (
 )
 from tests.link.scripted import percept
 
+pytestmark = pytest.mark.versions
+
 TEXT = st.text()
 TEXTS = st.lists(TEXT)
 WHOLE = st.integers(-(2**63), 2**64 - 1)

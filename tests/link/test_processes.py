@@ -19,6 +19,8 @@ from testbed.link.session import endpoint, open_driver, open_robot
 from testbed.link.spawned import SpawnedRobot, spawned_robot
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
+pytestmark = pytest.mark.load
+
 DRIVER = """
 import sys
 from testbed.link.spawned import spawned_robot
