@@ -24,6 +24,14 @@ TEST_S = 60
 _complete = solving.theory
 
 
+def pytest_sessionstart() -> None:
+    """The first example that fails is enough, and each time the same ones are drawn."""
+    if VARIABLE in os.environ:  # after tests/conftest.py, of whose settings the others stay
+        phases = (Phase.explicit, Phase.generate)
+        settings.register_profile("leaving_out", phases=phases, derandomize=True, database=None)
+        settings.load_profile("leaving_out")
+
+
 def pytest_runtest_setup() -> None:
     """Gives the next test its time."""
     _, most = resource.getrlimit(resource.RLIMIT_CPU)
@@ -46,13 +54,5 @@ def leave_out(key: str) -> None:
             vars(module)["theory"] = theory
 
 
-def _hurry() -> None:
-    """The first example that fails is enough, and each time the same ones are drawn."""
-    phases = (Phase.explicit, Phase.generate)
-    settings.register_profile("leaving_out", phases=phases, derandomize=True, database=None)
-    settings.load_profile("leaving_out")
-
-
 if VARIABLE in os.environ:
-    _hurry()
     leave_out(os.environ[VARIABLE])

@@ -45,7 +45,7 @@ def laws(draw: st.DrawFn) -> str:
 
 
 @given(st.lists(laws(), min_size=1, max_size=5))
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_no_cycle_is_missed(stated: list[str]) -> None:
     source = parse(SIGNATURE + "\n".join(stated) + "\n")
     problems = Problems("laws")

@@ -37,7 +37,7 @@ def infer(*seen: list[str], known: Known | None = None) -> Inferred:
 
 
 @given(HISTORIES)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_the_quick_way_says_what_the_theory_says(history: list[list[str]]) -> None:
     known = Known()
     for seen in history:
@@ -52,7 +52,7 @@ def test_the_quick_way_says_what_the_theory_says(history: list[list[str]]) -> No
 
 
 @given(HISTORIES)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_step_by_step_or_all_at_once(history: list[list[str]]) -> None:
     known: Known | None = Known()
     for seen in history:

@@ -79,7 +79,7 @@ sizes = st.builds(
 
 
 @given(sizes)
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_cells_of_a_room_are_a_grid(size: LevelSize) -> None:
     found = refinement(size)
     near = neighbours(found, "fine_next_to")
@@ -92,7 +92,7 @@ def test_the_cells_of_a_room_are_a_grid(size: LevelSize) -> None:
 
 
 @given(sizes)
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_rooms_are_a_row(size: LevelSize) -> None:
     rooms = [f"room{n}" for n in range(1, size.rooms + 1)]
     near = neighbours(refinement(size), "next_to")

@@ -84,7 +84,7 @@ def sources(draw: st.DrawFn) -> str:
 NEVER = "fluents\n inertial p. inertial q.\nactions\n agent a.\nlaws\n a causes p.\n -p if p.\n"
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 @example(NEVER)
 @example(NEVER + " -p if q. -q if p.\n")
 @given(sources())

@@ -59,7 +59,7 @@ TOGETHER = ["a causes f.", "b causes -f.", "e causes g.", "impossible a, e if k.
 @example(UNDETERMINED)
 @example(CLOSED_WORLD)
 @example(TOGETHER)
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 @given(st.lists(laws(), min_size=1, max_size=9))
 def test_a_random_world_is_the_programs(drawn: list[str]) -> None:
     text = HEADER + "\n".join(f"  {law}" for law in drawn) + "\n"

@@ -31,7 +31,6 @@ def test_holms_correction_of_four_known_values() -> None:
     assert holm([]) == []
 
 
-@settings(deadline=None)
 @given(P_VALUES)
 def test_holm_lies_between_no_correction_and_bonferronis(p_values: list[float]) -> None:
     corrected = holm(p_values)
@@ -41,7 +40,6 @@ def test_holm_lies_between_no_correction_and_bonferronis(p_values: list[float]) 
     assert all(one[1] <= other[1] for one, other in pairwise(in_order))
 
 
-@settings(deadline=None)
 @given(P_VALUES, st.floats(0.01, 0.2))
 def test_holm_rejects_what_the_step_down_rule_rejects(p_values: list[float], level: float) -> None:
     rejected = set()
@@ -86,7 +84,7 @@ def test_where_all_are_right_the_interval_is_the_exact_one() -> None:
 
 
 @pytest.mark.parametrize("estimate", ESTIMATES)
-@settings(deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(sample=st.lists(st.integers(0, 1), min_size=1, max_size=20), copies=st.integers(2, 5))
 def test_repeats_that_say_nothing_new_make_no_interval_narrower(
     estimate: Callable[..., Estimate | None], sample: list[int], copies: int
@@ -127,7 +125,7 @@ def test_a_cluster_is_drawn_in_all_of_its_strata_at_once() -> None:
     assert apart.low < -1.0 < 1.0 < apart.high
 
 
-@settings(deadline=None, max_examples=50)
+@settings(max_examples=50)
 @given(st.data())
 def test_the_median_of_a_resample_is_that_of_its_values(data: st.DataObject) -> None:
     values = data.draw(st.lists(st.integers(-5, 5), min_size=1, max_size=12))
@@ -167,7 +165,6 @@ def test_mcnemars_test_looks_at_the_pairs_that_differ() -> None:
     assert mcnemar(first, first) is None
 
 
-@settings(deadline=None)
 @given(st.lists(st.integers(-9, 9), min_size=1, max_size=30))
 def test_the_effect_is_favourable_ranks_less_unfavourable(values: list[int]) -> None:
     test = signed_rank(np.array(values, dtype=float))
@@ -194,7 +191,7 @@ def test_a_rounded_value_may_lie_half_a_digit_outside() -> None:
     assert not estimate.covers(0.89, 0.005)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(st.lists(st.integers(-4, 4), min_size=1, max_size=15), st.integers(2, 5))
 def test_repeats_that_say_nothing_new_make_no_test_surer(values: list[int], copies: int) -> None:
     own, labels = np.array(values, dtype=float), range(len(values))
@@ -221,7 +218,7 @@ def test_what_goes_both_ways_in_each_cluster_is_no_difference_of_clusters() -> N
     assert (shares.p, shares.effect) == (1.0, 0.0)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.data())
 def test_in_a_test_a_weight_is_as_so_many_copies(data: st.DataObject) -> None:
     rows = data.draw(

@@ -6,7 +6,7 @@ import random
 from collections.abc import Callable, Sequence
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
@@ -117,7 +117,7 @@ def test_it_goes_and_looks_where_it_assumes_its_goal_to_hold() -> None:
     assert all(set(d.trace.belief) <= set(WORLD.fluents) for d in life.decisions)
 
 
-@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=8)
 @given(
     initial=st.sampled_from(STATES),
     goal=st.sampled_from([_both_in("kitchen"), APART, ("-loc(book2,office2)",)]),

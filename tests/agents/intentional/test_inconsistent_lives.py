@@ -8,7 +8,7 @@ from functools import cache
 from itertools import chain, combinations
 
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.kept import KeptLogician
@@ -136,7 +136,7 @@ def _found(account: Account) -> Iterator[Statement] | None:
     return None if texts is None else (by_text[text] for text in texts)
 
 
-careful = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+careful = settings(max_examples=60)
 
 
 @careful

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
@@ -36,7 +36,7 @@ wishes = st.dictionaries(
     st.builds(Wish, st.integers(0, 12), st.booleans(), st.booleans(), st.integers(0, 3)),
     max_size=3,
 )
-slow = settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+slow = settings(max_examples=8)
 
 
 def _numbers(explained: Explained | None) -> tuple[int, int]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
@@ -60,19 +60,19 @@ wishes = st.dictionaries(
 )
 
 
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=12)
 @given(initial=st.sampled_from(STATES), wishes=wishes)
 def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wish]) -> None:
     live(IntentionalRobot(Both), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
 
 
-@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=8)
 @given(initial=st.sampled_from(STATES), wishes=wishes)
 def test_whatever_is_folded(initial: int, wishes: dict[int, Wish]) -> None:
     live(IntentionalRobot(BothFolded), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
 
 
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=12)
 @given(
     initial=st.sampled_from(STATES),
     goal=st.lists(st.sampled_from(GOAL_LITERALS), min_size=1, max_size=2),

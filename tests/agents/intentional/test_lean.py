@@ -34,7 +34,7 @@ WISHES = st.dictionaries(
 
 
 @given(st.sampled_from(STATES), st.lists(st.sampled_from(GOALS), min_size=1, max_size=2), WISHES)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_decisions_are_those_of_the_whole_task(
     initial: int, goal: list[str], wishes: dict[int, Wish]
 ) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot
@@ -28,7 +28,7 @@ wishes = st.dictionaries(
     st.builds(Wish, st.integers(0, 12), st.booleans(), st.booleans(), st.integers(0, 3)),
     max_size=2,
 )
-slow = settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+slow = settings(max_examples=8)
 
 
 @slow

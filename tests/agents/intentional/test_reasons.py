@@ -6,7 +6,7 @@ from itertools import combinations
 
 import clingo
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
@@ -85,7 +85,7 @@ def test_news_that_cannot_be_true_contradicts_what_makes_it_impossible() -> None
     )
 
 
-@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=8)
 @given(
     steps=st.integers(1, 4),
     seen=st.sampled_from(
@@ -199,7 +199,7 @@ def _reachable(world: World, start: int) -> set[int]:
     return found
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     start=st.sampled_from(list(WORLD.initial_states())),
     goal=st.lists(st.sampled_from(LITERALS), min_size=1, max_size=3),

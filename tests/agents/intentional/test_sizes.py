@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
@@ -37,7 +37,7 @@ def some_state(place: Place, seed: int) -> int:
 
 
 @pytest.mark.parametrize("place", [SMALL, TREE, TWO_LOCKS], ids=["small", "tree", "two locks"])
-@settings(max_examples=4, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=4)
 @given(seed=st.integers(0, 1_000), wanted=st.integers(1, 2), wishes=wishes)
 def test_every_decision_is_the_same_in_any_office(
     place: Place, seed: int, wanted: int, wishes: dict[int, Wish]

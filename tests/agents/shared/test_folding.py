@@ -6,7 +6,7 @@ import copy
 from dataclasses import replace
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.shared.believing import Believer
@@ -79,7 +79,7 @@ def _compare_others(
 
 
 @pytest.mark.parametrize("name", sorted(PLACES))
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=15)
 @given(
     seed=st.integers(0, 10**6),
     event=st.sampled_from([0.05, 0.15]),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.kept import KeptLogician
@@ -51,13 +51,13 @@ wishes = st.dictionaries(
 )
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=15)
 @given(initial=st.sampled_from(STATES), wishes=wishes)
 def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wish]) -> None:
     live(TraditionalRobot(Both), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
 
 
-@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=10)
 @given(
     initial=st.sampled_from(STATES),
     goal=st.lists(st.sampled_from(GOAL_LITERALS), min_size=1, max_size=2),

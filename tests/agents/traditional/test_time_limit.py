@@ -63,7 +63,7 @@ class HurriedRobot(TraditionalRobot):
         return self.planner
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(calls=st.sets(st.integers(1, 12), max_size=6))
 def test_it_does_what_it_would_have_done_only_later(calls: set[int]) -> None:
     robot = HurriedRobot(*calls)

@@ -162,7 +162,7 @@ def questions(draw: st.DrawFn) -> tuple[str, Transition, list[str]]:
 
 class TestRelevance:
     @given(questions())
-    @settings(max_examples=200, deadline=None)
+    @settings(max_examples=200)
     def test_it_is_the_least_set_closed_under_the_five_rules(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
@@ -192,7 +192,7 @@ class TestRelevance:
 
 class TestZoomedDescriptions:
     @given(questions())
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=60)
     def test_the_restricted_transition_is_one_of_the_zoomed_coarse_description(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
@@ -211,7 +211,7 @@ class TestZoomedDescriptions:
         assert found == {after}
 
     @given(questions())
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=60)
     def test_the_zoomed_fine_description_is_about_the_components_and_nothing_else(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
@@ -229,7 +229,7 @@ class TestZoomedDescriptions:
             assert (symbol in zoomed.symbols) == written
 
     @given(questions())
-    @settings(max_examples=40, deadline=None)
+    @settings(max_examples=40)
     def test_looking_facts_up_finds_those_that_a_restriction_of_all_leaves(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
@@ -245,7 +245,7 @@ class TestZoomedDescriptions:
             assert lines == sorted(lines)
 
     @given(questions())
-    @settings(max_examples=30, deadline=None)
+    @settings(max_examples=30)
     def test_clingo_accepts_the_zoomed_programs_without_a_warning(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
@@ -260,7 +260,7 @@ class TestZoomedDescriptions:
             assert warnings_of(translate_source(source, signature(source))) == []
 
     @given(questions())
-    @settings(max_examples=60, deadline=None)
+    @settings(max_examples=60)
     def test_a_comment_stays_with_what_it_was_said_of(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
@@ -279,7 +279,7 @@ def pairs(source: syntax.Source) -> list[tuple[str, str]]:
 
 class TestFineGoals:
     @given(questions())
-    @settings(max_examples=100, deadline=None)
+    @settings(max_examples=100)
     def test_it_says_all_that_is_so_afterwards_of_relevant_constants(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
@@ -294,7 +294,7 @@ class TestFineGoals:
                 assert not {fluent, complement(fluent)}.intersection(found.literals)
 
     @given(questions())
-    @settings(max_examples=100, deadline=None)
+    @settings(max_examples=100)
     def test_every_change_of_an_inertial_fluent_is_an_effect(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:

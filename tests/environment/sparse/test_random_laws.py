@@ -91,7 +91,7 @@ WAVERING = ["lit(X) if on(X).", "-on(X) if -lit(X).", "e(X) causes on(X)."]
 @example(WAVERING)
 @example(PLACES)
 @example(EVERYWHERE)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(laws(), min_size=2, max_size=8))
 def test_laws_with_variables(drawn: list[str]) -> None:
     agree(HEADER + "\n".join(f"  {law}" for law in drawn) + "\n" + FOOTER)
@@ -102,7 +102,7 @@ def test_laws_with_variables(drawn: list[str]) -> None:
 @example(UNDETERMINED)
 @example(CLOSED_WORLD)
 @example(TOGETHER)
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.lists(propositional(), min_size=1, max_size=9))
 def test_laws_without_variables(drawn: list[str]) -> None:
     agree(PROPOSITIONS + "\n".join(f"  {law}" for law in drawn) + "\n")

@@ -186,7 +186,7 @@ def _trials(draw: st.DrawFn) -> list[TrialRecord]:
     return records[: draw(st.sampled_from([1, 2, 2, 2]))]
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(st.lists(_trials(), min_size=1, max_size=12))
 def test_whatever_comes_of_pairs_both_count_the_same(trials: list[list[TrialRecord]]) -> None:
     both = [a_record("i", scenario="6"), a_record("t", scenario="6", robot="traditional")]

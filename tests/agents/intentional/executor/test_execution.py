@@ -218,7 +218,7 @@ LIES = st.sets(
 
 
 @given(STARTS, LIES)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_no_cell_is_searched_twice_unless_something_changed(
     places: tuple[str, str, str], lies: set[tuple[str, int]]
 ) -> None:
