@@ -26,8 +26,8 @@ class Reading(NamedTuple):
     preparation_cpu: float = 0.0
 
     def since(self, earlier: Reading) -> Reading:
-        """What was spent between the two."""
-        return Reading(*(now - before for now, before in zip(self, earlier, strict=True)))
+        """What was spent between the two: not less than nothing, as rounding would have it."""
+        return Reading(*(max(0.0, now - then) for now, then in zip(self, earlier, strict=True)))
 
 
 class _Prepared(threading.local):

@@ -5,10 +5,11 @@ Steps are the environment's: 0 is the selection of the goal, the robot's first a
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import msgspec
 
+from testbed.link.bounds import Count
 from testbed.link.messages import Minimality
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
@@ -30,11 +31,16 @@ TIMES = (
     "infer_cpu_s",
 )
 
+MOST_BYTES = 4 * 2**20
+"""Of one record as a line."""
+Total: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1e15)]
+"""A finite sum of seconds."""
+
 
 class Attempt(msgspec.Struct):
     """A physical action of the robot, and whether it took effect."""
 
-    step: int
+    step: Count
     action: str
     happened: bool
 
@@ -42,7 +48,7 @@ class Attempt(msgspec.Struct):
 class Occurrence(msgspec.Struct):
     """An exogenous action that happened, and whether the robot was told of it, if only later."""
 
-    step: int
+    step: Count
     action: str
     observed: bool
 
@@ -50,8 +56,8 @@ class Occurrence(msgspec.Struct):
 class Report(msgspec.Struct):
     """News that reached the robot at step `told`: that `action` happened at `step`; is it true?"""
 
-    told: int
-    step: int
+    told: Count
+    step: Count
     action: str
     true: bool
 
@@ -59,14 +65,14 @@ class Report(msgspec.Struct):
 class At(msgspec.Struct):
     """An action at a step."""
 
-    step: int
+    step: Count
     action: str
 
 
 class Contradicted(msgspec.Struct):
     """What was observed at a step, and what was believed of it."""
 
-    step: int
+    step: Count
     observed: str
     believed: str
 
@@ -79,12 +85,12 @@ class Explained(msgspec.Struct):
     `unproved` where the budget of the decision did not suffice to rule out a smaller one.
     """
 
-    step: int
+    step: Count
     unobserved: list[At]
     exceptions: list[str]
     distrusted: list[At] = []
     contradictions: list[Contradicted] = []
-    alternatives: int = 0
+    alternatives: Count = 0
     more_alternatives: bool = False
     minimal: Minimality = "proved"
 
@@ -95,11 +101,11 @@ class Activity(msgspec.Struct):
     With the stop come the first step at which the rest of the plan would have failed, and why.
     """
 
-    name: int
-    start: int
+    name: Count
+    start: Count
     plan: list[str]
-    stop: int | None = None
-    futile_at: int | None = None
+    stop: Count | None = None
+    futile_at: Count | None = None
     reason: str | None = None
 
 
@@ -110,13 +116,13 @@ class FineCounts(msgspec.Struct):
     observations, both by the wall clock; `planning_cpu_s` and `infer_cpu_s` in process time.
     """
 
-    plans: int = 0
-    actions: int = 0
-    tests: int = 0
-    planning_time_s: float = 0.0
-    infer_time_s: float = 0.0
-    planning_cpu_s: float = 0.0
-    infer_cpu_s: float = 0.0
+    plans: Count = 0
+    actions: Count = 0
+    tests: Count = 0
+    planning_time_s: Total = 0.0
+    infer_time_s: Total = 0.0
+    planning_cpu_s: Total = 0.0
+    infer_cpu_s: Total = 0.0
 
 
 class TrialRecord(msgspec.Struct, kw_only=True):
@@ -148,28 +154,28 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     achieved: bool = False
     finished: bool = False
     correct: bool = False
-    minimal_actions: int | None = None
-    minimal_units: int | None = None
+    minimal_actions: Count | None = None
+    minimal_units: Count | None = None
     outcome: Outcome = "error"
     reason: str | None = None
     cause: Cause | None = None
-    steps: int = 0
+    steps: Count = 0
     actions: list[Attempt] = []
     exogenous: list[Occurrence] = []
     reports: list[Report] = []
     explanations: list[Explained] = []
     mental: list[At] = []
     activities: list[Activity] = []
-    plans: int = 0
-    action_count: int = 0
-    execution_units: int = 0
-    planning_time_s: float = 0.0
-    diagnosis_time_s: float = 0.0
-    reasoning_time_s: float = 0.0
-    wall_time_s: float = 0.0
-    planning_cpu_s: float = 0.0
-    diagnosis_cpu_s: float = 0.0
-    preparation_cpu_s: float = 0.0
+    plans: Count = 0
+    action_count: Count = 0
+    execution_units: Count = 0
+    planning_time_s: Total = 0.0
+    diagnosis_time_s: Total = 0.0
+    reasoning_time_s: Total = 0.0
+    wall_time_s: Total = 0.0
+    planning_cpu_s: Total = 0.0
+    diagnosis_cpu_s: Total = 0.0
+    preparation_cpu_s: Total = 0.0
     fine: FineCounts | None = None
     in_reach: bool | None = None
     deadline: bool = False
@@ -178,6 +184,15 @@ class TrialRecord(msgspec.Struct, kw_only=True):
 def encode(record: TrialRecord) -> bytes:
     """The record as one line of JSON, newline included."""
     return msgspec.json.encode(record) + b"\n"
+
+
+def check(record: TrialRecord) -> None:
+    """Raise msgspec.ValidationError unless the record can be written and read again."""
+    line = encode(record)
+    if len(line) > MOST_BYTES:
+        message = f"a record of {len(line)} bytes; {MOST_BYTES} are the most"
+        raise msgspec.ValidationError(message)
+    decode(line)
 
 
 def decode(line: bytes) -> TrialRecord:

@@ -19,6 +19,7 @@ from testbed.experiment.record import (
     Report,
     TrialRecord,
 )
+from testbed.link.bounds import shortened
 from testbed.link.messages import Decision, Event, Explanation, FineTrace, Trace
 
 
@@ -135,7 +136,7 @@ class Recorder:
     def fail(self, outcome: Outcome, reason: str, cause: Cause) -> None:
         """The trial could not be played to its end."""
         self.record.outcome = outcome
-        self.record.reason, self.record.cause = reason, cause
+        self.record.reason, self.record.cause = shortened(reason), cause
 
 
 def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:

@@ -13,12 +13,12 @@ import numpy as np
 from testbed.environment.core import NONE, Core
 from testbed.environment.errors import IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
-from testbed.experiment.record import FineCounts, TrialRecord
+from testbed.experiment.record import FineCounts, TrialRecord, check
 from testbed.experiment.recorder import FineRecorder, Recorder
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.stage import load_stage
 from testbed.link.errors import RobotGone, RobotLost, RobotStopped
-from testbed.link.exchange import in_one_line
+from testbed.link.exchange import NOT_UNDERSTOOD, in_one_line
 from testbed.link.messages import Decision, Percept
 from testbed.link.robot import RobotClient
 
@@ -46,6 +46,8 @@ class Result(msgspec.Struct):
     details: str | None = None
 
 
+MOST_DETAILS = 100_000
+"""Characters of what is known of a failure; of more the end is kept."""
 Watch = Callable[[Moment], None]
 
 
@@ -67,8 +69,19 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
     except Exception as error:  # whatever it is, it is this trial's outcome and not the run's
         recorder.fail("error", in_one_line(error), "testbed")
         details = traceback.format_exc()
+    recorder = _checked(recorder, spec)
     recorder.record.wall_time_s = time.perf_counter() - started
-    return Result(recorder.record, details)
+    return Result(recorder.record, details and details[-MOST_DETAILS:])
+
+
+def _checked(recorder: Recorder, spec: TrialSpec) -> Recorder:
+    """The recorder, or where its record cannot be written one that says so and is else empty."""
+    try:
+        check(recorder.record)
+    except msgspec.ValidationError as error:
+        recorder = _recorder(spec)
+        recorder.fail("robot_lost", f"{NOT_UNDERSTOOD}: {error}", "robot")
+    return recorder
 
 
 def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:

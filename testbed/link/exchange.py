@@ -5,9 +5,13 @@ driver's side (:func:`read_decision`) accepts nothing but the decision it asked 
 and over zenoh both are the same.
 """
 
+from testbed.link.bounds import MOST_BYTES, shortened
 from testbed.link.errors import LinkError, RobotLost, RobotStopped, RobotStops
 from testbed.link.messages import Decision, Percept, Question, Task, Trace, decode, encode
 from testbed.link.robot import Robot, RobotFactory
+
+NOT_UNDERSTOOD = "answer not understood"
+"""How the reason begins where a robot is lost for the form of what it said."""
 
 
 class Desk:
@@ -32,7 +36,7 @@ class Desk:
         try:
             return encode(robot.act(percept))
         except RobotStops as reason:
-            return encode(_stopped(percept, str(reason)))
+            return encode(_stopped(percept, shortened(str(reason))))
 
     def _begin(self, task: Task) -> None:
         self._trial, self._robot = task.trial, None
@@ -49,13 +53,15 @@ class Desk:
 def read_decision(payload: bytes, percept: Percept) -> Decision:
     """Return the decision in an answer to ``percept``.
 
-    Raises RobotLost when it is not understood, or belongs to another trial or step, and
+    Raises RobotLost when it is not understood, too long, or belongs to another trial or step, and
     RobotStopped when the robot does not go on.
     """
+    if len(payload) > MOST_BYTES:
+        raise RobotLost(f"{NOT_UNDERSTOOD}: {len(payload)} bytes; {MOST_BYTES} are the most")
     try:
         decision = decode(payload, Decision)
     except LinkError as error:
-        raise RobotLost(f"answer not understood: {error}") from error
+        raise RobotLost(f"{NOT_UNDERSTOOD}: {error}") from error
     given, asked = (decision.trial, decision.step), (percept.trial, percept.step)
     if given != asked:
         raise RobotLost(f"answer is for {_place(*given)}, the question was for {_place(*asked)}")
@@ -66,12 +72,12 @@ def read_decision(payload: bytes, percept: Percept) -> Decision:
 
 def in_one_line(error: Exception) -> str:
     """Return what an exception says: of a robot's, what travels to the driver."""
-    return " ".join(f"{type(error).__name__}: {error}".split())
+    return shortened(" ".join(f"{type(error).__name__}: {error}".split()))
 
 
 def failed(text: str, details: str = "") -> RobotLost:
     """Return the loss of a robot that raised an exception with this text."""
-    return RobotLost(f"robot failed: {text}", details)
+    return RobotLost(shortened(f"robot failed: {' '.join(text.split())}"), details)
 
 
 def _stopped(percept: Percept, reason: str) -> Decision:

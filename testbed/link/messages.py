@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
 
+from testbed.link.bounds import Count, Items, Mental, Seconds, Text
 from testbed.link.errors import LinkError
 
 PROTOCOL_VERSION = 1
@@ -55,8 +56,8 @@ class Task(Part, frozen=True, kw_only=True):
 class Event(Part, frozen=True, kw_only=True):
     """An action at a step of the history."""
 
-    step: int
-    action: str
+    step: Count
+    action: Text
 
 
 class Percept(Part, frozen=True, kw_only=True):
@@ -93,10 +94,10 @@ class Explanation(Part, frozen=True, kw_only=True):
     the budget of the decision was used up before a smaller explanation was ruled out.
     """
 
-    step: int
-    unobserved: list[Event]
-    exceptions: list[str]
-    distrusted: list[Event] = []
+    step: Count
+    unobserved: Items[Event]
+    exceptions: Items[Text]
+    distrusted: Items[Event] = []
     minimal: Minimality = "proved"
 
 
@@ -107,9 +108,9 @@ class Contradiction(Part, frozen=True, kw_only=True):
     where it did not happen, or ``impossible(ACTION)``.
     """
 
-    step: int
-    observed: str
-    believed: str
+    step: Count
+    observed: Text
+    believed: Text
 
 
 class FineTrace(Part, frozen=True, kw_only=True):
@@ -129,22 +130,22 @@ class FineTrace(Part, frozen=True, kw_only=True):
     are the same in process time.
     """
 
-    abstract: str = ""
-    begun: int | None = None
-    zoomed: list[str] = []
-    plan: list[str] = []
-    plans: int = 0
-    actions: int = 0
-    tests: int = 0
-    committed: list[str] = []
-    failed: str = ""
-    ended: str = ""
-    inferred: list[str] = []
+    abstract: Text = ""
+    begun: Count | None = None
+    zoomed: Items[Text] = []
+    plan: Items[Text] = []
+    plans: Count = 0
+    actions: Count = 0
+    tests: Count = 0
+    committed: Items[Text] = []
+    failed: Text = ""
+    ended: Text = ""
+    inferred: Items[Text] = []
     happened: bool | None = None
-    planning_time_s: float = 0.0
-    infer_time_s: float = 0.0
-    planning_cpu_s: float = 0.0
-    infer_cpu_s: float = 0.0
+    planning_time_s: Seconds = 0.0
+    infer_time_s: Seconds = 0.0
+    planning_cpu_s: Seconds = 0.0
+    infer_cpu_s: Seconds = 0.0
 
 
 class Trace(Part, frozen=True, kw_only=True):
@@ -167,23 +168,23 @@ class Trace(Part, frozen=True, kw_only=True):
     one, empty in the steps between the first and the last of an abstract action.
     """
 
-    mental: str | None = None
-    intention: str = ""
-    activity: int | None = None
-    plan: list[str] = []
-    belief: list[str] = []
+    mental: Mental | None = None
+    intention: Text = ""
+    activity: Count | None = None
+    plan: Items[Text] = []
+    belief: Items[Text] = []
     explanation: Explanation | None = None
-    contradictions: list[Contradiction] = []
-    alternatives: list[Explanation] = []
+    contradictions: Items[Contradiction] = []
+    alternatives: Items[Explanation] = []
     more_alternatives: bool = False
-    futile_at: int | None = None
-    reason: str = ""
-    plans: int = 0
-    planning_time_s: float = 0.0
-    diagnosis_time_s: float = 0.0
-    planning_cpu_s: float = 0.0
-    diagnosis_cpu_s: float = 0.0
-    preparation_cpu_s: float = 0.0
+    futile_at: Count | None = None
+    reason: Text = ""
+    plans: Count = 0
+    planning_time_s: Seconds = 0.0
+    diagnosis_time_s: Seconds = 0.0
+    planning_cpu_s: Seconds = 0.0
+    diagnosis_cpu_s: Seconds = 0.0
+    preparation_cpu_s: Seconds = 0.0
     deadline: bool = False
     fine: FineTrace | None = None
 
@@ -194,12 +195,12 @@ class Decision(Message, frozen=True, kw_only=True):
     ``stopped`` is the reason, in one line, of a robot that cannot go on: the trial is over then.
     """
 
-    trial: str
-    step: int
-    action: str
+    trial: Text
+    step: Count
+    action: Text
     believes_goal: bool
     trace: Trace
-    stopped: str | None = None
+    stopped: Text | None = None
 
 
 class _Envelope(msgspec.Struct):
@@ -223,12 +224,12 @@ def decode(payload: bytes, kind: type[M]) -> M:
     """Return the message of type ``kind`` in ``payload``.
 
     Raises LinkError, with one line that says what is wrong, for another protocol version or for
-    anything that is not a message of this type.
+    anything that is not a message of this type within its bounds.
     """
     try:
         _check_version(_envelope.decode(payload).version)
         return msgspec.msgpack.decode(payload, type=kind)
-    except (msgspec.DecodeError, UnicodeDecodeError) as error:
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise LinkError(f"not a {kind.__name__}: {error}") from error
 
 

@@ -99,6 +99,9 @@ BEHAVIOURS: dict[str, Callable[[Percept], Any]] = {
     "newer": lambda percept: decision(percept, version=2),
     "late": lambda percept: decision(percept, step=percept.step - 1),
     "elsewhere": lambda percept: decision(percept, trial="another"),
+    "timeless": lambda percept: decision(percept, trace=Trace(planning_time_s=float("nan"))),
+    "nested": lambda _: msgspec.Raw(b"\x82\xa7version\x01\xa5trace" + b"\x91" * 10**6 + b"\xc0"),
+    "verbose": lambda percept: decision(percept, action="x" * 10**7),
 }
 
 

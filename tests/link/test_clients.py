@@ -15,6 +15,9 @@ FAULTS = {
     "newer": "answer not understood: protocol version 2, understood is 1",
     "late": "answer is for step 0 of trial t1, the question was for step 1 of trial t1",
     "elsewhere": "answer is for step 1 of trial another, the question was for step 1 of trial t1",
+    "timeless": "answer not understood: not a Decision: ",
+    "nested": "answer not understood: not a Decision: ",
+    "verbose": "answer not understood: ",
     "unheard_of": "robot failed: KeyError: 'unheard_of'",
 }
 

@@ -27,7 +27,11 @@ pytestmark = pytest.mark.versions
 TEXT = st.text()
 TEXTS = st.lists(TEXT)
 WHOLE = st.integers(-(2**63), 2**64 - 1)
-SECONDS = st.floats(allow_nan=False)
+COUNT = st.integers(0, 2**31 - 1)
+SECONDS = st.floats(0.0, 1e9)
+MENTAL = st.from_regex(
+    r"(start|stop)\([0-9]{1,9}\)", fullmatch=True, alphabet=st.characters(codec="ascii")
+)
 MAYBE = st.none() | st.booleans()
 
 TASKS = st.builds(
@@ -41,11 +45,11 @@ TASKS = st.builds(
     plan_limit=WHOLE,
     seed=WHOLE,
 )
-EVENTS = st.builds(Event, step=WHOLE, action=TEXT)
+EVENTS = st.builds(Event, step=COUNT, action=TEXT)
 PERCEPTS = st.builds(
     Percept,
     trial=TEXT,
-    step=WHOLE,
+    step=COUNT,
     visible=TEXTS,
     attempted=st.none() | TEXT,
     happened=MAYBE,
@@ -53,33 +57,33 @@ PERCEPTS = st.builds(
     goal_holds=MAYBE,
 )
 QUESTIONS = st.builds(Question, percept=PERCEPTS, task=st.none() | TASKS)
-EXPLANATIONS = st.builds(Explanation, step=WHOLE, unobserved=st.lists(EVENTS), exceptions=TEXTS)
+EXPLANATIONS = st.builds(Explanation, step=COUNT, unobserved=st.lists(EVENTS), exceptions=TEXTS)
 FINE = st.builds(
     FineTrace,
     abstract=TEXT,
-    begun=st.none() | WHOLE,
+    begun=st.none() | COUNT,
     plan=TEXTS,
-    plans=WHOLE,
+    plans=COUNT,
     happened=MAYBE,
     planning_time_s=SECONDS,
 )
 TRACES = st.builds(
     Trace,
     fine=st.none() | FINE,
-    mental=st.none() | TEXT,
+    mental=st.none() | MENTAL,
     intention=TEXT,
-    activity=st.none() | WHOLE,
+    activity=st.none() | COUNT,
     plan=TEXTS,
     belief=TEXTS,
     explanation=st.none() | EXPLANATIONS,
-    futile_at=st.none() | WHOLE,
+    futile_at=st.none() | COUNT,
     reason=TEXT,
-    plans=WHOLE,
+    plans=COUNT,
     planning_time_s=SECONDS,
     diagnosis_time_s=SECONDS,
 )
 DECISIONS = st.builds(
-    Decision, trial=TEXT, step=WHOLE, action=TEXT, believes_goal=st.booleans(), trace=TRACES
+    Decision, trial=TEXT, step=COUNT, action=TEXT, believes_goal=st.booleans(), trace=TRACES
 )
 
 
