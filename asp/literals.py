@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
 
@@ -36,3 +36,9 @@ def ground(name: str, args: Iterable[str]) -> str:
     """The atom of a name and its argument constants."""
     inside = ",".join(args)
     return f"{name}({inside})" if inside else name
+
+
+def renamed(literal: str, names: Mapping[str, str]) -> str:
+    """The literal or action with other names for its constants; one without keeps its own."""
+    constants = (names.get(constant, constant) for constant in arguments(literal))
+    return ("" if is_positive(literal) else "-") + ground(name(literal), constants)

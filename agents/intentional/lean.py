@@ -8,19 +8,17 @@ and share what is kept of it in a process.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import lru_cache
-from typing import Any
 
-import msgspec
 from msgspec import structs
 
+from agents.intentional.renamed import renamed_decision, renamed_event
 from asp import syntax
 from asp.description import Description
 from asp.kept.clock import preparation
 from asp.kept.independence import Independence
-from asp.literals import arguments, atom, is_positive
+from asp.literals import arguments, atom, is_positive, renamed
 from asp.loading import analyse, parse_description
 from asp.restriction import restrict
 from asp.writing import text_of
@@ -40,7 +38,6 @@ _SECTIONS: Mapping[type[syntax.Statement], str] = {
 _DECLARED = {"static": "statics", "inertial": "fluents", "defined": "fluents"}
 # They say nothing of the transition diagram, nor of what is seen of it.
 _SILENT = (syntax.CostStatement, syntax.TriggerStatement, syntax.QuietStatement)
-_WORD = re.compile(r"\w+")
 
 
 class Leaned:
@@ -64,11 +61,15 @@ class Leaned:
 
     def seen(self, literals: Iterable[str]) -> list[str]:
         """Literals or actions in the names of the task that is left; the others are left out."""
-        return [_renamed(text, self._there) for text in literals if self.is_about(text)]
+        return [renamed(text, self._there) for text in literals if self.is_about(text)]
 
     def back(self, literals: Iterable[str]) -> list[str]:
-        """Literals, actions or constants of the task that is left, in their own names."""
-        return [_renamed(literal, self._back) for literal in literals]
+        """Literals or actions of the task that is left, in their own names."""
+        return [renamed(literal, self._back) for literal in literals]
+
+    def constant(self, left: str) -> str:
+        """A constant of the task that is left, in its own name."""
+        return self._back.get(left, left)
 
     def is_about(self, literal: str) -> bool:
         """Whether a literal or action names nothing that is left out."""
@@ -80,9 +81,9 @@ class Leaned:
         return structs.replace(
             percept,
             visible=self.seen(percept.visible),
-            attempted=None if attempted is None else _renamed(attempted, self._there),
+            attempted=None if attempted is None else renamed(attempted, self._there),
             events=[
-                structs.replace(event, action=_renamed(event.action, self._there))
+                renamed_event(event, self._there)
                 for event in percept.events
                 if self.is_about(event.action)
             ],
@@ -92,8 +93,7 @@ class Leaned:
         """A decision in the names of the whole task."""
         if all(old == new for old, new in self._back.items()):
             return decision
-        told = _everywhere(lambda text: _renamed(text, self._back), msgspec.to_builtins(decision))
-        return msgspec.convert(told, Decision)
+        return renamed_decision(decision, self._back)
 
 
 class LeanRobot:
@@ -183,16 +183,3 @@ def _section(statement: syntax.Statement) -> str:
     if isinstance(statement, syntax.Declaration):
         return _DECLARED.get(statement.kind, "actions")
     return _SECTIONS[type(statement)]
-
-
-def _renamed(text: str, names: Mapping[str, str]) -> str:
-    return _WORD.sub(lambda found: names.get(found[0], found[0]), text)
-
-
-def _everywhere(change: Callable[[str], str], told: Any) -> Any:
-    """Built-in values with every text in them changed."""
-    if isinstance(told, str):
-        return change(told)
-    if isinstance(told, dict):
-        return {key: _everywhere(change, value) for key, value in told.items()}
-    return [_everywhere(change, each) for each in told] if isinstance(told, list) else told

@@ -11,7 +11,7 @@ from itertools import product
 from asp import syntax
 from asp.kept.compact import compact
 from asp.kept.parts import BASE, OPEN, STATE, STEP, Rule, plain
-from asp.literals import arguments, ground, is_positive, name
+from asp.literals import arguments, ground, renamed
 from asp.signature import Signature
 
 
@@ -39,14 +39,14 @@ class Narrow:
     def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
         """Those of the literals that name nothing else, in canonical names."""
         return tuple(
-            _renamed(literal, self.names)
+            renamed(literal, self.names)
             for literal in literals
             if all(constant in self.names for constant in arguments(literal))
         )
 
     def back(self, actions: Iterable[str]) -> tuple[str, ...]:
         """Actions in the names of the description."""
-        return tuple(_renamed(action, self._back) for action in actions)
+        return tuple(renamed(action, self._back) for action in actions)
 
 
 class Narrower:
@@ -111,8 +111,3 @@ class Narrower:
             if symbol.kind == "agent"
             for chosen in product(*(members[sort.name] for sort in symbol.sorts))
         ]
-
-
-def _renamed(literal: str, names: Mapping[str, str]) -> str:
-    sign = "" if is_positive(literal) else "-"
-    return sign + ground(name(literal), (names[constant] for constant in arguments(literal)))

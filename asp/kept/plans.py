@@ -11,7 +11,7 @@ from asp.kept.control import State
 from asp.kept.independence import Independence, symmetric_pairs
 from asp.kept.planner import Planner
 from asp.kept.recent import Recent
-from asp.literals import arguments, ground, is_positive, name
+from asp.literals import arguments, renamed
 from asp.loading import analyse, parse_description
 from asp.restriction import narrowed, restrict, without_exogenous
 from asp.translation import translate_source
@@ -98,16 +98,14 @@ class _View:
 
     def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
         """Those of the literals or actions that the problem is left with, in its names."""
-        return tuple(self._renamed(literal) for literal in literals if not self._drops(literal))
+        return tuple(
+            renamed(literal, self._names) for literal in literals if not self._drops(literal)
+        )
 
     def back(self, plan: tuple[str, ...]) -> tuple[str, ...]:
         """The plan in the names of the problem."""
         self._names = {new: old for old, new in self._names.items()}
-        return tuple(self._renamed(action) for action in plan)
+        return tuple(renamed(action, self._names) for action in plan)
 
     def _drops(self, literal: str) -> bool:
         return not self._spare.isdisjoint(arguments(literal))
-
-    def _renamed(self, literal: str) -> str:
-        constants = (self._names.get(constant, constant) for constant in arguments(literal))
-        return ("" if is_positive(literal) else "-") + ground(name(literal), constants)

@@ -20,7 +20,7 @@ class CoarseDiagram:
         description = self._knowledge.description
         self.fluents = tuple(leaned.back(description.fluents))
         self.inertial = tuple(leaned.back(description.inertial))
-        self.robot = leaned.back(description.robots)[0]
+        self.robot = leaned.constant(description.robots[0])
 
     def after(self, state: State, action: str | None, events: Iterable[str]) -> State | None:
         """The next state, where the action and the events occur together; None: they cannot."""

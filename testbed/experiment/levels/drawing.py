@@ -19,8 +19,10 @@ class Drawing:
         description = refinement.description
         self._world = fine_world(refinement)
         self._start = RandomStart(self._world, description.robots[0], config.draw.holding)
-        self._draw_goal = RandomGoal(self._world, config.draw.goal, description.sorts)
-        self._initial, self._goal = config.initial, config.goal
+        self._initial = config.initial
+        self._goal = config.goal
+        patterns, sorts = config.draw.goal, description.sorts
+        self._draw_goal = None if config.goal else RandomGoal(self._world, patterns, sorts)
 
     def trial(self, generator: np.random.Generator) -> Drawn:
         """The inertial atoms true at the start, and a goal that does not hold there."""
@@ -28,4 +30,5 @@ class Drawing:
         state = self._start(generator) if given is None else self._world.state(given)
         true = frozenset(self._world.true_atoms(state))
         inertial = true.intersection(self._world.description.inertial)
-        return tuple(sorted(inertial)), self._goal or self._draw_goal(state, generator)
+        draw = self._draw_goal
+        return tuple(sorted(inertial)), self._goal if draw is None else draw(state, generator)

@@ -1,0 +1,45 @@
+"""Domains and refinements of one's own, in files as a user has them, and their trials."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from testbed.config import load_config
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.registry import make_robot
+from testbed.experiment.trial import Moment, play_trial
+from testbed.link.inprocess import InProcessRobot
+
+
+@dataclass(frozen=True)
+class Own:
+    """A configuration in a folder of its own, with the domain and the refinement that it names."""
+
+    folder: Path
+    domain: str
+    refinement: str = ""
+
+    def write(self, **keys: Any) -> Path:
+        """The configuration's file, in which these keys are given."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / "own.al").write_text(self.domain, encoding="utf-8")
+        named: dict[str, Any] = {"name": "own", "domain": "own.al", "link": "inprocess"}
+        if self.refinement:
+            (self.folder / "own.fine").write_text(self.refinement, encoding="utf-8")
+            named |= {"refinement": "own.fine", "limit": 1}
+        file = self.folder / "own.yaml"
+        file.write_text(yaml.safe_dump({**named, "observability": {}, **keys}), encoding="utf-8")
+        return file
+
+    def play(self, **keys: Any) -> Iterator[tuple[TrialRecord, Sequence[Moment]]]:
+        """The trials one after the other, each with its steps. Raises ConfigError."""
+        client = InProcessRobot(make_robot)
+        for spec in plan_trials(load_config(self.write(**keys))):
+            moments: list[Moment] = []
+            yield play_trial(spec, client, moments.append).record, moments
