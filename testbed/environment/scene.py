@@ -92,7 +92,7 @@ def _place(
         marks={text.name(mark): mark in true for mark in marks},
         next_to=where.adjacent[name],
         cells=cells,
-        spots={where.wholes[part]: cell for part, cell in pairs(true) if cell in cells},
+        spots={where.wholes.get(t, t): cell for t, cell in pairs(true) if cell in cells},
     )
 
 

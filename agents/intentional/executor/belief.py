@@ -21,6 +21,8 @@ class FineBelief:
         self._refinement = refinement
         means = means_of(refinement)
         self._quick, self._theory = means.quick, means.theory
+        self._plain, self._carriers = means.plain, means.carriers
+        self._carrying: frozenset[str] = frozenset()
         self.known = Known()
         self.see(literals)
 
@@ -29,9 +31,26 @@ class FineBelief:
 
         What was known gives way to them; where that does not suffice, the least is forgotten.
         """
-        seen = list(literals)
-        after = self._quick.after(self.known, seen) if self._quick.is_enough else None
-        self.known = after or self._theory.infer(self.known, [seen], ()).known
+        seen, known = list(literals), self._with_carriers()
+        after = self._quick.after(known, seen) if self._quick.is_enough else None
+        after = after or self._theory.infer(known, [seen], ()).known
+        self.known = Known(after.true - self._plain, after.false - self._plain)
+
+    def suppose(self, plain: Collection[str]) -> None:
+        """Goes by these fluents without counterparts: of those that matter here others are false.
+
+        Where a thing is that has no components may follow from what carries it.
+        """
+        carrying = self._carriers.intersection(plain)
+        if carrying != self._carrying:
+            self._carrying = carrying
+            self.see(())
+
+    def _with_carriers(self) -> Known:
+        """What is known, of the fluents without counterparts that it depends on, too."""
+        known = self.known
+        idle = self._carriers - self._carrying
+        return Known(known.true | self._carrying, known.false | idle)
 
     def forget(self, literals: Iterable[str]) -> None:
         """Takes literals no longer for certain."""
@@ -46,7 +65,7 @@ class FineBelief:
         if self._quick.is_enough:
             return self._quick.is_false(self.known, fluent)
         about = {self._refinement.wholes[part] for part in arguments(fluent)}
-        inferred = self._theory.infer(self.known, [], about)
+        inferred = self._theory.infer(self._with_carriers(), [], about)
         return fluent not in inferred.known.true and fluent not in inferred.possible
 
     def coarse(self, fluents: Collection[str]) -> frozenset[str]:
@@ -54,7 +73,7 @@ class FineBelief:
         if self._quick.is_enough:
             return self._quick.coarse(self.known, fluents)
         about = {constant for fluent in fluents for constant in arguments(fluent)}
-        inferred = self._theory.infer(self.known, [], about).coarse
+        inferred = self._theory.infer(self._with_carriers(), [], about).coarse
         return frozenset(literal for literal in inferred if atom(literal) in fluents)
 
     def candidates(self, fluent: str) -> tuple[tuple[str, ...], ...]:

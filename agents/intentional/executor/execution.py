@@ -87,8 +87,8 @@ class Execution:
         outcome: list[str] = []
         for effect in expected:
             outcome += [(yield from self._looking.outcome(effect, percept))]
-        self._looking.commit(literal for literal in outcome if mind.tests.of(literal) is not None)
         mind.assume(outcome)
+        self._looking.commit(literal for literal in outcome if mind.tests.of(literal) is not None)
         if outcome == list(expected):
             yield from self._looking.look()
             return True

@@ -15,22 +15,25 @@ from asp.signature import Signature
 _TEST, _CAN_TEST = "test_", "can_test_"
 
 Binding = Mapping[str, str]
+Domains = Mapping[str, Mapping[str, None]]
+"""The constants over which each variable of a law ranges, in their order."""
 
 
 class Effects:
     """The direct effects of concrete actions and of events."""
 
     def __init__(self, refinement: Refinement) -> None:
-        self._laws: dict[str, list[syntax.CausalLaw]] = {}
-        for law in refinement.weak.each(syntax.CausalLaw):
-            self._laws.setdefault(law.action.name, []).append(law)
+        self._laws: dict[str, list[tuple[syntax.CausalLaw, Domains]]] = {}
         self._signature = refinement.weak_signature
+        for law in refinement.weak.each(syntax.CausalLaw):
+            domains = _domains(law, self._signature)
+            self._laws.setdefault(law.action.name, []).append((law, domains))
 
     def of(self, action: str, true: Collection[str]) -> tuple[str, ...]:
         """The literals that the action brings about where these fluents are known to be true."""
         found: dict[str, None] = {}
-        for law in self._laws.get(name(action), []):
-            binding = _bound(law.action, action, {})
+        for law, domains in self._laws.get(name(action), []):
+            binding = _bound(law.action, action, {}, domains)
             if binding is not None and _is_met(law.body, binding, true, self._signature):
                 effect = _instance(law.head.atom, binding)
                 found[effect if law.head.positive else complement(effect)] = None
@@ -44,7 +47,7 @@ class Tests:
         self._robot = robot
         self._signature = refinement.strong_signature
         self._tests = {
-            _fluent(law).name: law
+            _fluent(law).name: (law, _domains(law, self._signature))
             for law in refinement.strong.each(syntax.CausalLaw)
             if law.action.name.startswith(_TEST) and law.head.atom.args[-1].name == TRUE
         }
@@ -54,17 +57,16 @@ class Tests:
             if law.head.atom.name.startswith(_CAN_TEST)
         )
         self._abilities = [
-            (law, variable_domains(law, self._signature), self._tests[_tested(law)])
-            for law in abilities
+            (law, _domains(law, self._signature), self._tests[_tested(law)][0]) for law in abilities
         ]
 
     def of(self, fluent: str) -> str | None:
         """The test of a fluent; None where there is none."""
-        law = self._tests.get(name(fluent))
-        if law is None:
+        if name(fluent) not in self._tests:
             return None
+        law, domains = self._tests[name(fluent)]
         robot = {law.action.args[0].name: self._robot}
-        binding = _bound(_fluent(law), atom(fluent), robot)
+        binding = _bound(_fluent(law), atom(fluent), robot, domains)
         return None if binding is None else _instance(law.action, binding)
 
     def possible(self, true: Collection[str], things: Collection[str]) -> Iterator[str]:
@@ -84,14 +86,14 @@ class Tests:
     def _instances(
         self,
         law: syntax.StateConstraint,
-        domains: Mapping[str, tuple[str, ...]],
+        domains: Domains,
         true: Collection[str],
         things: Collection[str],
     ) -> Iterator[str]:
         """The instances of what a law says can be tested; what nothing binds is a thing."""
         robot = law.head.atom.args[0]
         given = {robot.name: self._robot} if robot.is_variable else {}
-        for binding in _matches(law.body, given, true, self._signature):
+        for binding in _matches(law.body, given, domains, true, self._signature):
             free = [variable for variable in domains if variable not in binding]
             choices = ([m for m in domains[v] if m in things] for v in free)
             for values in product(*choices):
@@ -107,12 +109,29 @@ def conditions(refinement: Refinement) -> Mapping[str, frozenset[str]]:
     return found
 
 
+def carriers(refinement: Refinement) -> frozenset[str]:
+    """The inertial fluents without counterparts in constraints on fluents that have one."""
+    fine = frozenset(refinement.counterparts.values())
+    named = {
+        literal.atom.name
+        for law in refinement.weak.each(syntax.StateConstraint)
+        if law.head.atom.name in fine
+        for literal in roles.literals(law.body)
+    }
+    return frozenset(f for f in refinement.description.inertial if name(f) in named)
+
+
 def direct_effects(refinement: Refinement) -> Mapping[str, frozenset[str]]:
     """What causal laws say that a coarse action may bring about."""
     found: dict[str, frozenset[str]] = {}
     for law in refinement.description.causal:
         found[law.action] = found.get(law.action, frozenset()) | {law.head}
     return found
+
+
+def _domains(law: syntax.Statement, signature: Signature) -> Domains:
+    found = variable_domains(law, signature)
+    return {variable: dict.fromkeys(members) for variable, members in found.items()}
 
 
 def _tested(law: syntax.StateConstraint) -> str:
@@ -125,7 +144,11 @@ def _fluent(law: syntax.CausalLaw) -> syntax.Atom:
 
 
 def _matches(
-    body: syntax.Body, given: Binding, true: Collection[str], signature: Signature
+    body: syntax.Body,
+    given: Binding,
+    domains: Domains,
+    true: Collection[str],
+    signature: Signature,
 ) -> Iterator[Binding]:
     """The bindings under which all fluents of a body are among the true ones."""
     fluents = [
@@ -139,7 +162,7 @@ def _matches(
             found
             for binding in bindings
             for instance in true
-            if (found := _bound(fluent, instance, binding)) is not None
+            if (found := _bound(fluent, instance, binding, domains)) is not None
         ]
     return (binding for binding in bindings if _is_met(body, binding, true, signature))
 
@@ -159,13 +182,17 @@ def _is_met(
     )
 
 
-def _bound(pattern: syntax.Atom, instance: str, given: Binding) -> dict[str, str] | None:
+def _bound(
+    pattern: syntax.Atom, instance: str, given: Binding, domains: Domains
+) -> dict[str, str] | None:
     """The binding that makes a pattern the instance, beyond what is given; None: there is none."""
     if name(instance) != pattern.name:
         return None
     binding = dict(given)
     for term, value in zip(pattern.args, arguments(instance), strict=True):
         if value != (binding.setdefault(term.name, value) if term.is_variable else term.name):
+            return None
+        if term.is_variable and value not in domains[term.name]:
             return None
     return binding
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 
-from agents.intentional.executor.laws import Effects, Tests, conditions, direct_effects
+from agents.intentional.executor.laws import Effects, Tests, carriers, conditions, direct_effects
 from asp.kept.clock import preparation
 from asp.kept.horizons import Horizons
 from asp.kept.recent import Recent
 from asp.kept.refined import MOST_STEPS, FinePlanner, LiteralPlanner, fine_planner
 from asp.knowing import Theory
+from asp.literals import name
 from asp.quick import Quick
 from asp.refinement import Refinement
 from asp.refinement.refining import shared_places
@@ -65,6 +66,20 @@ class Means:
         """Whether the components of anything are always in the same place."""
         with preparation():
             return bool(shared_places(self._refinement.weak))
+
+    @cached_property
+    def plain(self) -> frozenset[str]:
+        """The inertial fluents without counterparts."""
+        fluents, magnified = self._refinement.description.inertial, self._refinement.counterparts
+        with preparation():
+            return frozenset(fluent for fluent in fluents if name(fluent) not in magnified)
+
+    @cached_property
+    def carriers(self) -> frozenset[str]:
+        """Those of the plain fluents on which fluents with counterparts depend by laws."""
+        plain = self.plain
+        with preparation():
+            return carriers(self._refinement) & plain
 
     @cached_property
     def conditions(self) -> Mapping[str, frozenset[str]]:

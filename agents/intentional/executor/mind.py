@@ -59,7 +59,7 @@ class Mind:
             if not is_positive(part) or self.belief.is_false(part)
         ]
         self.belief.see(f"-{fluent}" for fluent in fluents)
-        self.plain = frozenset(filter(is_positive, coarse)) - magnified
+        self._suppose(frozenset(filter(is_positive, coarse)) - magnified)
 
     def is_magnified(self, literal: str) -> bool:
         """Whether a coarse literal has a counterpart."""
@@ -74,8 +74,8 @@ class Mind:
         for event in percept.events:
             self.news.append((event.step, event.action))
             effects = self.effects.of(event.action, self.belief.known.true)
-            self.belief.see(e for e in effects if self._is_fine(e))
             self.assume(effects)
+            self.belief.see(e for e in effects if self._is_fine(e))
             touched.update(c for effect in effects for c in arguments(effect))
         self.shown = frozenset(filter(self._is_plain, percept.visible))
         self.noticed.update(map(atom, self.shown))
@@ -93,13 +93,17 @@ class Mind:
         """Believes what literals say of fluents without counterparts."""
         plain = list(filter(self._is_plain, literals))
         gone = (atom(literal) for literal in plain)
-        self.plain = self.plain.difference(gone).union(filter(is_positive, plain))
+        self._suppose(self.plain.difference(gone).union(filter(is_positive, plain)))
 
     def agree(self, believed: Collection[str]) -> None:
         """Believes of fluents without counterparts what the coarse robot does."""
         left = self.plain.difference(self.coarse.fluents)
-        self.plain = left.union(f for f in believed if not self.is_magnified(f))
+        self._suppose(left.union(f for f in believed if not self.is_magnified(f)))
         self.noticed.clear()
+
+    def _suppose(self, plain: frozenset[str]) -> None:
+        self.plain = plain
+        self.belief.suppose(plain)
 
     def plan(
         self, goal: tuple[str, ...], candidates: tuple[tuple[str, ...], ...], zoom: Collection[str]
