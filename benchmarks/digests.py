@@ -30,7 +30,7 @@ from testbed.experiment.store import PROVENANCE, read_records
 
 SAME, DIFFERENT, BAD_INPUT = 0, 1, 2
 WIDE = 160
-COMMAND = (sys.executable, "-m", "testbed", "run")
+COMMAND = (sys.executable, "-m", "testbed")
 
 
 @dataclass(frozen=True)
@@ -108,11 +108,11 @@ def _make(folder: Path) -> None:
 
 def _played(way: Way, what: Sequence[str], folder: Path, planned: int) -> Row:
     """Play a run in one way; its row."""
-    command = [*COMMAND, *what, f"link={way.link}", "--workers", str(way.workers)]
-    command += ["--out", str(folder)]
+    arguments = ["run", *what, f"link={way.link}", "--workers", str(way.workers)]
+    arguments += ["--out", str(folder)]
     began = time.perf_counter()
-    kept = killed_at(planned // 2, command, folder).count(b"\n") if way.killed else None
-    subprocess.run([*command, "--resume"], check=False, stdout=subprocess.DEVNULL)
+    kept = killed_at(planned // 2, arguments, folder).count(b"\n") if way.killed else None
+    subprocess.run([*COMMAND, *arguments, "--resume"], check=False, stdout=subprocess.DEVNULL)
     records = list(read_records(folder))
     return {
         "workers": way.workers,

@@ -1,42 +1,45 @@
-"""A run whose driver is killed in the middle, and which then goes on."""
+"""A run whose driver is killed in the middle, and which then goes on.
+
+`python -m benchmarks.killing RECORDS run CONFIG ...` is `testbed run CONFIG ...`, whose driver says
+that it is held, and stands still, as soon as so many records are written.
+"""
 
 from __future__ import annotations
 
-import signal
 import subprocess
-import time
-from collections.abc import Iterator, Sequence
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
-POLL_S = 0.01
+from testbed import cli
+from testbed.experiment import runner
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.store import TRIALS, TrialWriter
+
+HELD = "held"
+COMMAND = (sys.executable, "-m", "benchmarks.killing")
 
 
 class NotKilledError(RuntimeError):
     """The run ended by itself before it was killed."""
 
 
-def killed_at(records: int, command: Sequence[str], folder: Path) -> bytes:
-    """Kill (SIGKILL) the driver that `command` starts when `folder` has so many records.
+def killed_at(records: int, arguments: Sequence[str], folder: Path) -> bytes:
+    """Kill (SIGKILL) the driver of `testbed ARGUMENTS` when its run has so many records.
 
-    The whole lines of `trials.jsonl` that it leaves.
+    `folder` is that of the run. The whole lines of `trials.jsonl` that the driver leaves.
 
     Raises:
         NotKilledError: where the driver ends before that.
     """
-    path = folder / "trials.jsonl"
-    driver = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    try:
-        lines = _growing(path)
-        while next(lines) < records:
-            if driver.poll() is not None:
-                break
-            time.sleep(POLL_S)
-    finally:
+    command = [*COMMAND, str(records), *arguments]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as driver:
+        assert driver.stdout is not None
+        held = any(line.strip() == HELD.encode() for line in driver.stdout)
         driver.kill()
-        driver.wait()
-    if driver.returncode != -signal.SIGKILL:
+    if not held:
         raise NotKilledError(f"{folder}: its driver ended before it was killed")
-    return whole_lines(path)
+    return whole_lines(folder / TRIALS)
 
 
 def whole_lines(path: Path) -> bytes:
@@ -45,12 +48,27 @@ def whole_lines(path: Path) -> bytes:
     return kept[: kept.rfind(b"\n") + 1]
 
 
-def _growing(path: Path) -> Iterator[int]:
-    """How many lines a file has, whenever asked; none where it is not there yet."""
-    while not path.is_file():
-        yield 0
-    lines = 0
-    with path.open("rb") as file:
-        while True:
-            lines += file.read().count(b"\n")
-            yield lines
+def _held_at(records: int) -> type[TrialWriter]:
+    """A writer that stands still after so many records, until it is killed or its parent ends."""
+
+    class Held(TrialWriter):
+        def append(self, record: TrialRecord) -> None:
+            super().append(record)
+            if len(self.done) == records:
+                print(HELD, flush=True)
+                sys.stdin.read()
+                raise SystemExit("its parent has ended")
+
+    return Held
+
+
+def main() -> None:
+    """The command line with a writer that stands still."""
+    _, records, *arguments = sys.argv
+    sys.argv = ["testbed", *arguments]
+    runner.TrialWriter = _held_at(int(records))  # type: ignore[attr-defined]
+    cli.main()
+
+
+if __name__ == "__main__":
+    main()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import math
 import multiprocessing
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -73,14 +74,15 @@ def _memories() -> list[_lru_cache_wrapper[object]]:
 def within(seconds: float, call: Callable[[], T]) -> T | None:
     """The result of a call in a process of its own; None if it takes longer and was ended.
 
-    Grounding cannot be interrupted from within. Raises RuntimeError if the process broke down.
+    With `math.inf` it takes as long as it takes. Grounding cannot be interrupted from within.
+    Raises RuntimeError if the process broke down.
     """
     receiver, sender = multiprocessing.get_context("fork").Pipe(duplex=False)
     process = multiprocessing.get_context("fork").Process(target=_send, args=(sender, call))
     process.start()
     sender.close()
     try:
-        if not receiver.poll(seconds):
+        if not receiver.poll(None if seconds == math.inf else seconds):
             return None
         result: T = receiver.recv()
         return result

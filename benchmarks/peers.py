@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import inf
 
 from agents.shared.knowledge import knowledge
 from agents.shared.tools import tools_of
@@ -15,7 +16,7 @@ from benchmarks.outsiders import FAST_DOWNWARD, Planner, outsiders
 from benchmarks.problems import Problem, delivered, drawn, placed, prototypes
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
 
-LIMIT_S = {"small": 60, "full": 20}
+LIMIT_S = {"small": inf, "full": 20.0}
 REPEATS = {"small": 1, "full": 5}
 ENOUGH_MS = 5e3
 ALL_RUNS = 3  # imports, a first run and those that are counted share one limit
@@ -116,7 +117,7 @@ def _ratio(theirs: Value, ours: Outcome | None) -> Value:
 
 
 def _text(outcome: Outcome | None, limit_s: float) -> Value:
-    return f"> {limit_s} s" if outcome is None else outcome[0]
+    return f"> {limit_s:.0f} s" if outcome is None else outcome[0]
 
 
 def _runs(

@@ -60,16 +60,18 @@ def test_the_results_are_the_same_wherever_it_is_played(
     assert _run(_config(f"link={link}"), tmp_path, workers) == digest(read_records(here))
 
 
+@pytest.mark.load
 @pytest.mark.parametrize(("link", "workers"), [("inprocess", 1), ("inprocess", 2), ("zenoh", 2)])
 def test_a_driver_killed_in_the_middle_goes_on_to_the_same_results(
     tmp_path: Path, here: Path, link: str, workers: int
 ) -> None:
     folder = tmp_path / "run"
-    command = [sys.executable, "-m", "testbed", "run", "table1", *SMALL, f"link={link}"]
-    command += ["--out", str(folder), "--workers", str(workers), "--quiet"]
-    kept = killed_at(5, command, folder)
-    assert 5 <= kept.count(b"\n") < len(plan_trials(_config()))
-    assert subprocess.run([*command, "--resume"], check=False).returncode == 0
+    arguments = ["run", "table1", *SMALL, f"link={link}"]
+    arguments += ["--out", str(folder), "--workers", str(workers), "--quiet"]
+    kept = killed_at(5, arguments, folder)
+    assert kept.count(b"\n") == 5 < len(plan_trials(_config()))
+    testbed = (sys.executable, "-m", "testbed")
+    assert subprocess.run([*testbed, *arguments, "--resume"], check=False).returncode == 0
     assert (folder / "trials.jsonl").read_bytes().startswith(kept)
     assert digest(read_records(folder)) == digest(read_records(here))
 
