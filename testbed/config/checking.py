@@ -15,9 +15,10 @@ from asp.translation import translate
 from testbed.config.errors import ConfigError
 from testbed.config.grounds import grounds
 from testbed.config.levels import ground_findings, map_findings, settings_findings
-from testbed.config.lines import lines_of, lines_of_the_domain, lines_of_the_map
+from testbed.config.lines import lines_of, lines_of_the_domain, lines_of_the_map, without_left_out
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings
 from testbed.config.places import Key, Places
+from testbed.config.scenarios import scenario_findings, scenarios_of
 from testbed.config.scripts import first_step_findings, script_findings
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
 from testbed.environment.errors import StateError
@@ -40,7 +41,8 @@ def check(
     else:
         description = _description(config, places)
         lines = lines_of([*findings, *_coarse_alone(config)], places)
-        lines += lines_of_the_domain(config, _domain_findings(config, description), places)
+        findings = without_left_out(_domain_findings(config, description), places)
+        lines += lines_of_the_domain(config, findings, places, description.scenarios)
     if lines:
         raise ConfigError(lines)
 
@@ -67,20 +69,16 @@ def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
             yield (key,), "goes with levels, or with a refinement, and there are none"
     if config.protocol == "levels":
         yield ("protocol",), "levels are not played here; for scenarios it is: protocol: table1"
-    if config.adversary.strategy == "random":
-        yield (
-            ("adversary", "strategy"),
-            "random events are drawn at levels; scenarios have triggers",
-        )
 
 
 def _domain_findings(config: ExperimentConfig, description: Description) -> list[Finding]:
-    findings = [*_scenarios(config, description), *_observability(config, description)]
+    known = description.scenarios
+    findings = [*scenario_findings(config, known), *_observability(config, description)]
     if not description.robots:
         findings.append((("domain",), NO_ROBOT))
     if not config.goal:
         findings.append((("goal",), f"should not be empty; for example {GOAL}"))
-    for key, owner in _owners(config):
+    for key, owner in _owners(config, scenarios_of(config, known)):
         findings += _goal((*key, "goal"), owner.goal or (), description)
         findings += _initial((*key, "initial"), owner.initial, description)
         findings += script_findings((*key, "script"), owner.script or (), description)
@@ -104,11 +102,13 @@ def _texts_read(places: Places, key: str) -> Iterator[None]:
 
 
 def _owners(
-    config: ExperimentConfig,
+    config: ExperimentConfig, scenarios: Collection[str]
 ) -> Iterator[tuple[Key, ExperimentConfig | ScenarioSettings]]:
+    """Whose goals, states and scripts are played: settings of other scenarios are left alone."""
     yield (), config
     for scenario, own in config.scenario_settings.items():
-        yield ("scenario_settings", scenario), own
+        if scenario in scenarios:
+            yield ("scenario_settings", scenario), own
 
 
 def _twice(config: ExperimentConfig) -> Iterator[Finding]:
@@ -131,17 +131,6 @@ def _robots(config: ExperimentConfig, robots: Robots | None) -> Iterator[Finding
             yield ("robots", index), what + ", ".join(known)
         else:
             yield ("robots", index), f"unknown robot '{kind}'; {suggestion(kind, known)}"
-
-
-def _scenarios(config: ExperimentConfig, description: Description) -> Iterator[Finding]:
-    known = description.scenarios
-    scripted = [name for name, own in config.scenario_settings.items() if own.script is not None]
-    for index, name in enumerate(config.scenarios):
-        if config.script is None and name not in (*known, *scripted):
-            yield ("scenarios", index), f"unknown scenario '{name}'; {suggestion(name, known)}"
-    for name in config.scenario_settings:
-        if name not in (*known, *config.scenarios):
-            yield ("scenario_settings", name), f"unknown scenario; {suggestion(name, known)}"
 
 
 def _observability(config: ExperimentConfig, description: Description) -> Iterator[Finding]:

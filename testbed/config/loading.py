@@ -18,10 +18,8 @@ from testbed.config.composing import compose
 from testbed.config.errors import ConfigError
 from testbed.config.models import ExperimentConfig, Section
 from testbed.config.places import Key, Places
+from testbed.config.scenarios import with_scenarios
 from testbed.resources import find_config
-
-SCRIPT, NONE = "script", "none"
-"""What a run without scenarios is called, in which a script is played, or nothing happens."""
 
 LONGEST = 80
 """How much of a value a line shows."""
@@ -64,20 +62,9 @@ def load_config(
     composed = compose(text, overrides, places)
     config = _located(_validate(composed, places), path)
     check(config, places, robots, starters)
-    return config if config.scenarios or config.is_fine else _with_scenarios(config)
-
-
-def _with_scenarios(config: ExperimentConfig) -> ExperimentConfig:
-    """All that there is to play: a script, or else the domain's scenarios.
-
-    Where there is neither, nothing exogenous happens: a script without entries.
-    """
-    if config.script is not None:
-        return config.model_copy(update={"scenarios": (SCRIPT,)})
-    scenarios = asp.load_description(config.domain).scenarios
-    if scenarios:
-        return config.model_copy(update={"scenarios": scenarios})
-    return config.model_copy(update={"scenarios": (NONE,), "script": ()})
+    if config.is_fine:
+        return config
+    return with_scenarios(config, asp.load_description(config.domain).scenarios)
 
 
 def _read(source: str | Path) -> tuple[Path, str]:

@@ -25,6 +25,8 @@ MOST = 2**31 - 1
 LARGEST_SEED = 2**63 - 1
 LONGEST_S = 31_536_000.0
 """The longest time: a year, which every clock and timer can measure."""
+NONE = "none"
+"""The scenario in which nothing exogenous happens, unless the domain has one of this name."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
 """How a goal is written."""
 
@@ -48,6 +50,11 @@ def _whole(items: object) -> object:
 
 def _named(value: object) -> object:
     return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _scenarios(value: object) -> object:
+    """Nothing is what `none` stands for; null stands for what there is in the domain."""
+    return () if value is None else [NONE] if value in ([], NONE) else value
 
 
 def _named_keys(value: object) -> object:
@@ -108,13 +115,18 @@ class AdversarySettings(Section):
 
     `strategy`: the domain's `triggers`, or `random` events; absent: triggers in scenarios, random
     at levels. `rate`: probability a step that a trigger fires, absent: as the domain states it;
-    or that a random event happens, absent: never. `pace`: at the fine resolution, at each
-    `concrete` action or only at those that change what holds at the coarse one (`abstract`).
+    or that a random event happens, absent: `RANDOM_RATE`, at levels never. `pace`: at the fine
+    resolution, at each `concrete` action or only at those that change what holds at the coarse one
+    (`abstract`).
     """
 
     strategy: Strategy | None = None
     rate: Probability | None = None
     pace: Pace = "concrete"
+
+
+RANDOM_RATE = 0.1
+"""Probability a step of a random event at the coarse resolution, unless given."""
 
 
 class LevelSettings(Section):
@@ -152,7 +164,8 @@ class ScenarioSettings(Section):
 class ExperimentConfig(Section):
     """A whole experiment: which trials, in which domain, under which rules.
 
-    `scenarios` absent, which nothing that was loaded has, means those of the domain.
+    `scenarios` absent, which nothing that was loaded has, means those of the domain; `none`, that
+    nothing exogenous happens.
     `initial` absent means every state that the domain's `initially` allows. A `script` replaces
     the scenario's triggers; an empty one means that nothing exogenous happens. `knowledge` is what
     robots know of the initial state: all of it, or only what they see. `repeats`: so many pairs of
@@ -170,7 +183,7 @@ class ExperimentConfig(Section):
     refinement: Name | None = None
     goal: Annotated[Literals, Field(examples=[GOAL])]
     initial: Literals | None = None
-    scenarios: Annotated[tuple[Name, ...], Field(min_length=1)] = ()
+    scenarios: Annotated[tuple[Name, ...], BeforeValidator(_scenarios)] = ()
     scenario_settings: Annotated[dict[str, ScenarioSettings], BeforeValidator(_named_keys)] = Field(
         default_factory=dict
     )
@@ -207,6 +220,11 @@ class ExperimentConfig(Section):
     def is_fine(self) -> bool:
         """Whether trials are played at the fine resolution."""
         return bool(self.levels) or self.refinement is not None
+
+    @property
+    def has_random_events(self) -> bool:
+        """Whether scenarios without a script have random events in place of triggers."""
+        return not self.is_fine and self.adversary.strategy == "random"
 
     def rules_of_news(self) -> dict[str, rules.Observability]:
         """`observability` as the environment has it, by the name of the exogenous action."""

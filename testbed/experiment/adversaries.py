@@ -1,12 +1,14 @@
-"""The adversary of a trial: the scenario's triggers, or an explicit script."""
+"""The adversary of a trial: an explicit script, random events, or the scenario's triggers."""
 
 from __future__ import annotations
 
 import dataclasses
 
 from agents.adversary.base import Adversary, AdversaryView
+from agents.adversary.random import Random
 from agents.adversary.scripted import Script, Triggered
 from asp import Description
+from testbed.config.models import RANDOM_RATE
 from testbed.experiment.specs import TrialSpec
 
 __all__ = ["Adversary", "AdversaryView", "make_adversary"]
@@ -16,6 +18,9 @@ def make_adversary(spec: TrialSpec, description: Description) -> Adversary:
     """The adversary that plays a trial. Raises ValueError for an unknown scenario."""
     if spec.setting.script is not None:
         return Script(spec.setting.script)
+    if spec.setting.random_events:
+        rate = RANDOM_RATE if spec.setting.rate is None else spec.setting.rate
+        return Random(description.exogenous_actions, rate)
     return Triggered(_at_rate(description, spec.setting.rate), spec.scenario)
 
 

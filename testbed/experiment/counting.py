@@ -63,7 +63,8 @@ def eventful(config: ExperimentConfig) -> frozenset[str]:
     if config.is_fine:
         return frozenset()
     triggers = load_world(config.domain).description.triggers
-    sure = {trigger.scenario for trigger in triggers if trigger.probability == CERTAIN}
+    certain = {trigger.scenario for trigger in triggers if trigger.probability == CERTAIN}
+    sure: set[str] = set() if config.has_random_events else certain
     scripts = {name: config.settings(name).script for name in config.scenarios}
     return frozenset(
         n for n, script in scripts.items() if (n in sure if script is None else script)

@@ -17,11 +17,14 @@ def repeats_of(config: ExperimentConfig, scenario: str, description: Description
     """
     own = config.settings(scenario)
     triggers = [t for t in description.triggers if t.scenario == scenario]
-    drawn = own.script is None and _draw(triggers, config.adversary.rate)
+    drawn = own.script is None and _events_are_drawn(config, triggers)
     return own.repeats or 1 if drawn or _news_is_drawn(config) else 1
 
 
-def _draw(triggers: Sequence[Trigger], rate: float | None) -> bool:
+def _events_are_drawn(config: ExperimentConfig, triggers: Sequence[Trigger]) -> bool:
+    rate = config.adversary.rate
+    if config.has_random_events:
+        return rate != 0
     return any(t.drawn or _open(t.probability if rate is None else rate) for t in triggers)
 
 

@@ -33,8 +33,8 @@ class FineSetting(msgspec.Struct, frozen=True, kw_only=True):
 class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What holds in every trial of one scenario, or at one level, of a configuration.
 
-    `script` is `((step, action), ...)`, or None for the scenario's triggers; `observability` is by
-    the name of the exogenous action.
+    `script` is `((step, action), ...)`, or None for the scenario's triggers, or for random events
+    in place of them; `observability` is by the name of the exogenous action.
     """
 
     domain: str
@@ -49,6 +49,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     plan_limit: int
     decision_s: float | None
     fine: FineSetting | None = None
+    random_events: bool = False
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -81,6 +82,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         step_limit=config.limits.steps,
         plan_limit=config.limits.plan,
         decision_s=config.limits.decision_s,
+        random_events=config.has_random_events,
     )
 
 

@@ -147,9 +147,7 @@ def test_a_mistake_gives_one_line_with_its_place_and_what_is_right(
     assert said.startswith(line)
 
 
-@pytest.mark.parametrize(
-    "key", ["statistics={fine_move: 0.5}", "adversary.strategy=random", "protocol=levels"]
-)
+@pytest.mark.parametrize("key", ["statistics={fine_move: 0.5}", "protocol=levels"])
 def test_what_belongs_to_levels_is_refused_without_them(key: str) -> None:
     with pytest.raises(ConfigError, match="levels"):
         load_config("office", [key])

@@ -64,7 +64,7 @@ def test_where_a_domain_has_no_scenarios_nothing_happens(tmp_path: Path) -> None
     lamp = tmp_path / "lamp.al"
     lamp.write_text(LAMP.partition("scenarios")[0], encoding="utf-8")
     config = load_config(_file(tmp_path, f"name: tiny\ndomain: {lamp}\ngoal: [lit]\n"))
-    assert (config.scenarios, config.script) == (("none",), ())
+    assert (config.scenarios, config.settings("none").script) == (("none",), ())
 
 
 def test_settings_of_a_scenario_are_its_own_where_it_has_them(tmp_path: Path) -> None:

@@ -156,7 +156,8 @@ def _published(analysis: Analysis) -> dict[str, Any]:
 
 
 def _trials(folder: Path, config: ExperimentConfig) -> dict[str, Any]:
-    told = list(chapters(folder, scenario_notes(*reversed(read_domain(config.domain)))))
+    source = reversed(read_domain(config.domain))
+    told = list(chapters(folder, {} if config.has_random_events else scenario_notes(*source)))
     return {
         "accounts": accounts_of(read_records(folder)),
         "slowest": slowest(read_records(folder), folder),
