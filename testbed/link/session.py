@@ -4,8 +4,8 @@ A driver listens on a loopback port that the system picks; its robots connect to
 and listen nowhere. Without multicast and gossip nobody finds anybody else: nothing leaves the
 machine, and two runs side by side never meet.
 
-Use every session in a ``with`` block: one that is still open when the interpreter ends, and that
-has called back into Python, hangs it.
+Use every session in a ``with`` block. One that is left open is closed when the program ends, before
+it would keep the interpreter from ending.
 """
 
 import json
@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import zenoh
+
+from testbed.link.closing import close_at_exit
 
 LOOPBACK = "tcp/127.0.0.1:0"
 CONNECT_S = 10.0
@@ -77,7 +79,7 @@ def open_as_configured(file: Path, also: str | None = None) -> zenoh.Session:
     if also is not None:
         stated = json.loads(config.get_json("connect/endpoints"))
         _insert(config, {"connect/endpoints": _with(also, stated)})
-    return zenoh.open(config)
+    return close_at_exit(zenoh.open(config))
 
 
 def _with(endpoint: str, stated: Any) -> Any:
@@ -104,7 +106,7 @@ def _first_locator(description: str) -> str:
 def _open(settings: dict[str, Any]) -> zenoh.Session:
     config = zenoh.Config()
     _insert(config, _SECLUDED | settings)
-    return zenoh.open(config)
+    return close_at_exit(zenoh.open(config))
 
 
 def _insert(config: zenoh.Config, settings: dict[str, Any]) -> None:

@@ -32,6 +32,18 @@ with spawned_robot("run", 60, COMMAND) as robot:
     print(robot.ask(percept()).step, flush=True)
     {then}
 """
+LEFT_OPEN = """
+import sys
+from testbed.link.session import open_driver
+from testbed.link.spawned import SpawnedRobot
+from tests.link.scripted import COMMAND, percept, task
+
+session = open_driver()
+robot = SpawnedRobot(session, "run", 60, COMMAND)
+robot.begin(task("sound"))
+print(robot.ask(percept()).step, flush=True)
+{then}
+"""
 HOST = """
 import time
 from testbed.link.remote import RemoteRobot
@@ -114,6 +126,19 @@ def test_every_decision_is_published() -> None:
 def test_a_driver_process_ends(then: str, status: int) -> None:
     driver = subprocess.run(
         [sys.executable, "-c", DRIVER.format(then=then)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        timeout=PATIENCE_S,
+    )
+    assert (driver.returncode, driver.stdout) == (status, b"1\n")
+
+
+@pytest.mark.parametrize(
+    ("then", "status"), [("pass", 0), ("sys.exit(7)", 7), ("raise ValueError", 1)]
+)
+def test_a_session_left_open_does_not_keep_its_process(then: str, status: int) -> None:
+    driver = subprocess.run(
+        [sys.executable, "-c", LEFT_OPEN.format(then=then)],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         timeout=PATIENCE_S,
