@@ -41,7 +41,8 @@ class AECView(View, AECEnv[str, Observation, int | None]):
     """A view of a core: two answers a step, the second of which plays it.
 
     An answer outside the mask raises IllegalActionError and changes nothing. `reset` takes the
-    options `initial` (literals: begin there, raises StateError) and `trial` (an id for percepts).
+    options `initial` (literals: begin there, raises StateError) and `trial` (an id for percepts),
+    and raises UnknownOptionError for others. Before it, what needs a game raises NotResetError.
     """
 
     def __init__(self, core: Core, render_mode: str | None = None) -> None:
@@ -53,7 +54,14 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         self._cumulative_rewards = dict.fromkeys(self.agents, 0.0)
         self._open_turn()
 
+    def last(
+        self, observe: bool = True
+    ) -> tuple[Observation | None, float, bool, bool, dict[str, Any]]:
+        self._check_begun()
+        return super().last(observe)
+
     def step(self, action: int | None) -> None:
+        self._check_begun()
         agent = self.agent_selection
         if self.terminations[agent] or self.truncations[agent]:
             self._was_dead_step(action)

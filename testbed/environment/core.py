@@ -13,7 +13,7 @@ import numpy as np
 from gymnasium.utils import seeding
 
 from testbed.environment.dynamics import Dynamics
-from testbed.environment.errors import IllegalActionError
+from testbed.environment.errors import IllegalActionError, NotResetError
 from testbed.environment.execution import Exact, Execution
 from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
 from testbed.environment.news import News, Played
@@ -37,8 +37,6 @@ class Core:
     Raises UnknownFluentError if the goal is not of the domain.
     """
 
-    situation: Situation
-
     def __init__(
         self,
         world: Dynamics,
@@ -59,7 +57,19 @@ class Core:
         self.robot_actions = (WAIT, FINISH, *self.execution.actions)
         self.adversary_actions = (NONE, *world.exogenous_actions)
         self._random: np.random.Generator | None = None
+        self._situation: Situation | None = None
         self._listed: tuple[tuple[Situation, str | None], tuple[str, ...]] | None = None
+
+    @property
+    def situation(self) -> Situation:
+        """The moment of the game. Raises NotResetError before the first game."""
+        if self._situation is None:
+            raise NotResetError
+        return self._situation
+
+    @situation.setter
+    def situation(self, situation: Situation) -> None:
+        self._situation = situation
 
     def reset(
         self, seed: int | None = None, initial: Sequence[str] | None = None, trial: str = ""
@@ -163,7 +173,7 @@ class Core:
     @property
     def _generator(self) -> np.random.Generator:
         if self._random is None:
-            raise RuntimeError("the environment must be reset first")
+            raise NotResetError
         return self._random
 
     def _begin(self) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import overload
 
 from testbed.environment.dynamics import Dynamics
@@ -75,24 +76,32 @@ class Legality:
 
 
 class LegalEvents(Sequence[str]):
-    """The candidates that pass a test, in their order; `in` tests one, iterating tests on."""
+    """The candidates that pass a test, in their order; `in` tests one, iterating tests on.
+
+    The number of them tests each, and is not asked for a second time by who then iterates.
+    """
 
     def __init__(self, candidates: Sequence[str], legal: Callable[[str], bool]) -> None:
         self._candidates = candidates
         self._legal = legal
 
+    @cached_property
+    def _all(self) -> tuple[str, ...]:
+        return tuple(filter(self._legal, self._candidates))
+
     def __contains__(self, event: object) -> bool:
         return event in self._candidates and self._legal(str(event))
 
     def __iter__(self) -> Iterator[str]:
-        return filter(self._legal, self._candidates)
+        # `tuple` asks for an iterator, then for the number, and only then for the first item.
+        yield from self._all if "_all" in vars(self) else filter(self._legal, self._candidates)
 
     def __len__(self) -> int:
-        return sum(1 for _ in self)
+        return len(self._all)
 
     @overload
     def __getitem__(self, index: int) -> str: ...
     @overload
     def __getitem__(self, index: slice) -> Sequence[str]: ...
     def __getitem__(self, index: int | slice) -> str | Sequence[str]:
-        return tuple(self)[index]
+        return self._all[index]

@@ -10,8 +10,8 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from asp import literals as text
-from testbed.environment.agents import ADVERSARY, ROBOT
-from testbed.environment.core import Core
+from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
+from testbed.environment.core import NONE, WAIT, Core
 
 Vector: TypeAlias = NDArray[np.int8]
 Observation: TypeAlias = dict[str, Vector]
@@ -44,7 +44,11 @@ def state_space(core: Core) -> spaces.Box:
 
 
 def observe(core: Core, agent: str, robot_action: str | None) -> Observation:
-    """The agent's observation; `robot_action` is the robot's answer, if it has given it."""
+    """The agent's observation; `robot_action` is the robot's answer, if it has given it.
+
+    Raises UnknownAgentError, and NotResetError before the first game.
+    """
+    check_agent(agent)
     return _robot(core) if agent == ROBOT else _adversary(core, robot_action)
 
 
@@ -70,7 +74,7 @@ def infos(core: Core, robot_action: str | None) -> dict[str, dict[str, Any]]:
 def _robot(core: Core) -> Observation:
     return {
         "observation": _vector(core.world.fluents, core.visible),
-        "action_mask": np.ones(len(core.robot_actions), np.int8),
+        "action_mask": _mask(core.robot_actions, _live(core, core.robot_actions)),
     }
 
 
@@ -78,8 +82,16 @@ def _adversary(core: Core, robot_action: str | None) -> Observation:
     chosen = () if robot_action is None else (robot_action,)
     return {
         "observation": np.concatenate([state_vector(core), _mask(core.robot_actions, chosen)]),
-        "action_mask": _mask(core.adversary_actions, core.events(robot_action)),
+        "action_mask": _mask(core.adversary_actions, _live(core, core.events(robot_action))),
     }
+
+
+def _live(core: Core, legal: Sequence[str]) -> Sequence[str]:
+    """What is legal while the game goes on; once it is over, doing nothing.
+
+    A mask without any action would be sampled as action 0 without a word.
+    """
+    return legal if core.situation.ending is None else (WAIT, NONE)
 
 
 def _vector(fluents: Sequence[str], literals: Sequence[str]) -> Vector:

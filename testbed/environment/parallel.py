@@ -37,6 +37,7 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         return self._observations(), self._infos(None)
 
     def step(self, actions: Mapping[str, int]) -> Transition:
+        self._check_begun()
         if not self.agents:
             raise IllegalActionError("the game is over: reset the environment")
         robot_action = name_of(ROBOT, actions.get(ROBOT), self.core.robot_actions)

@@ -7,8 +7,10 @@ from typing import Any, ClassVar
 
 from gymnasium import spaces
 
-from testbed.environment.agents import ADVERSARY, ROBOT
+from asp.spelling import suggestion
+from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import Core
+from testbed.environment.errors import UnknownOptionError
 from testbed.environment.observation import (
     Vector,
     action_spaces,
@@ -18,6 +20,11 @@ from testbed.environment.observation import (
 )
 from testbed.environment.picture import Image
 from testbed.environment.rendering import MODES, check_mode, render
+
+OPTIONS = ("initial", "trial")
+"""The keys of `reset(options=...)`."""
+_PROBE = "options"
+"""A key that PettingZoo's own tests give, and that means nothing."""
 
 
 class View:
@@ -52,27 +59,38 @@ class View:
         self.core.rules = replace(self.core.rules, steps=steps)
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
-        """The same object on every call."""
+        """The same object on every call. Raises UnknownAgentError."""
+        check_agent(agent)
         return self.observation_spaces[agent]
 
     def action_space(self, agent: str) -> spaces.Space[Any]:
-        """The same object on every call."""
+        """The same object on every call. Raises UnknownAgentError."""
+        check_agent(agent)
         return self.action_spaces[agent]
 
     def state(self) -> Vector:
-        """The true state, one entry a fluent: 1 true, -1 false."""
+        """The true state, one entry per fluent: 1 true, -1 false. Raises NotResetError."""
         return state_vector(self.core)
 
     def render(self) -> str | Image | None:
-        """`ansi`: text; `rgb_array`: a picture (height, width, 3) of uint8; `human`: prints."""
+        """`ansi`: text; `rgb_array`: a picture (height, width, 3) of uint8; `human`: prints.
+
+        Raises NotResetError.
+        """
+        self._check_begun()
         return render(self.core, self.render_mode)
 
     def close(self) -> None:
         """Nothing is held: no window, no process, no connection."""
 
+    def _check_begun(self) -> None:
+        """Raises NotResetError before the first game."""
+        _ = self.core.situation
+
     def _begin(self, seed: int | None, options: dict[str, Any] | None) -> None:
         """Begins a game; of the options `initial` are literals and `trial` an id, both optional."""
         chosen = options or {}
+        _check_options(chosen)
         self.core.reset(seed, chosen.get("initial"), chosen.get("trial", ""))
         self.agents = list(self.possible_agents)
 
@@ -83,3 +101,9 @@ class View:
         truncated = ending is not None and not ending.by_answer
         agents = self.possible_agents
         return dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated)
+
+
+def _check_options(options: dict[str, Any]) -> None:
+    for key in options:
+        if key not in OPTIONS and key != _PROBE:
+            raise UnknownOptionError(f"reset: {key!r} is not an option; {suggestion(key, OPTIONS)}")

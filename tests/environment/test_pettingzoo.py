@@ -293,5 +293,7 @@ def test_what_a_user_gets_wrong_is_said() -> None:
         office_v0.env(render_mode="ascii")
     with pytest.raises(StateError, match="cannot be together"):
         office_v0.env().reset(options={"initial": [*IN_KITCHEN, "loc(book2,library)"]})
+    env = started(office_v0.parallel_env, max_cycles=1)
+    env.step({ROBOT: WAIT, ADVERSARY: 0})
     with pytest.raises(IllegalActionError, match="reset the environment"):
-        office_v0.parallel_env().step({ROBOT: 0, ADVERSARY: 0})
+        env.step({ROBOT: WAIT, ADVERSARY: 0})

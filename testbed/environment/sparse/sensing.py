@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import product
+from typing import Self
 
 from asp import roles, syntax
 from asp.literals import ground
@@ -48,6 +49,11 @@ class Sensing:
             name = constraint.head.atom.name
             self._abilities.setdefault(name, []).append(self._ability(constraint))
         self.fluent = lru_cache(4096)(self._fluent)
+        self._made_of = (world, strong, signature)
+
+    def __reduce__(self) -> tuple[type[Self], tuple[object, ...]]:
+        """A copy is compiled anew: compiled laws cannot be pickled."""
+        return type(self), self._made_of
 
     def can(self, state: int, action: str) -> bool:
         """Whether the test is possible in the state."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from itertools import product
+from typing import Self
 
 from asp import syntax
 from asp.loading import analyse
@@ -40,6 +41,11 @@ class SparseWorld(SparseStates):
         self.exogenous_actions: tuple[str, ...] = self.description.exogenous_actions
         self._actions = frozenset((*self.agent_actions, *self.exogenous_actions))
         self._remembered = lru_cache(_REMEMBERED)(self._compute)
+        self._made_of = (source, signature, name)
+
+    def __reduce__(self) -> tuple[type[Self], tuple[object, ...]]:
+        """A copy is compiled anew: compiled laws cannot be pickled."""
+        return type(self), self._made_of
 
     @classmethod
     def of_text(cls, text: str, file: str = "<text>") -> SparseWorld:
