@@ -1,16 +1,21 @@
 """The command line with one robot more, which a file `hold` stops after a number of trials.
 
+A file `stuck` holds it where trials are planned, deaf to interrupts as only foreign code can be.
+
 Worker processes import this module as their main one, and so know the robot, too.
 """
 
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 from pathlib import Path
 
 from agents.intentional import IntentionalRobot
 from testbed import cli
-from testbed.experiment import registry
+from testbed.config import ExperimentConfig
+from testbed.experiment import plan, registry, runner
+from testbed.experiment.specs import TrialSpec
 from testbed.link.messages import Task
 
 HOLD = Path("hold")
@@ -29,6 +34,14 @@ class Held(IntentionalRobot):
         super().begin(task)
 
 
+def _plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
+    while Path("stuck").exists():
+        with suppress(KeyboardInterrupt):
+            time.sleep(0.01)
+    return plan.plan_trials(config)
+
+
+runner.plan_trials = _plan_trials
 registry.ROBOTS = {**registry.ROBOTS, "held": Held}
 
 if __name__ == "__main__":

@@ -31,13 +31,13 @@ def input_errors() -> Iterator[None]:
     """Turn what a user can get wrong into one line per error and the exit code for it."""
     from asp.errors import SourceError
     from testbed.config.errors import ConfigError
-    from testbed.experiment.errors import ServingError, StoreError
+    from testbed.experiment.errors import ServingError, StoreError, WorkerError
 
     try:
         yield
     except SourceError as error:
         _refuse("\n".join(str(mistake) for mistake in error.all))
-    except (ConfigError, StoreError, ServingError) as error:
+    except (ConfigError, StoreError, ServingError, WorkerError) as error:
         _refuse(str(error))
     except UnicodeDecodeError as error:
         _refuse(f"not a text file in UTF-8: {error.reason} at byte {error.start}")

@@ -1,57 +1,127 @@
-"""What ends a run early: an interrupt or a SIGTERM, kept away from where it would do harm."""
+"""What ends a run early: an interrupt, a SIGTERM or a SIGHUP, and how it ends then."""
 
 from __future__ import annotations
 
+import os
+import select
 import signal
+import sys
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
-from multiprocessing import resource_tracker
-from threading import current_thread, main_thread
+from contextlib import contextmanager, suppress
+from multiprocessing import active_children
+from threading import Thread, current_thread, main_thread
 from types import FrameType
 
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+from testbed.experiment.processes import SIGNALS, kill
+
+INTERRUPTED = 130
+ENDING_S = 60.0
+HURRY_S = 2.0
+SAME_S = 0.5
+"""Interrupts so close to the first are the same one: `timeout` sends two, a held key many."""
 
 
 @contextmanager
-def terminable() -> Iterator[None]:
-    """Let the first SIGTERM that comes in this block raise KeyboardInterrupt, as SIGINT does.
+def stoppable(hint: str, quiet: bool = False) -> Iterator[None]:
+    """Let the first signal that comes in this block raise KeyboardInterrupt; those after it do not.
 
-    Those after it are passed over: `timeout` sends two, and the ending is to be finished.
+    It is answered at once, whatever this process is busy with. Where the block does not end
+    within `ENDING_S`, or within `HURRY_S` of another interrupt, the process ends, its children
+    first, with `hint` as its last line. Signals that are ignored when the block begins stay so
+    (`nohup`).
     """
     if current_thread() is not main_thread():
         yield
         return
-    handler = signal.signal(signal.SIGTERM, _terminate)
+    guard = _Guard(hint, quiet)
+    mine = [number for number in SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
+    handlers = {number: signal.signal(number, guard.stop) for number in mine}
+    before = signal.set_wakeup_fd(guard.woken, warn_on_full_buffer=False)
+    guard.start()
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, handler)
-
-
-def _terminate(number: int, _: FrameType | None) -> None:
-    signal.signal(number, signal.SIG_IGN)
-    raise KeyboardInterrupt
-
-
-@contextmanager
-def interrupts_later() -> Iterator[None]:
-    """Deliver an interrupt or a SIGTERM that comes in this block at its end.
-
-    A process started in it is deaf to them from its first moment. Blocking the signal does
-    that; it does not spare this process, whose other threads may get it.
-    """
-    if current_thread() is not main_thread():
-        yield
-        return
-    resource_tracker.ensure_running()  # its start, with that of a process, would lift the block
-    missed: list[int] = []
-    handlers = {own: signal.signal(own, lambda n, _: missed.append(n)) for own in SIGNALS}
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        signal.set_wakeup_fd(before)
         for number, handler in handlers.items():
             signal.signal(number, handler)
-        if missed:
-            signal.raise_signal(missed[0])
+        guard.end()
+
+
+class _Guard(Thread):
+    """Hears of signals also while the main thread cannot, and bounds how long an ending takes."""
+
+    def __init__(self, hint: str, quiet: bool) -> None:
+        super().__init__(daemon=True)
+        self._hint, self._quiet = hint, quiet
+        self._stopped = False
+        self._pipe, self.woken = os.pipe()
+        os.set_blocking(self.woken, False)
+
+    def stop(self, number: int, _: FrameType | None) -> None:
+        """Handle a signal in the main thread."""
+        if number == signal.SIGHUP:
+            _leave_terminal()
+        if not self._stopped:
+            self._stopped = True
+            raise KeyboardInterrupt
+
+    def run(self) -> None:
+        """Wait for signals, then for the end."""
+        first = deadline = float("inf")
+        while True:
+            left = max(0.0, deadline - time.monotonic()) if deadline < float("inf") else None
+            if not select.select([self._pipe], [], [], left)[0]:
+                _end(self._hint)
+            now = time.monotonic()
+            for number in os.read(self._pipe, 1024):
+                if number == 0:
+                    return
+                if number in SIGNALS and first > now:
+                    first, deadline = now, now + ENDING_S
+                    self._say("stopping...")
+                elif number == signal.SIGINT and now > first + SAME_S:
+                    deadline = min(deadline, now + HURRY_S)
+
+    def end(self) -> None:
+        """The block is over."""
+        os.set_blocking(self.woken, True)
+        os.write(self.woken, b"\0")
+        self.join()
+        os.close(self.woken)
+        os.close(self._pipe)
+
+    def _say(self, line: str) -> None:
+        if not self._quiet:
+            _write(line)
+
+
+def _write(line: str) -> None:
+    """A line of its own on standard error, past whatever the main thread is writing there."""
+    lines = f"\n{line}\n" if os.isatty(2) else f"{line}\n"
+    with suppress(OSError):
+        os.write(2, lines.encode(errors="replace"))
+
+
+def _end(hint: str) -> None:
+    for child in active_children():
+        kill(child)
+    show_cursor = "\x1b[?25h" if os.isatty(2) else ""
+    _write(show_cursor + hint)
+    os._exit(INTERRUPTED)
+
+
+def _leave_terminal() -> None:
+    """Write nowhere from now on where the terminal is gone: what is left to do needs none."""
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            os.write(stream.fileno(), b"")
+        except (OSError, ValueError):
+            with suppress(OSError, ValueError):
+                _redirect(stream.fileno())
+
+
+def _redirect(descriptor: int) -> None:
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, descriptor)
+    os.close(nowhere)

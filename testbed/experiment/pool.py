@@ -1,31 +1,23 @@
-"""Play trials in this process, or on several worker processes that live across trials.
+"""Play trials on worker processes that live across trials, or in this process.
 
-`concurrent.futures` gives up the whole pool when one worker dies; here that costs the one trial.
-Workers are spawned: a forked process with an open zenoh session hangs. The trials of a pair are
-played by one worker, one right after the other, so that their times are of the same process.
+`concurrent.futures` gives up the whole pool when one worker dies; here that costs an attempt at
+one trial. The trials of a pair are played by one worker, one right after the other, so that their
+times are of the same process.
 """
 
 from __future__ import annotations
 
 import os
-import signal
 from collections import deque
-from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import AbstractContextManager, suppress
+from collections.abc import Generator, Iterator, Sequence
 from itertools import groupby
-from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
-from multiprocessing.context import SpawnProcess
 
-from testbed.experiment.interrupts import SIGNALS, interrupts_later
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import Result, lost_worker
-
-Play = Callable[[TrialSpec], Result]
-OpenPlayer = Callable[[], AbstractContextManager[Play]]
+from testbed.experiment.worker import OpenPlayer, Play, Worker
 
 AHEAD = 4096  # trials that may wait, finished, for an earlier one: what bounds the memory
-EXIT_S = 10.0
 WORTH = 50  # trials for which another process is worth its start
 
 
@@ -35,11 +27,15 @@ def play_all(
     """Results with their position in `specs`, as they come.
 
     `open_player` gives what plays one trial after the other; it is called once a process, and
-    must be picklable when there are several `workers`.
+    must be picklable unless `workers` is 0: then all are played in this process, which cannot be
+    interrupted at any moment. A trial that infrastructure fails is played a second time.
+
+    Raises:
+        WorkerError: when a worker cannot play, or ends before it has played.
     """
-    if workers == 1:
+    if workers == 0:
         with open_player() as play:
-            yield from ((position, play(spec)) for position, spec in enumerate(specs))
+            yield from _play_here(specs, play)
         return
     crew = _Crew(specs, open_player)
     try:
@@ -62,29 +58,30 @@ def _cores() -> int:
     return os.cpu_count() or 1
 
 
-class _Worker:
-    """A spawned process, the pipe to it, and positions: of the trial that it has, of its next."""
+class _Retries:
+    """Which trials were failed by infrastructure, and for what reason: each gets one more try."""
 
-    def __init__(self, open_player: OpenPlayer) -> None:
-        context = get_context("spawn")
-        self.pipe, far_end = context.Pipe()
-        self.process: SpawnProcess = context.Process(target=_serve, args=(far_end, open_player))
-        with interrupts_later():
-            self.process.start()
-        far_end.close()
-        self.position: int | None = None
-        self.next: deque[int] = deque()
+    def __init__(self) -> None:
+        self._reasons: dict[int, str] = {}
 
-    def end(self, at_once: bool) -> int | None:
-        """End the process and return its exit code."""
-        self.pipe.close()
-        if at_once:
-            self.process.kill()
-        self.process.join(EXIT_S)
-        if self.process.exitcode is None:
-            self.process.kill()
-            self.process.join()
-        return self.process.exitcode
+    def grants(self, position: int, result: Result) -> bool:
+        """Whether the trial is to be played again; a result after all says that it was."""
+        record = result.record
+        if record.cause == "infrastructure" and position not in self._reasons:
+            self._reasons[position] = record.reason or ""
+            return True
+        if position in self._reasons:
+            record.retried = [self._reasons.pop(position)]
+        return False
+
+
+def _play_here(specs: Sequence[TrialSpec], play: Play) -> Iterator[tuple[int, Result]]:
+    retries = _Retries()
+    for position, spec in enumerate(specs):
+        result = play(spec)
+        while retries.grants(position, result):
+            result = play(spec)
+        yield position, result
 
 
 class _Crew:
@@ -94,68 +91,80 @@ class _Crew:
         self._specs = specs
         self._open_player = open_player
         self._pairs = deque(_by_pair(specs))
-        self._workers: list[_Worker] = []
+        self._workers: list[Worker] = []
+        self._retries = _Retries()
 
     def work(self, size: int) -> Iterator[tuple[int, Result]]:
         for _ in range(size):
-            self._workers.append(_Worker(self._open_player))
-        while True:
-            self._hand_out()
-            busy = {w.pipe: w for w in self._workers if w.position is not None}
-            if not busy:
-                return
-            for pipe in wait(list(busy)):
+            self._workers.append(Worker(self._open_player))
+            self._workers[-1].start()
+        while awaited := self._awaited():
+            for pipe in wait(list(awaited)):
                 assert isinstance(pipe, Connection)
-                yield self._collect(busy[pipe])
+                yield from self._hear(awaited[pipe])
 
     def dismiss(self, at_once: bool) -> None:
+        if at_once:
+            for worker in self._workers:
+                worker.kill()
         for worker in self._workers:
-            if at_once:
-                worker.process.kill()
             worker.pipe.close()
         for worker in self._workers:
             worker.end(at_once)
 
-    def _hand_out(self) -> None:
+    def _awaited(self) -> dict[Connection, Worker]:
+        """Those that play now, or will as soon as they are ready."""
         for worker in self._workers:
-            if worker.position is None:
+            if worker.ready and worker.position is None:
                 self._give(worker)
+        return {w.pipe: w for w in self._workers if self._is_awaited(w)}
 
-    def _give(self, worker: _Worker) -> None:
+    def _is_awaited(self, worker: Worker) -> bool:
+        waits = not worker.ready and bool(worker.next or self._pairs)
+        return waits or worker.position is not None
+
+    def _give(self, worker: Worker) -> None:
         """The next of its pair, or the first of the next pair."""
         if not worker.next and self._pairs and self._pairs[0][0] < self._horizon():
             worker.next.extend(self._pairs.popleft())
         if worker.next:
-            worker.position = worker.next.popleft()
-            with suppress(OSError):  # a dead worker shows when its answer is collected
-                worker.pipe.send(self._specs[worker.position])
+            position = worker.next.popleft()
+            worker.play(position, self._specs[position])
 
     def _horizon(self) -> int:
-        under_way = [w.position for w in self._workers if w.position is not None]
-        return min(under_way, default=len(self._specs)) + AHEAD
+        own = [[w.position] if w.position is not None else list(w.next)[:1] for w in self._workers]
+        return (
+            min((first for positions in own for first in positions), default=len(self._specs))
+            + AHEAD
+        )
 
-    def _collect(self, worker: _Worker) -> tuple[int, Result]:
-        assert worker.position is not None
-        position, worker.position = worker.position, None
+    def _hear(self, worker: Worker) -> Iterator[tuple[int, Result]]:
+        position, was_ready = worker.position, worker.ready
         try:
-            return position, worker.pipe.recv()
-        except (EOFError, OSError):
-            code = worker.end(at_once=True)
-            heir = self._workers[self._workers.index(worker)] = _Worker(self._open_player)
-            heir.next = worker.next
-            return position, lost_worker(self._specs[position], code)
+            result = worker.receive()
+        except EOFError:
+            assert position is not None
+            result = lost_worker(self._specs[position], worker.end(at_once=True))
+            worker = self._replaced(worker)
+        if not was_ready:
+            return
+        assert position is not None
+        assert result is not None
+        worker.position = None
+        if self._retries.grants(position, result):
+            worker.next.appendleft(position)
+        else:
+            yield position, result
+
+    def _replaced(self, dead: Worker) -> Worker:
+        """Another worker for what the dead one was to play next."""
+        heir = self._workers[self._workers.index(dead)] = Worker(self._open_player)
+        heir.next = dead.next
+        heir.start()
+        return heir
 
 
 def _by_pair(specs: Sequence[TrialSpec]) -> Iterator[list[int]]:
     """The positions of each pair, which stand one after the other."""
     for _, own in groupby(range(len(specs)), lambda position: specs[position].pair):
         yield list(own)
-
-
-def _serve(pipe: Connection, open_player: OpenPlayer) -> None:
-    """A worker's life: until the pipe closes, which it also does when the driver dies."""
-    for number in SIGNALS:  # where all of a group get one, it is for the driver to handle
-        signal.signal(number, signal.SIG_IGN)
-    with suppress(EOFError, OSError), open_player() as play:
-        while True:
-            pipe.send(play(pipe.recv()))

@@ -133,6 +133,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     achieve its goal whether that could still be achieved from where the trial ended.
     `reason` is one line that says why a trial was lost, given up, or ended in error, or that it was
     over before its script; `cause` is None unless it was lost or ended in error.
+    `retried` are the reasons of earlier attempts at the trial, which failed.
     `minimal_actions` and `minimal_units` are the oracle's, from the initial
     state with nothing exogenous; None where no plan exists. The plan with the fewest actions need
     not be the one that costs least.
@@ -159,6 +160,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     outcome: Outcome = "error"
     reason: str | None = None
     cause: Cause | None = None
+    retried: list[str] = []
     steps: Count = 0
     actions: list[Attempt] = []
     exogenous: list[Occurrence] = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -10,12 +11,13 @@ from pathlib import Path
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.pool import Play, play_all, workers_for
+from testbed.experiment.pool import play_all, workers_for
 from testbed.experiment.record import FAILURES
 from testbed.experiment.registry import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import ERRORS, TrialWriter
 from testbed.experiment.trial import Result, play_trial
+from testbed.experiment.worker import Play
 from testbed.link.inprocess import InProcessRobot
 from testbed.link.robot import RobotClient
 from testbed.link.spawned import spawned_robot
@@ -54,7 +56,7 @@ def run_trials(
     with TrialWriter(folder) as writer:
         missing = [spec for spec in specs if spec.trial not in writer.done]
         tally = Tally(len(specs), done=len(specs) - len(missing), failed=writer.failed)
-        tally.workers = workers or workers_for(len(missing))
+        tally.workers = workers_for(len(missing)) if workers is None else workers
         notify(tally)
         if missing:
             _play_missing(missing, config, _Filing(folder, writer, tally, notify))
@@ -107,11 +109,16 @@ class _Filing:
 
 @contextmanager
 def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
-    """What plays trials one after the other, with a robot that lives across them."""
+    """What plays trials one after the other, with a robot that lives across them.
+
+    Raises:
+        RobotLost: when a robot of another process does not start.
+    """
     if link == "inprocess":
         yield partial(_play_with, InProcessRobot(make_robot))
         return
-    with spawned_robot(run, answer_s) as robot:
+    with spawned_robot(run, answer_s, group=os.getpgrp()) as robot:
+        robot.start()
         yield partial(_play_with, robot)
 
 

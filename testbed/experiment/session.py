@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,13 +10,15 @@ from rich.console import Console
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.coverage import coverage_of
-from testbed.experiment.interrupts import terminable
+from testbed.experiment.errors import WorkerError
+from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.levels.table import rich_level_table
 from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
 from testbed.experiment.report import Tables, write_report
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import (
+    CONFIG,
     REPORT,
     check_unchanged,
     choose_folder,
@@ -29,7 +32,7 @@ from testbed.experiment.wording import counted
 if TYPE_CHECKING:
     from testbed.experiment.table1.analysis import Analysis
 
-DONE, FAILED, INTERRUPTED = 0, 1, 130
+DONE, FAILED, BAD_INPUT = 0, 1, 2
 WIDE, WIDEST = 120, 150
 
 
@@ -44,18 +47,27 @@ def run_session(
 
     Raises:
         StoreError: before anything is run.
+        WorkerError: where no trial can be played; what is on record stays.
     """
     folder = choose_folder(out, config.name, resume)
     console = _console(quiet)
     if resume and not holds_run(folder):
         _say(console, f"nothing to resume: a new run in {folder}")
     _prepare(folder, config)
-    with terminable():
+    with stoppable(_to_go_on(folder), quiet):
         provenance = Provenance(folder, config, session_arguments())
-        tally = _played(config, folder, workers, quiet)
+        try:
+            tally = _played(config, folder, workers, quiet)
+        except WorkerError:
+            provenance.close(BAD_INPUT, workers=0)
+            raise
         code = _exit_code(tally)
         provenance.close(code, tally.workers)
-        _conclude(folder, config, tally, console)
+        try:
+            _conclude(folder, config, tally, console)
+        except KeyboardInterrupt:  # the trials are on record, the report is not made
+            _say(console, f"interrupted; for the report: testbed report {_quoted(folder)}")
+            return INTERRUPTED
     return code
 
 
@@ -103,7 +115,7 @@ def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Con
     if tally.interrupted:
         kept = f"{tally.done} of {counted(tally.planned, 'trial')}"
         _say(console, f"interrupted: {kept} kept in {folder}")
-        _say(console, f"to go on: testbed run {folder / 'config.yaml'} --out {folder} --resume")
+        _say(console, _to_go_on(folder))
         if not tables.rows:
             return
     if tally.failed:
@@ -145,6 +157,15 @@ def _show_table1(console: Console, analysis: Analysis) -> None:
             title = f"{whom}: {kind} (*: outside of our interval)"
             console.print()
             console.print(rich_table1(table, title), width=width)
+
+
+def _to_go_on(folder: Path) -> str:
+    where = _quoted(folder)
+    return f"to go on: testbed run {_quoted(folder / CONFIG)} --out {where} --resume"
+
+
+def _quoted(path: Path) -> str:
+    return shlex.quote(str(path))
 
 
 def _say(console: Console, line: str) -> None:

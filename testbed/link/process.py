@@ -6,16 +6,20 @@ import sys
 import tempfile
 from collections.abc import Sequence
 
-COMMAND = (sys.executable, "-m", "testbed", "robot")
+COMMAND = (sys.executable, "-P", "-m", "testbed", "robot")
+"""Nothing is imported from the working directory (-P)."""
 
 
 class RobotProcess:
     """The process of one robot, from its start to :meth:`close`; it ends by itself with its driver.
 
-    ``command`` is completed with ``--connect ENDPOINT --name NAME``.
+    ``command`` is completed with ``--connect ENDPOINT --name NAME``. The process joins the process
+    group ``group``, 0 for one of its own, which an interrupt at the terminal does not reach.
     """
 
-    def __init__(self, endpoint: str, name: str, command: Sequence[str] = COMMAND) -> None:
+    def __init__(
+        self, endpoint: str, name: str, command: Sequence[str] = COMMAND, group: int = 0
+    ) -> None:
         # For appending, since the process shares the offset, which reading moves.
         self._errors = tempfile.TemporaryFile("a+b")  # noqa: SIM115 - lives as long as the process
         self._process = subprocess.Popen(
@@ -23,8 +27,7 @@ class RobotProcess:
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=self._errors,
-            # An interrupt at the terminal is for the driver to handle.
-            start_new_session=True,
+            process_group=group,
         )
 
     @property

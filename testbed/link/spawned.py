@@ -19,10 +19,13 @@ _EXIT_S = 5.0
 
 @contextmanager
 def spawned_robot(
-    run: str, answer_s: float, command: Sequence[str] = COMMAND
+    run: str, answer_s: float, command: Sequence[str] = COMMAND, group: int = 0
 ) -> Iterator["SpawnedRobot"]:
     """Open a driver's session of its own and yield a robot on it; ends the robot's process."""
-    with open_driver() as session, closing(SpawnedRobot(session, run, answer_s, command)) as robot:
+    with (
+        open_driver() as session,
+        closing(SpawnedRobot(session, run, answer_s, command, group)) as robot,
+    ):
         yield robot
 
 
@@ -31,25 +34,37 @@ class SpawnedRobot:
 
     Whatever the loss, what is left of the process is ended with it, and the next trial begins
     with a new one. ``answer_s`` is the answer limit in seconds; ``process`` is the present
-    process, None before the first trial and after a loss.
+    process, None before the first trial and after a loss. ``command`` and ``group`` are those of
+    a :class:`RobotProcess`.
     """
 
     def __init__(
-        self, session: zenoh.Session, run: str, answer_s: float, command: Sequence[str] = COMMAND
+        self,
+        session: zenoh.Session,
+        run: str,
+        answer_s: float,
+        command: Sequence[str] = COMMAND,
+        group: int = 0,
     ) -> None:
         self._session = session
         self._run = run
         self._answer_s = answer_s
         self._command = command
+        self._group = group
         self._names = (f"spawned-{number}" for number in count(1))
         self._belongings = ExitStack()
         self._remote: RemoteRobot | None = None
         self.process: RobotProcess | None = None
 
+    def start(self) -> None:
+        """Have a process before there is a trial for it. Raises RobotLost."""
+        with self._ending_on_loss():
+            self._present()
+
     def begin(self, task: Task) -> None:
         """Prepare a trial, with a new process if there is none. Raises RobotLost."""
         with self._ending_on_loss():
-            (self._remote or self._start()).begin(task)
+            self._present().begin(task)
 
     def ask(self, percept: Percept) -> Decision:
         """Return the robot's decision. Raises RobotLost."""
@@ -63,9 +78,12 @@ class SpawnedRobot:
         self._belongings.close()
         self._remote = self.process = None
 
+    def _present(self) -> RemoteRobot:
+        return self._remote or self._start()
+
     def _start(self) -> RemoteRobot:
         name = next(self._names)
-        process = RobotProcess(endpoint(self._session), name, self._command)
+        process = RobotProcess(endpoint(self._session), name, self._command, self._group)
         self.process = self._belongings.enter_context(closing(process))
         remote = RemoteRobot(self._session, self._run, name, self._answer_s)
         self._belongings.enter_context(closing(remote))

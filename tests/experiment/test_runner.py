@@ -15,12 +15,13 @@ import pytest
 
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.pool import WORTH, Play, play_all, workers_for
+from testbed.experiment.pool import WORTH, play_all, workers_for
 from testbed.experiment.record import logical
 from testbed.experiment.registry import make_robot
 from testbed.experiment.runner import Tally, player, run_trials
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import Moment, Result, blank_record, play_trial
+from testbed.experiment.worker import Play
 from testbed.link.robot import Robot
 from testbed.link.spawned import spawned_robot
 from tests.experiment.samples import Configure, ids
@@ -142,6 +143,7 @@ def test_a_killed_worker_costs_its_trial_alone(configure: Configure, doomed: int
     assert ids(records) == [spec.trial for spec in specs]
     assert [record.outcome for record in records if record.trial != victim] == ["achieved"] * 3
     assert (records[doomed].outcome, records[doomed].cause) == ("error", "infrastructure")
+    assert records[doomed].retried == [records[doomed].reason]
     assert records[doomed].reason == "worker process ended with exit code -9"
 
 
@@ -264,7 +266,7 @@ def test_a_failed_robot_leaves_its_traceback_and_the_run_goes_on(
         return make_robot(kind)
 
     monkeypatch.setattr("testbed.experiment.runner.make_robot", make)
-    tally = run_trials(configure("scenarios=[1,2]"), tmp_path, 1, _ignore)
+    tally = run_trials(configure("scenarios=[1,2]"), tmp_path, 0, _ignore)
     records = list(read_records(tmp_path))
     outcomes = sorted((record.robot, record.outcome) for record in records)
     assert outcomes == [("intentional", "achieved")] * 2 + [("traditional", "robot_lost")] * 2

@@ -1,0 +1,121 @@
+"""A process that plays trials, one after the other; it can be killed with all that it started.
+
+Workers are spawned: a forked process with an open zenoh session hangs. Each leads a process group,
+to which its robots belong: no signal of the driver's terminal reaches either, and killing the
+group leaves nobody behind, whatever they are doing.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections import deque
+from collections.abc import Callable
+from contextlib import AbstractContextManager, ExitStack, suppress
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import Connection
+from threading import Thread
+
+from testbed.experiment.errors import WorkerError
+from testbed.experiment.processes import SIGNALS, interrupts_later, kill, safe_path
+from testbed.experiment.specs import TrialSpec
+from testbed.experiment.trial import Result
+from testbed.link.errors import RobotLost
+from testbed.link.exchange import in_one_line
+
+Play = Callable[[TrialSpec], Result]
+OpenPlayer = Callable[[], AbstractContextManager[Play]]
+
+EXIT_S = 10.0
+
+
+class Worker:
+    """A process, the pipe to it, and positions: of the trial that it plays, of its next.
+
+    It is `ready` once it has said that it can play.
+    """
+
+    def __init__(self, open_player: OpenPlayer) -> None:
+        context = get_context("spawn")
+        self.pipe, self._far_end = context.Pipe()
+        self._process = context.Process(target=_serve, args=(self._far_end, open_player))
+        self.ready = False
+        self.position: int | None = None
+        self.next: deque[int] = deque()
+
+    def start(self) -> None:
+        """Start the process, deaf to the signals that this one gets."""
+        with safe_path(), interrupts_later():
+            self._process.start()
+        self._far_end.close()
+
+    def play(self, position: int, spec: TrialSpec) -> None:
+        """Give it a trial; a dead worker shows when its answer is received."""
+        self.position = position
+        with suppress(OSError):
+            self.pipe.send(spec)
+
+    def receive(self) -> Result | None:
+        """What it says: None once it is ready, then the results of its trials.
+
+        Raises:
+            EOFError: when it ended in the middle of a trial.
+            WorkerError: when it could not get ready.
+        """
+        try:
+            said: Result | str | None = self.pipe.recv()
+        except (EOFError, OSError):
+            if self.ready:
+                raise EOFError from None
+            code = self.end(at_once=True)
+            raise _not_ready(f"a process ended with exit code {code} as it started") from None
+        if isinstance(said, str):
+            raise _not_ready(said)
+        self.ready = True
+        return said
+
+    def kill(self) -> None:
+        """Kill the process and its robots."""
+        if self._process.pid is not None:
+            kill(self._process)
+
+    def end(self, at_once: bool) -> int | None:
+        """End the process and return its exit code."""
+        self.pipe.close()
+        if self._process.pid is None:
+            return None
+        if at_once:
+            kill(self._process)
+        self._process.join(EXIT_S)
+        if self._process.exitcode is None:
+            kill(self._process)
+            self._process.join()
+        return self._process.exitcode
+
+
+def _not_ready(reason: str) -> WorkerError:
+    return WorkerError(f"no trial can be played: {reason}")
+
+
+def _serve(pipe: Connection, open_player: OpenPlayer) -> None:
+    """A worker's life: until the pipe closes, or the driver is gone."""
+    os.setsid()
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+    Thread(target=_end_with_driver, daemon=True).start()
+    with suppress(EOFError, OSError), ExitStack() as stack:
+        try:
+            play = stack.enter_context(open_player())
+        except Exception as error:
+            pipe.send(str(error) if isinstance(error, RobotLost) else in_one_line(error))
+            return
+        pipe.send(None)
+        while True:
+            pipe.send(play(pipe.recv()))
+
+
+def _end_with_driver() -> None:
+    driver = parent_process()
+    assert driver is not None
+    driver.join()
+    os.killpg(0, signal.SIGKILL)
