@@ -76,16 +76,22 @@ class Closure:
 
     def __init__(self, vocabulary: Vocabulary, rules: Iterable[Rule]) -> None:
         self._vocabulary = vocabulary
-        self._rules = tuple((rule.body, rule.head) for rule in rules)
+        # By one literal of the body each, if possible a positive one: few fluents are true.
+        watched: dict[int, list[tuple[int, int]]] = {}
+        for rule in rules:
+            watched.setdefault(rule.body & -rule.body, []).append((rule.body, rule.head))
+        self._watched = tuple(watched.items())
 
     def consequences(self, literals: int) -> int:
         """Cn: the least superset closed under the rules; it may be inconsistent."""
         before = -1
         while before != literals:
             before = literals
-            for body, head in self._rules:
-                if body & literals == body:
-                    literals |= head
+            for watched, rules in self._watched:
+                if watched & literals == watched:
+                    for body, head in rules:
+                        if body & literals == body:
+                            literals |= head
         return literals
 
     def models(self, facts: int, defaults: int) -> tuple[int, ...]:

@@ -6,12 +6,15 @@ keeps; a compound action without one cannot be executed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from asp.description import Description
 from testbed.environment.closure import Rule
 from testbed.environment.errors import NotExecutableError, UnknownActionError
 from testbed.environment.states import StateSpace
+
+_Condition = tuple[int, frozenset[str], int]
+"""The number of a law, actions that cannot occur together, the literals under which they cannot."""
 
 
 class World(StateSpace):
@@ -29,9 +32,10 @@ class World(StateSpace):
         self._effects: dict[str, list[Rule]] = {action: [] for action in actions}
         for law in description.causal:
             self._effects[law.action].append(Rule(mask(law.body), bit(law.head)))
-        self._impossible = tuple(
-            (frozenset(law.actions), mask(law.body)) for law in description.executability
-        )
+        self._impossible: dict[str, list[_Condition]] = {}
+        for number, condition in enumerate(description.executability):
+            own = number, frozenset(condition.actions), mask(condition.body)
+            self._impossible.setdefault(min(condition.actions), []).append(own)
         self._sees: dict[str, list[Rule]] = {}
         for sight in description.sees:
             seen = Rule(mask(sight.body), bit(sight.fluent))
@@ -48,6 +52,16 @@ class World(StateSpace):
         if key not in self._known:
             self._known[key] = self._compute(state, compound)
         return self._known[key]
+
+    def moves(self, state: int) -> Iterator[tuple[str, int]]:
+        """Each action of the agents that can be executed, with each state it can lead to.
+
+        In the order of declaration. Nothing is remembered: this is for searches, whose memory would
+        grow with all actions of every state that they look at.
+        """
+        for action in self.agent_actions:
+            for reached in self._compute(state, frozenset([action])):
+                yield action, reached
 
     def successor(self, state: int, actions: Iterable[str]) -> int:
         """The one successor. Raises NotExecutableError, or ValueError where there are several."""
@@ -69,8 +83,11 @@ class World(StateSpace):
         compound = frozenset(actions)
         if self.executable(state, compound):
             return None
-        law = self._forbidding(self._vocabulary.complete(state), compound)
-        return law or f"the effects of {_names(compound)} contradict each other"
+        first = min(self._forbidding(self._vocabulary.complete(state), compound), default=None)
+        if first is None:
+            return f"the effects of {_names(compound)} contradict each other"
+        _, actions, body = first
+        return f"impossible {_names(actions)} if {self._text(body)}".removesuffix(" if ")
 
     def visible(self, state: int, robot: str) -> tuple[str, ...]:
         """The literals that the robot sees in the state, in the order of the fluents."""
@@ -83,7 +100,7 @@ class World(StateSpace):
         effects = 0
         for action in sorted(compound):
             effects |= _fired(self._rules(action), literals)
-        if self._forbidding(literals, compound):
+        if any(self._forbidding(literals, compound)):
             return ()
         models = self._closure.models(effects, literals & self._inertial | self._closed_world)
         return tuple(sorted(map(self._true, models)))
@@ -95,12 +112,12 @@ class World(StateSpace):
             name = self.description.name
             raise UnknownActionError(f"{action} is not an action of the domain {name}") from None
 
-    def _forbidding(self, literals: int, compound: frozenset[str]) -> str | None:
-        """The first law that makes the compound action impossible, as text."""
-        for actions, body in self._impossible:
-            if actions <= compound and body & literals == body:
-                return f"impossible {_names(actions)} if {self._text(body)}".removesuffix(" if ")
-        return None
+    def _forbidding(self, literals: int, compound: frozenset[str]) -> Iterator[_Condition]:
+        """The laws that make the compound action impossible."""
+        for action in compound:
+            for number, actions, body in self._impossible.get(action, ()):
+                if body & literals == body and actions <= compound:
+                    yield number, actions, body
 
 
 def _fired(rules: Iterable[Rule], literals: int) -> int:

@@ -1,14 +1,15 @@
 """The fewest actions, and the fewest units, that achieve a goal: complete knowledge, no surprises.
 
-Breadth-first search, and Dijkstra's, over the compiled world: neither shares a line with the
+Uniform-cost search over the compiled world, within a budget of states: it shares no line with the
 robots' planners.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import lru_cache
 from heapq import heappop, heappush
+from itertools import count
 
 from asp.description import Description
 from asp.grounding import ground_description
@@ -20,61 +21,77 @@ from asp.syntax import Source
 from testbed.environment.world import World
 
 
-def shortest_plan(world: World, initial: int, goal: Iterable[str]) -> tuple[str, ...] | None:
-    """A plan with the fewest robot actions from `initial` to a state of `goal`; None if none."""
-    wanted = tuple(goal)
-    came_from: dict[int, tuple[int, str] | None] = {initial: None}
-    frontier = [initial]
-    while frontier:
-        found = next((state for state in frontier if world.satisfies(state, wanted)), None)
-        if found is not None:
-            return tuple(_path(came_from, found))
-        frontier = [reached for state in frontier for reached in _expand(world, state, came_from)]
-    return None
+class BudgetError(RuntimeError):
+    """A search would have to look at more states than its budget allows."""
 
 
-def minimal_actions(world: World, initial: int, goal: Iterable[str]) -> int | None:
-    """Length of a shortest plan, or None where the goal cannot be reached."""
-    plan = shortest_plan(world, initial, goal)
+def shortest_plan(
+    world: World, initial: int, goal: Iterable[str], most_states: int | None = None
+) -> tuple[str, ...] | None:
+    """A plan with the fewest robot actions from `initial` to a state of `goal`; None if none.
+
+    Raises BudgetError where more than `most_states` states would have to be expanded.
+    """
+    return _cheapest(world, initial, goal, lambda _: 1, most_states)
+
+
+def minimal_actions(
+    world: World, initial: int, goal: Iterable[str], most_states: int | None = None
+) -> int | None:
+    """Length of a shortest plan, or None where the goal cannot be reached. Raises BudgetError."""
+    plan = shortest_plan(world, initial, goal, most_states)
     return None if plan is None else len(plan)
 
 
 def minimal_units(
-    world: World, initial: int, goal: Iterable[str], costs: Mapping[str, int]
+    world: World,
+    initial: int,
+    goal: Iterable[str],
+    costs: Mapping[str, int],
+    most_states: int | None = None,
 ) -> int | None:
     """Execution units of a cheapest plan, or None where the goal cannot be reached.
 
-    What has no cost costs 0.
+    What has no cost costs 0. Raises BudgetError.
     """
-    wanted = tuple(goal)
-    frontier, done = [(0, initial)], set[int]()
+
+    def cost(action: str) -> int:
+        return costs.get(action, 0)
+
+    plan = _cheapest(world, initial, goal, cost, most_states)
+    return None if plan is None else sum(map(cost, plan))
+
+
+def _cheapest(
+    world: World,
+    initial: int,
+    goal: Iterable[str],
+    cost: Callable[[str], int],
+    most_states: int | None,
+) -> tuple[str, ...] | None:
+    """Of the cheapest plans the one that is found first, in the order of declaration."""
+    wanted, number = tuple(goal), count()
+    came_from: dict[int, tuple[int, str] | None] = {initial: None}
+    least, expanded = {initial: 0}, set[int]()
+    frontier = [(0, next(number), initial)]
     while frontier:
-        spent, state = heappop(frontier)
-        if world.satisfies(state, wanted):
-            return spent
-        if state in done:
+        spent, _, state = heappop(frontier)
+        if state in expanded:
             continue
-        done.add(state)
-        for action in world.agent_actions:
-            if world.executable(state, (action,)):
-                for reached in world.successors(state, (action,)):
-                    heappush(frontier, (spent + costs.get(action, 0), reached))
+        if world.satisfies(state, wanted):
+            return tuple(_path(came_from, state))
+        if len(expanded) == most_states:
+            raise BudgetError(f"more than {most_states} states")
+        expanded.add(state)
+        for action, reached in world.moves(state):
+            total = spent + cost(action)
+            if reached not in least or total < least[reached]:
+                least[reached], came_from[reached] = total, (state, action)
+                heappush(frontier, (total, next(number), reached))
     return None
 
 
-def _expand(
-    world: World, state: int, came_from: dict[int, tuple[int, str] | None]
-) -> Iterator[int]:
-    for action in world.agent_actions:
-        if not world.executable(state, (action,)):
-            continue
-        for reached in world.successors(state, (action,)):
-            if reached not in came_from:
-                came_from[reached] = (state, action)
-                yield reached
-
-
-def _path(came_from: dict[int, tuple[int, str] | None], last: int) -> list[str]:
+def _path(came_from: Mapping[int, tuple[int, str] | None], last: int) -> list[str]:
     actions: list[str] = []
     step = came_from[last]
     while step is not None:
@@ -91,15 +108,21 @@ class Oracle:
         self._independence = Independence(description, source, signature)
         self._world = lru_cache(maxsize=64)(self._without)
 
-    def minimal_actions(self, state: Collection[str], goal: Iterable[str]) -> int | None:
-        """As `minimal_actions`, from the state with these true atoms."""
-        return minimal_actions(*self._narrowed(state, goal))
+    def minimal_actions(
+        self, state: Collection[str], goal: Iterable[str], most_states: int | None = None
+    ) -> int | None:
+        """As `minimal_actions`, from the state with these true atoms. Raises BudgetError."""
+        return minimal_actions(*self._narrowed(state, goal), most_states)
 
     def minimal_units(
-        self, state: Collection[str], goal: Iterable[str], costs: Mapping[str, int]
+        self,
+        state: Collection[str],
+        goal: Iterable[str],
+        costs: Mapping[str, int],
+        most_states: int | None = None,
     ) -> int | None:
-        """As `minimal_units`, from the state with these true atoms."""
-        return minimal_units(*self._narrowed(state, goal), costs)
+        """As `minimal_units`, from the state with these true atoms. Raises BudgetError."""
+        return minimal_units(*self._narrowed(state, goal), costs, most_states)
 
     def _narrowed(
         self, state: Collection[str], goal: Iterable[str]
