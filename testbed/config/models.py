@@ -18,6 +18,8 @@ KnowledgeKind = Literal["complete", "seen"]
 Strategy = Literal["triggers", "random"]
 Pace = Literal["concrete", "abstract"]
 Protocol = Literal["table1", "levels"]
+JUDGE_STATES = 5_000
+"""States that are looked at for the least that achieves a goal, unless given."""
 FINE_STEPS = 5000
 """Environment steps of a trial at the fine resolution, unless given."""
 MOST = 2**31 - 1
@@ -102,12 +104,15 @@ class Limits(Section):
     """Bounds of a trial: environment steps, length of a plan, seconds for an answer.
 
     `decision_s` are seconds of reasoning, after which a robot waits for a step; None: no limit.
+    `judge_states` are the states that are looked at, after the trial, for the fewest actions that
+    achieve its goal; where they do not suffice these are not known.
     """
 
     steps: Count = 100
     plan: Count = 30
     answer_s: Seconds = 60.0
     decision_s: Seconds | None = None
+    judge_states: Count = JUDGE_STATES
 
 
 class AdversarySettings(Section):

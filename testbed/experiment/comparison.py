@@ -54,8 +54,10 @@ def _cells(group: Mapping[str, Any]) -> Iterator[Cell]:
     yield Cell("pairs", str(group["pairs"]), ", ".join(_apart(group)))
     for robot in ROBOTS:
         share = group["accuracy"].get(robot)
-        test = _test(group, ACCURACY) if robot == INTENTIONAL else ""
-        yield Cell(f"{robot} correct", "-" if share is None else f"{100 * share:.1f} %", test)
+        notes = [_test(group, ACCURACY)] if robot == INTENTIONAL else []
+        notes += [f"{group['undecided'][robot]} not decided"] * bool(group["undecided"].get(robot))
+        value = "-" if share is None else f"{100 * share:.1f} %"
+        yield Cell(f"{robot} correct", value, ", ".join(filter(None, notes)))
     for measure in MEASURES:
         ratio = group["ratios"][measure]
         yield Cell(in_words(measure), _number(ratio), _test(group, measure))

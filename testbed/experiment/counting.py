@@ -43,10 +43,15 @@ def standing(record: TrialRecord) -> Standing:
     return Standing(
         failed=record.outcome in FAILURES,
         late=record.deadline,
-        solvable=record.minimal_actions is not None,
+        solvable=is_solvable(record),
         idle=is_idle(record),
         quiet=not record.exogenous,
     )
+
+
+def is_solvable(record: TrialRecord) -> bool:
+    """Whether some plan achieves the goal from the initial state, or none is known not to."""
+    return record.minimal_actions is not None or record.minimal_reason == "budget"
 
 
 def is_idle(record: TrialRecord) -> bool:

@@ -19,6 +19,7 @@ class Outline:
         "achieved",
         "action_count",
         "correct",
+        "decided",
         "ended",
         "execution_units",
         "minimal_actions",
@@ -36,7 +37,8 @@ class Outline:
         self.minimal_units = record.minimal_units
         self.ended = record.outcome not in FAILURES
         self.achieved = record.achieved
-        self.correct = record.correct
+        self.correct = record.correct is True
+        self.decided = record.correct is not None
         self.plans = record.plans
         self.action_count = record.action_count
         self.execution_units = record.execution_units

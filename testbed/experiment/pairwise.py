@@ -42,6 +42,8 @@ class Played:
 class Group:
     """What some pairs come to; `pairs` are the ids of those that count, `apart` counts the others.
 
+    `accuracy` is by robot, of the trials of which it is known whether they are correct; `undecided`
+    counts the others.
     Tests are by measure, of the traditional less the intentional robot's, and of `accuracy`, of the
     intentional less the traditional one's.
     """
@@ -49,6 +51,7 @@ class Group:
     pairs: frozenset[str]
     apart: Mapping[Apart, int]
     accuracy: Mapping[str, float | None]
+    undecided: Mapping[str, int]
     ratios: Mapping[str, float | None]
     tests: Mapping[str, Test | None]
     optimum: Mapping[str, Optimum]
@@ -60,6 +63,7 @@ class Group:
             "pairs": len(self.pairs),
             **{key: self.apart.get(reason, 0) for reason, key in COUNTS.items()},
             "accuracy": dict(self.accuracy),
+            "undecided": dict(self.undecided),
             "ratios": dict(self.ratios),
             "p_values": {name: None if test is None else test.p for name, test in tests},
             "holm": {name: None if test is None else test.holm for name, test in tests},
@@ -82,6 +86,7 @@ def group(pairs: Sequence[Played], robots: Collection[str], sure: Collection[str
         pairs=frozenset(pair.pair for pair in counted),
         apart=Counter(reason for reason in reasons if reason is not None),
         accuracy={robot: _accuracy(_trials(counted, robot)) for robot in own},
+        undecided={robot: _undecided(_trials(counted, robot)) for robot in own},
         ratios={name: _ratio(both, measure) for name, measure in MEASURES.items()},
         tests=dict(_tests(both)),
         optimum={robot: _optimum(_trials(counted, robot)) for robot in own},
@@ -98,7 +103,12 @@ def _trials(pairs: Iterable[Played], robot: str) -> list[Outline]:
 
 
 def _accuracy(trials: Sequence[Outline]) -> float | None:
-    return fmean(trial.correct for trial in trials) if trials else None
+    known = [trial.correct for trial in trials if trial.decided]
+    return fmean(known) if known else None
+
+
+def _undecided(trials: Iterable[Outline]) -> int:
+    return sum(not trial.decided for trial in trials)
 
 
 def _ratio(pairs: Sequence[Both], measure: Callable[[Outline], float]) -> float | None:
@@ -108,11 +118,12 @@ def _ratio(pairs: Sequence[Both], measure: Callable[[Outline], float]) -> float 
 
 def _tests(pairs: Sequence[Both]) -> Iterator[tuple[str, Test | None]]:
     states = [mind.state for _, mind in pairs]
+    decided = [pair for pair in pairs if all(trial.decided for trial in pair)]
     for name, measure in MEASURES.items():
         differences = [measure(base) - measure(mind) for base, mind in pairs]
         yield name, signed_rank(np.array(differences, dtype=float), states)
-    bases, minds = (np.array([pair[i].correct for pair in pairs], dtype=bool) for i in (0, 1))
-    yield ACCURACY, mcnemar(minds, bases, states)
+    bases, minds = (np.array([pair[i].correct for pair in decided], dtype=bool) for i in (0, 1))
+    yield ACCURACY, mcnemar(minds, bases, [mind.state for _, mind in decided])
 
 
 def _optimum(trials: Iterable[Outline]) -> Optimum:

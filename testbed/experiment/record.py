@@ -15,6 +15,8 @@ from testbed.link.messages import Minimality
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 FAILURES: tuple[Outcome, ...] = ("robot_lost", "error")
+MinimalReason = Literal["no plan", "budget"]
+"""Why the least that achieves a goal is not known."""
 Cause = Literal["robot", "infrastructure", "testbed"]
 """What a trial failed for: the robot's own error; a process that ended, or the link to it; ours."""
 COARSE = "coarse"
@@ -134,9 +136,11 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     `reason` is one line that says why a trial was lost, given up, or ended in error, or that it was
     over before its script; `cause` is None unless it was lost or ended in error.
     `retried` are the reasons of earlier attempts at the trial, which failed.
-    `minimal_actions` and `minimal_units` are the oracle's, from the initial
-    state with nothing exogenous; None where no plan exists. The plan with the fewest actions need
-    not be the one that costs least.
+    `minimal_actions` and `minimal_units` are the oracle's, from the initial state with nothing
+    exogenous, of a trial that was played to its end. Where the actions are None `minimal_reason`
+    says why: `no plan` exists, or the `budget` of states did not suffice to find the least. The
+    plan with the fewest actions need not be the one that costs least. `correct` is None where that
+    depends on the fewest actions and these are not known; so is `in_reach`.
     `mental` holds `start(N)`, `stop(N)` and `finish`.
     Times are seconds, `..._time_s` by the wall clock, `..._cpu_s` process time of the robot, its
     solver included. `preparation_cpu_s` is what the trial's decisions caused but others can reuse
@@ -154,9 +158,10 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     goal: list[str]
     achieved: bool = False
     finished: bool = False
-    correct: bool = False
+    correct: bool | None = False
     minimal_actions: Count | None = None
     minimal_units: Count | None = None
+    minimal_reason: MinimalReason | None = None
     outcome: Outcome = "error"
     reason: str | None = None
     cause: Cause | None = None

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from testbed.environment.core import FINISH, WAIT
 from testbed.environment.situation import Ending
+from testbed.experiment.judge import Minimal
 from testbed.experiment.record import (
     Activity,
     At,
@@ -31,9 +32,10 @@ class Recorder:
         self._believes_goal = False
         self._last_reason: str | None = None
 
-    def minimal(self, actions: int | None, units: int | None) -> None:
-        """The oracle's answers for the initial state."""
-        self.record.minimal_actions, self.record.minimal_units = actions, units
+    def minimal(self, least: Minimal) -> None:
+        """The least that achieves the goal from the initial state."""
+        record = self.record
+        record.minimal_actions, record.minimal_units, record.minimal_reason = least
 
     def step(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
         """What the robot decided; `happened` is None unless it attempted a physical action."""
@@ -100,18 +102,20 @@ class Recorder:
         """Whether the goal holds in the world where the trial stops, whatever stops it."""
         self.record.achieved = truly
 
-    def in_reach(self, still: bool) -> None:
-        """Whether the goal could still be achieved where the trial ended without it."""
+    def in_reach(self, still: bool | None) -> None:
+        """Whether the goal could still be achieved where the trial ended; None: not known."""
         self.record.in_reach = still
 
     def end(self, ending: Ending) -> None:
-        """The end of the game; after it is known whether the goal was achieved."""
+        """The end of the game; after `achieved` and `minimal`."""
         record = self.record
         record.finished = ending is not Ending.STEP_LIMIT
         record.outcome = self._outcome(ending)
         if record.outcome == "gave_up":
             record.reason = record.reason or self._last_reason
-        record.correct = record.achieved and record.finished and self._minimal_if_undisturbed()
+        record.correct = (
+            record.achieved and record.finished and (self._disturbed() or self._is_minimal())
+        )
 
     def _outcome(self, ending: Ending) -> Outcome:
         if ending is Ending.STEP_LIMIT:
@@ -120,11 +124,13 @@ class Recorder:
             return "achieved"
         return "false_finish" if self._believes_goal else "gave_up"
 
-    def _undisturbed(self) -> bool:
-        return not self.record.exogenous
+    def _disturbed(self) -> bool:
+        return bool(self.record.exogenous)
 
-    def _minimal_if_undisturbed(self) -> bool:
-        return not self._undisturbed() or self.record.action_count == self.record.minimal_actions
+    def _is_minimal(self) -> bool | None:
+        """Whether the fewest actions were taken; None where these are not known."""
+        least = self.record.minimal_actions
+        return None if least is None else self.record.action_count == least
 
     def unreached(self, steps: Sequence[int]) -> None:
         """Steps of the script at which the game was over already."""
@@ -176,8 +182,8 @@ class FineRecorder(Recorder):
             self._attempt(fine.begun, fine.abstract, False, costs)
         self._count(fine)
 
-    def _undisturbed(self) -> bool:
-        return self._certain and super()._undisturbed()
+    def _disturbed(self) -> bool:
+        return not self._certain or super()._disturbed()
 
     def _count(self, fine: FineTrace) -> None:
         counts = self._counts

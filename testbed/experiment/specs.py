@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 
 from asp.levels import LevelSize
-from testbed.config.models import ExperimentConfig, KnowledgeKind, Pace
+from testbed.config.models import JUDGE_STATES, ExperimentConfig, KnowledgeKind, Pace
 from testbed.environment.rules import Observability
 
 
@@ -50,6 +50,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     decision_s: float | None
     fine: FineSetting | None = None
     random_events: bool = False
+    judge_states: int = JUDGE_STATES
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -83,6 +84,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         plan_limit=config.limits.plan,
         decision_s=config.limits.decision_s,
         random_events=config.has_random_events,
+        judge_states=config.limits.judge_states,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Protocol
 
@@ -13,6 +13,7 @@ from testbed.environment.world import World
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.conditions import known, rules_of
 from testbed.experiment.domains import load_world
+from testbed.experiment.judge import Judge
 from testbed.experiment.levels.stage import FineStage, fine_part
 from testbed.experiment.oracle import minimal_actions, minimal_units
 from testbed.experiment.specs import Setting, TrialSpec
@@ -26,6 +27,10 @@ class Stage(Protocol):
     def costs(self) -> Mapping[str, int]:
         """Execution units of the actions that a record counts."""
 
+    @property
+    def judge(self) -> Judge:
+        """Who knows the least number of recorded actions, and of their units."""
+
     def core(self, setting: Setting) -> Core:
         """A new game."""
 
@@ -35,19 +40,17 @@ class Stage(Protocol):
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
         """What the robot is told of a trial that begins in `state`."""
 
-    def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
-        """The least number of recorded actions that achieves the goal; None: out of reach."""
-
-    def minimal_units(self, state: int, goal: Iterable[str]) -> int | None:
-        """The least units of recorded actions that achieve the goal; None: out of reach."""
-
 
 class CoarseStage:
     """A domain as it is described."""
 
     def __init__(self, world: World) -> None:
         self._world = world
-        self.costs = world.description.costs
+        costs = self.costs = world.description.costs
+        self.judge = Judge(
+            lambda state, goal, most: minimal_actions(world, state, goal, most),
+            lambda state, goal, most: minimal_units(world, state, goal, costs, most),
+        )
 
     def core(self, setting: Setting) -> Core:
         """A new game."""
@@ -71,19 +74,11 @@ class CoarseStage:
             decision_s=spec.setting.decision_s,
         )
 
-    def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
-        """By search over the world itself."""
-        return minimal_actions(self._world, state, goal)
-
-    def minimal_units(self, state: int, goal: Iterable[str]) -> int | None:
-        """By search over the world itself."""
-        return minimal_units(self._world, state, goal, self.costs)
-
 
 def load_stage(setting: Setting) -> Stage:
     """The stage of a setting; its world is loaded once. Raises what `asp.load_description` does."""
     if setting.fine is None:
-        return CoarseStage(load_world(setting.domain))
+        return _coarse_stage(setting.domain)
     return _fine_stage(load_ground(setting))
 
 
@@ -93,6 +88,11 @@ def load_ground(setting: Setting) -> Ground:
     if fine.size is not None:
         return of_size(fine.size)
     return of_files(setting.domain, fine.refinement or "")
+
+
+@lru_cache(maxsize=8)
+def _coarse_stage(domain: str) -> CoarseStage:
+    return CoarseStage(load_world(domain))
 
 
 @lru_cache(maxsize=16)

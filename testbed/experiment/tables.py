@@ -24,6 +24,7 @@ COLUMNS = (
 )
 AT_LEVELS = {"scenario": "level", "planning": "coarse planning"}
 MOST_COMMON = 3
+UNJUDGED = "the fewest actions are not known: more than limits.judge_states states"
 NONE_APART: Mapping[str, Apart] = {}
 
 
@@ -65,6 +66,8 @@ class Row:
         self.explanations.update(explained(record))
         if record.reason is not None:
             self.reasons[record.reason] += 1
+        if record.minimal_reason == "budget":
+            self.reasons[UNJUDGED] += 1
 
     @property
     def place(self) -> str:

@@ -122,7 +122,6 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     core = stage.core(spec.setting)
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
     start = core.situation.state
-    recorder.minimal(stage.minimal_actions(start, goal), stage.minimal_units(start, goal))
     adversary = stage.adversary(spec)
     adversary.reset(for_adversary)
     try:
@@ -133,9 +132,11 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
                 watch(moment)
     finally:
         recorder.achieved(core.achieved)
+    most_states = spec.setting.judge_states
+    recorder.minimal(stage.judge.minimal(start, goal, most_states))
     recorder.end(core.situation.ending)
     if not core.achieved:
-        recorder.in_reach(stage.minimal_actions(core.situation.state, goal) is not None)
+        recorder.in_reach(stage.judge.in_reach(core.situation.state, goal, most_states))
     script = spec.setting.script or ()
     recorder.unreached(sorted(step for step, _ in script if step >= core.situation.step))
 

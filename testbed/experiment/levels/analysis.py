@@ -48,15 +48,19 @@ def _level(name: str, robots: Mapping[str, Outlines], first: Mapping[str, Outlin
     pairs = list(_pairs(robots))
     ratios = {part: _ratio(pairs, part) for part in PARTS}
     zoomed, whole = (np.array([p[i].achieved for p in pairs], dtype=bool) for i in (0, 1))
-    right, others = (np.array([p[i].correct for p in pairs], dtype=bool) for i in (0, 1))
+    decided = [pair for pair in pairs if all(own.decided for own in pair)]
+    right, others = (np.array([p[i].correct for p in decided], dtype=bool) for i in (0, 1))
     compared = Compared(
         pairs=len(pairs),
         completed=_shares(robots, lambda outline: outline.achieved),
-        correct=_shares(robots, lambda outline: outline.correct),
+        correct=_shares(
+            {robot: [o for o in own if o.decided] for robot, own in robots.items()},
+            lambda outline: outline.correct,
+        ),
         ratios=ratios,
         growth={} if name == FIRST else _growth(robots, first),
         completed_test=mcnemar(zoomed, whole) if pairs else None,
-        correct_test=mcnemar(right, others) if pairs else None,
+        correct_test=mcnemar(right, others) if decided else None,
     )
     means = {part: None if r.mean is None else r.mean.value for part, r in ratios.items()}
     return Level({robot: _reasoning(own) for robot, own in robots.items()}, means, compared)

@@ -12,6 +12,7 @@ from testbed.experiment.record import FAILURES, FineCounts, TrialRecord
 class FineOutline:
     """The numbers of one trial; `seconds` are by the names of PARTS.
 
+    `decided`: whether it is known if the trial is correct.
     They are those of the whole trial: `coarse` is planning and diagnosis, `fine` refined plans and
     the inference of what came of them, `total` both; `refined_plan`, the mean time of one of them,
     is there where one was made.
@@ -27,6 +28,7 @@ class FineOutline:
     actions: int
     tests: int
     seconds: Mapping[str, float]
+    decided: bool = True
 
 
 def fine_outline(record: TrialRecord, fine: FineCounts) -> FineOutline:
@@ -36,7 +38,8 @@ def fine_outline(record: TrialRecord, fine: FineCounts) -> FineOutline:
         pair=record.pair,
         played=record.outcome not in FAILURES,
         achieved=record.achieved,
-        correct=record.correct,
+        correct=record.correct is True,
+        decided=record.correct is not None,
         out_of_reach=record.in_reach is False,
         plans=fine.plans,
         actions=fine.actions,

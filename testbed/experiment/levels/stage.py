@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from agents.adversary.base import Adversary
 from agents.adversary.random import Random
 from agents.adversary.scripted import Script
@@ -13,6 +11,7 @@ from testbed.environment.core import Core
 from testbed.environment.fine import fine_core, fine_world
 from testbed.environment.world import World
 from testbed.experiment.conditions import known, rules_of
+from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import Oracle
 from testbed.experiment.specs import FineSetting, Setting, TrialSpec
 from testbed.link.messages import Task
@@ -27,8 +26,13 @@ class FineStage:
         self._refinement, self._text = refinement, ground.text
         self._world = fine_world(refinement)
         self._coarse = World(description)
-        self._oracle = Oracle(description, refinement.coarse, refinement.coarse_signature)
-        self.costs = description.costs
+        oracle = Oracle(description, refinement.coarse, refinement.coarse_signature)
+        atoms, costs = self._coarse_atoms, description.costs
+        self.costs = costs
+        self.judge = Judge(
+            lambda state, goal, most: oracle.minimal_actions(atoms(state), goal, most),
+            lambda state, goal, most: oracle.minimal_units(atoms(state), goal, costs, most),
+        )
         inertial, robot = self._world.description.inertial, description.robots[0]
         self._about_robot = [fluent for fluent in inertial if robot in arguments(fluent)]
 
@@ -58,14 +62,6 @@ class FineStage:
             refinement=self._text,
             initial_fine=self._own(state),
         )
-
-    def minimal_actions(self, state: int, goal: Iterable[str]) -> int | None:
-        """The least number of abstract actions, by search over the coarse world."""
-        return self._oracle.minimal_actions(self._coarse_atoms(state), goal)
-
-    def minimal_units(self, state: int, goal: Iterable[str]) -> int | None:
-        """The least units of abstract actions, by search over the coarse world."""
-        return self._oracle.minimal_units(self._coarse_atoms(state), goal, self.costs)
 
     def _own(self, state: int) -> list[str]:
         """The inertial literals about the robot: where it is and is not, what it holds and not."""

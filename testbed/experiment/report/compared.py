@@ -69,8 +69,9 @@ def _ratios(groups: Mapping[str, list[Pair]], measure: Callable[[Outline], float
 
 
 def _share(trials: Sequence[Outline]) -> Estimate | None:
-    correct = np.array([trial.correct for trial in trials], dtype=float)
-    return proportion([(correct, 1)], [[trial.state for trial in trials]])
+    known = [trial for trial in trials if trial.decided]
+    correct = np.array([trial.correct for trial in known], dtype=float)
+    return proportion([(correct, 1)], [[trial.state for trial in known]])
 
 
 def _series(

@@ -123,6 +123,9 @@ def _notes(table: Table) -> Iterator[str]:
     apart += [f"{counted(failed, 'pair')} with an error or a lost robot"] * (failed > 0)
     apart += [f"{counted(late, 'pair')} with a decision cut off by the clock"] * (late > 0)
     apart += [f"{counted(never, 'pair')} whose goal no plan achieves"] * (never > 0)
+    undecided = sum(row.undecided for row in everything)
+    if undecided:
+        yield f"In no accuracy: {counted(undecided, 'pair')} whose fewest actions are not known"
     if apart:
         yield f"In no row: {', '.join(apart)}"
     for meeting, words in MEETINGS.items():

@@ -96,6 +96,7 @@ def _row(
     name: str, pairs: Sequence[Pair], weights: Mapping[str, float], who: tuple[str, str]
 ) -> Row:
     counted = [pair for pair in pairs if pair.played]
+    decided = [pair for pair in counted if pair.decided]
     return Row(
         name=name,
         pairs=len(counted),
@@ -104,11 +105,12 @@ def _row(
         unsolvable=sum(not (pair.solvable or pair.failed or pair.late) for pair in pairs),
         out_of_reach=sum(p.mind.out_of_reach or p.base.out_of_reach for p in counted),
         meetings=dict(sorted(Counter(pair.meeting for pair in counted).items())),
-        intentional=proportion(*_sample(counted, weights, lambda pair: pair.mind.correct)),
-        baseline=proportion(*_sample(counted, weights, lambda pair: pair.base.correct)),
-        accuracy=_accuracy(counted, weights),
+        undecided=len(counted) - len(decided),
+        intentional=proportion(*_sample(decided, weights, lambda pair: pair.mind.correct)),
+        baseline=proportion(*_sample(decided, weights, lambda pair: pair.base.correct)),
+        accuracy=_accuracy(decided, weights),
         ratios={measure: _ratio(counted, measure, weights) for measure in MEASURES},
-        advantage=mean(*_sample(counted, weights, lambda p: p.mind.correct - p.base.correct)),
+        advantage=mean(*_sample(decided, weights, lambda p: p.mind.correct - p.base.correct)),
         optimum=dict(zip(who, both_optima(counted, weights), strict=True)),
     )
 

@@ -41,7 +41,8 @@ class Blindness:
 
 def blindness(pairs: Iterable[Pair]) -> Blindness:
     """How often the traditional robot is right, with and without a part of the goal undone."""
-    counts = Counter((pair.base.undone, pair.base.correct) for pair in pairs if pair.played)
+    decided = (pair.base for pair in pairs if pair.played and pair.decided)
+    counts = Counter((base.undone, base.correct) for base in decided)
     return Blindness(
         undone=counts[True, True] + counts[True, False],
         undone_right=counts[True, True],

@@ -42,6 +42,7 @@ def _row(row: Row, of: Analysis) -> Numbers:
         "failed": row.failed,
         "deadline": row.late,
         "unsolvable": row.unsolvable,
+        "undecided": row.undecided,
         "out_of_reach": row.out_of_reach,
         "meetings": dict(row.meetings),
         "accuracy": {

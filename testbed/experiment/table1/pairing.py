@@ -7,7 +7,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from testbed.environment.world import World
-from testbed.experiment.counting import NOTHING_TO_DO, Apart, Standing, why_apart
+from testbed.experiment.counting import (
+    NOTHING_TO_DO,
+    Apart,
+    Standing,
+    is_solvable,
+    why_apart,
+)
 from testbed.experiment.outline import MEASURES, Outline, state_of
 from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
 from testbed.experiment.table1.classify import classify, state_at
@@ -26,6 +32,7 @@ MEETINGS: Mapping[Meeting, str] = {
 class Side:
     """What is kept of one robot's trial in a pair.
 
+    `decided`: whether it is known if it was correct.
     `before` are its actions up to the one that `event` goes with, or all where there is no event;
     `undone`: whether the event took away a part of the goal that would have been true.
     """
@@ -41,6 +48,7 @@ class Side:
     before: tuple[str, ...]
     measures: Mapping[str, float]
     late: bool = False
+    decided: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +71,11 @@ class Pair:
     def played(self) -> bool:
         """Whether both trials ended by themselves, and the goal could be achieved at all."""
         return self.solvable and not self.failed and not self.late
+
+    @property
+    def decided(self) -> bool:
+        """Whether it is known of both trials if they were correct."""
+        return self.mind.decided and self.base.decided
 
     @property
     def failed(self) -> bool:
@@ -112,7 +125,7 @@ def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str)
         yield Pair(
             intended=record.scenario,
             happened=happened or earlier,
-            solvable=record.minimal_actions is not None,
+            solvable=is_solvable(record),
             mind=minds,
             base=bases,
             state=state_of(record),
@@ -129,7 +142,8 @@ def _side(record: TrialRecord, world: World) -> Side:
         failed=record.outcome in FAILURES,
         late=record.deadline,
         achieved=record.achieved,
-        correct=record.correct,
+        correct=record.correct is True,
+        decided=record.correct is not None,
         out_of_reach=record.in_reach is False,
         outcome=record.outcome,
         event=None if event is None else event.action,

@@ -28,6 +28,8 @@ class Ratio:
 class Row:
     """A row of the table; `pairs` are those counted; `failed`, `late`, `unsolvable` those left out.
 
+    `undecided` pairs count, but in no accuracy: of these it is not known whether both trials were
+    correct.
     The test of the accuracies has its effect above 0 where the intentional robot was right more
     often; `advantage` is that difference of the proportions with its interval. `out_of_reach` are
     goals that could not be achieved any more where a trial ended. `optimum` is by robot.
@@ -45,6 +47,7 @@ class Row:
     ratios: Mapping[str, Ratio]
     advantage: Estimate | None = None
     optimum: Mapping[str, Optimum] = field(default_factory=dict)
+    undecided: int = 0
     late: int = 0
 
 

@@ -33,7 +33,7 @@ class Weighing:
 
 def weighing(pairs: Sequence[Pair], weights: Sequence[float]) -> Weighing:
     """The table of random pairs, each counted with its weight, if it has any."""
-    counted = [(p, w) for p, w in zip(pairs, weights, strict=True) if p.played and w > 0]
+    counted = [(p, w) for p, w in zip(pairs, weights, strict=True) if _counts(p) and w > 0]
     inside = [(p, w) for p, w in counted if p.happened in SCENARIOS]
     whole, everything = (sum(w for _, w in own) or 1.0 for own in (inside, counted))
     return Weighing(
@@ -42,6 +42,10 @@ def weighing(pairs: Sequence[Pair], weights: Sequence[float]) -> Weighing:
         inside=sum(w for _, w in inside) / everything,
         worth=_effective(w for _, w in counted),
     )
+
+
+def _counts(pair: Pair) -> bool:
+    return pair.played and pair.decided
 
 
 def _rows(inside: Sequence[Weighed]) -> Iterator[tuple[str, list[Weighed]]]:

@@ -40,7 +40,7 @@ def failures(run: Run) -> Iterator[str]:
         for pair in run.all_pairs
         for robot, trial in ((ZOOM, pair.zoom), (NO_ZOOM, pair.no_zoom))
     ]
-    wrong = [own for own in trials if not own[2].counts.correct]
+    wrong = [own for own in trials if own[2].counts.decided and not own[2].counts.correct]
     lost = sum(not trial.counts.played for _, _, trial in trials)
     out = sum(trial.counts.out_of_reach for _, _, trial in trials)
     yield "## Trials that were not correct"

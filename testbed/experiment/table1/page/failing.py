@@ -71,7 +71,8 @@ def _by_row(pairs: Sequence[Pair]) -> Mapping[str, list[Pair]]:
 
 def failures(run: Run, mind: str) -> str:
     """The trials that the intentional robot did not get right, each with its replay."""
-    wrong = [pair.mind for pair in run.pairs[mind] if not pair.mind.correct]
+    minds = [pair.mind for pair in run.pairs[mind]]
+    wrong = [side for side in minds if side.decided and not side.correct]
     where = shlex.quote(f"runs/{run.config.name}")
     lines = [f"$ testbed replay {where} --trial {side.trial}  # {side.outcome}" for side in wrong]
     told = "\n".join(["", "```console", *lines, "```", ""]) if lines else ""

@@ -19,7 +19,7 @@ from testbed.experiment.table1.table import HEADINGS, number
 
 def row_by_row(pairs: Sequence[Pair], world: World) -> str:
     """Rows 3 and 4 by whether TP fails; plans in row 2; lengths in row 5; seconds."""
-    drawn = [p for p in pairs if p.intended == RANDOM and p.played]
+    drawn = [p for p in pairs if p.intended == RANDOM and p.played and p.decided]
     return f"""\
 ## Row by row
 

@@ -1,0 +1,58 @@
+"""What is said of a trial by somebody who knows everything, as far as a budget of states goes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+from testbed.experiment.oracle import BudgetError
+from testbed.experiment.record import MinimalReason
+
+MOST_ANSWERS = 4_096
+"""How many answers are remembered: trials from the same state ask the same."""
+
+Goal = tuple[str, ...]
+Search = Callable[[int, Goal, int], int | None]
+"""The least of something from a state to a goal within so many states, None where no plan exists.
+
+It raises BudgetError.
+"""
+
+
+class Minimal(NamedTuple):
+    """The least number of actions, and of units, that achieves a goal; where unknown, why."""
+
+    actions: int | None
+    units: int | None
+    reason: MinimalReason | None
+
+
+class Judge:
+    """Answers questions about states of one world, each once."""
+
+    def __init__(self, actions: Search, units: Search) -> None:
+        self._actions = actions
+        self._units = units
+        self.minimal = lru_cache(MOST_ANSWERS)(self._minimal)
+
+    def in_reach(self, state: int, goal: Goal, most_states: int) -> bool | None:
+        """Whether some plan achieves the goal from the state; None where the budget struck."""
+        reason = self.minimal(state, goal, most_states).reason
+        return None if reason == "budget" else reason is None
+
+    def _minimal(self, state: int, goal: Goal, most_states: int) -> Minimal:
+        """The least that achieves the goal from the state.
+
+        Where the budget suffices for the actions and not for the units, only these are unknown.
+        """
+        try:
+            actions = self._actions(state, goal, most_states)
+        except BudgetError:
+            return Minimal(None, None, "budget")
+        if actions is None:
+            return Minimal(None, None, "no plan")
+        try:
+            return Minimal(actions, self._units(state, goal, most_states), None)
+        except BudgetError:
+            return Minimal(actions, None, None)
