@@ -153,12 +153,19 @@ class IntentionalRobot:
             trace,
             mental=intention.action if intention.action.startswith(_MENTAL) else None,
             intention=intention.action,
-            plan=list(intention.plan),
+            plan=list(self._ahead(intention, explained)),
             belief=sorted(intention.believed - {GOAL}),
             reason=why.text,
             futile_at=why.futile_at,
             plans=trace.plans + (intention.action == name),
         )
+
+    def _ahead(self, intention: Intention, explained: Explained) -> tuple[str, ...]:
+        """The plan that is started, or what is left of the one that is carried out."""
+        if intention.action == "finish" or intention.action.startswith(_MENTAL):
+            return intention.plan
+        name, index = next(iter(explained.indices.items()))
+        return self._history.activities[name - 1].plan[index:]
 
     def _with_explanation(self, trace: Trace, explained: Explained, before: Diagnosis) -> Trace:
         """The trace with what is newly adopted, if anything is."""

@@ -152,7 +152,8 @@ class Trace(Part, frozen=True, kw_only=True):
     """The mind behind a decision, for records and readers; the environment never acts on it.
 
     ``mental`` is the mental action of the step (``"start(1)"``, ``"stop(1)"``), ``plan`` the
-    physical actions still ahead, ``belief`` the atoms believed true, ``explanation`` is given at
+    physical actions still ahead, that of this step first (empty where the activity is stopped, and
+    where the time for the decision ran out), ``belief`` the atoms believed true, ``explanation`` is given at
     the step at which it is newly adopted; with it come ``contradictions``, which made it needed,
     and ``alternatives``, the other explanations that are as small (``more_alternatives`` if not
     all are given). ``reason`` says why the intention is what it is; where an activity is stopped,
