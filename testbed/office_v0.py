@@ -12,19 +12,19 @@ the adversary is an agent here. Any key can be overridden: `env(goal_feedback=Fa
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from os import PathLike
 from typing import TypeAlias
 
-from pettingzoo.utils.wrappers import OrderEnforcingWrapper
-
 from asp import load_description
+from asp.spelling import suggestion
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.grounds import grounds
-from testbed.environment.aec import AECView
+from testbed.config.keys import lists_keys
+from testbed.environment.aec import AECView, OrderedView
 from testbed.environment.core import Core
 from testbed.environment.fine import fine_core, fine_world
 from testbed.environment.goals import RandomGoal
-from testbed.environment.observation import Observation
 from testbed.environment.parallel import ParallelView
 from testbed.environment.rules import Rules
 from testbed.environment.world import World
@@ -34,22 +34,24 @@ Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
 level `levels`."""
 
 
+@lists_keys
 def env(
     config: Config = None,
     render_mode: str | None = None,
     max_cycles: int | None = None,
     level: str | None = None,
     **overrides: object,
-) -> OrderEnforcingWrapper[str, Observation, int | None]:
+) -> OrderedView:
     """The AEC environment, wrapped: what is called out of order raises, too.
 
     `max_cycles` is the number of the last step, instead of limits.steps; `level` one of those of
     the configuration, by default of the packaged `levels`. Raises ConfigError for a bad
     configuration and ValueError for an unknown render mode.
     """
-    return OrderEnforcingWrapper(raw_env(config, render_mode, max_cycles, level, **overrides))
+    return OrderedView(raw_env(config, render_mode, max_cycles, level, **overrides))
 
 
+@lists_keys
 def raw_env(
     config: Config = None,
     render_mode: str | None = None,
@@ -61,6 +63,7 @@ def raw_env(
     return AECView(make_core(config, max_cycles, level, **overrides), render_mode)
 
 
+@lists_keys
 def parallel_env(
     config: Config = None,
     render_mode: str | None = None,
@@ -113,11 +116,25 @@ def _read(config: Config, level: str | None, overrides: dict[str, object]) -> Ex
         if overrides or level:
             raise ValueError("overrides go with the name of a configuration, not with a read one")
         return config
+    _check_keywords(overrides)
     chosen = overrides if level is None else {**overrides, "levels": [level]}
     changes = [f"{key}={json.dumps(value)}" for key, value in chosen.items()]
     packaged = "office" if level is None else "levels"
     source = packaged if config is None else str(config)
     return load_config(source, changes, given_in="keyword argument")
+
+
+def _check_keywords(overrides: Iterable[str]) -> None:
+    """Raises ConfigError for what is neither a key of a configuration nor a parameter here."""
+    parameters = ("config", "render_mode", "max_cycles", "level")
+    known = ExperimentConfig.model_fields.keys()
+    lines = [
+        f"keyword argument: {name}: unknown key; {suggestion(name, [*parameters, *known])}"
+        for name in overrides
+        if name.partition(".")[0] not in known
+    ]
+    if lines:
+        raise ConfigError(lines)
 
 
 def _rules(config: ExperimentConfig, max_cycles: int | None) -> Rules:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pettingzoo import AECEnv
+from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from testbed.environment.agents import ADVERSARY, ROBOT, listed, name_of
 from testbed.environment.core import Core
@@ -112,3 +113,12 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         self.core.restore(snapshot.core)
         for name, value in deepcopy(snapshot.turn).items():
             setattr(self, name, value)
+
+
+class OrderedView(OrderEnforcingWrapper[str, Observation, int | None]):
+    """PettingZoo's wrapper, which hides what begins with `_`, with the notebook's view shown."""
+
+    def _repr_html_(self) -> str:
+        view = self.unwrapped
+        assert isinstance(view, AECView)
+        return view._repr_html_()

@@ -61,6 +61,11 @@ class Core:
         self._listed: tuple[tuple[Situation, str | None], tuple[str, ...]] | None = None
 
     @property
+    def begun(self) -> bool:
+        """Whether there is, or was, a game."""
+        return self._situation is not None
+
+    @property
     def situation(self) -> Situation:
         """The moment of the game. Raises NotResetError before the first game."""
         if self._situation is None:

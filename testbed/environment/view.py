@@ -11,6 +11,7 @@ from asp.spelling import suggestion
 from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import Core
 from testbed.environment.errors import UnknownOptionError
+from testbed.environment.notebook import html_of
 from testbed.environment.observation import (
     Vector,
     action_spaces,
@@ -79,6 +80,10 @@ class View:
         """
         self._check_begun()
         return render(self.core, self.render_mode)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the picture, the goal, and how the game stands."""
+        return html_of(self.core)
 
     def close(self) -> None:
         """Nothing is held: no window, no process, no connection."""

@@ -187,6 +187,12 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     in_reach: bool | None = None
     deadline: bool = False
 
+    def _repr_html_(self) -> str:
+        """What a notebook shows: how the trial came out, and what happened step by step."""
+        from testbed.experiment.notebook import html_of  # noqa: PLC0415  # which is about records
+
+        return html_of(self)
+
 
 def encode(record: TrialRecord) -> bytes:
     """The record as one line of JSON, newline included."""

@@ -45,6 +45,10 @@ class Result(msgspec.Struct):
     record: TrialRecord
     details: str | None = None
 
+    def _repr_html_(self) -> str:
+        """As of the record."""
+        return self.record._repr_html_()
+
 
 MOST_DETAILS = 100_000
 """Characters of what is known of a failure; of more the end is kept."""

@@ -152,17 +152,18 @@ class Trace(Part, frozen=True, kw_only=True):
     """The mind behind a decision, for records and readers; the environment never acts on it.
 
     ``mental`` is the mental action of the step (``"start(1)"``, ``"stop(1)"``), ``plan`` the
-    physical actions still ahead, that of this step first (empty where the activity is stopped, and
-    where the time for the decision ran out), ``belief`` the atoms believed true, ``explanation`` is given at
-    the step at which it is newly adopted; with it come ``contradictions``, which made it needed,
-    and ``alternatives``, the other explanations that are as small (``more_alternatives`` if not
-    all are given). ``reason`` says why the intention is what it is; where an activity is stopped,
-    ``futile_at`` is the first step at which its plan, projected from now on, breaks. ``plans`` is
-    the number of activities so far. Times are seconds for this step, without those for reasons:
-    ``planning_time_s`` and ``diagnosis_time_s`` by the wall clock, ``planning_cpu_s`` and
-    ``diagnosis_cpu_s`` in process time of the robot, its solver included; all four without
-    ``preparation_cpu_s``, the process time spent on what other decisions and trials can reuse:
-    encoding, grounding, sets of states. At the first step that of beginning the trial is with it.
+    physical actions still ahead, that of this step first (empty where the activity is stopped,
+    and where the time for the decision ran out), ``belief`` the atoms believed true,
+    ``explanation`` is given at the step at which it is newly adopted; with it come
+    ``contradictions``, which made it needed, and ``alternatives``, the other explanations that
+    are as small (``more_alternatives`` if not all are given). ``reason`` says why the intention
+    is what it is; where an activity is stopped, ``futile_at`` is the first step at which its
+    plan, projected from now on, breaks. ``plans`` is the number of activities so far. Times are
+    seconds for this step, without those for reasons: ``planning_time_s`` and
+    ``diagnosis_time_s`` by the wall clock, ``planning_cpu_s`` and ``diagnosis_cpu_s`` in
+    process time of the robot, its solver included; all four without ``preparation_cpu_s``, the
+    process time spent on what other decisions and trials can reuse: encoding, grounding, sets
+    of states. At the first step that of beginning the trial is with it.
     ``deadline`` says that the decision was cut off by the clock, so that it need not be the same on
     another machine.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
