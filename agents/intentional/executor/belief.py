@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from itertools import chain
 
 from agents.intentional.executor.means import means_of
 from asp.knowing import Known
@@ -21,6 +22,7 @@ class FineBelief:
         self._refinement = refinement
         means = means_of(refinement)
         self._quick, self._theory = means.quick, means.theory
+        self._is_value = means.is_value
         self._plain, self._carriers = means.plain, means.carriers
         self._carrying: frozenset[str] = frozenset()
         self.known = Known()
@@ -79,9 +81,12 @@ class FineBelief:
     def candidates(self, fluent: str) -> tuple[tuple[str, ...], ...]:
         """Groups of fluents one of each of which is true, nobody knows which, if a coarse one is.
 
-        One group for each component that has a fluent of its own; none where one is known.
+        One group for each component that always has a value, as a thing is always somewhere; else
+        a single one. None where one is known.
         """
         groups = self._quick.groups(fluent)
+        if not self._is_value(groups[0][0]):
+            groups = (tuple(chain(*groups)),)
         if any(not self.known.true.isdisjoint(group) for group in groups):
             return ()
         return tuple(tuple(f for f in group if not self.is_false(f)) for group in groups)

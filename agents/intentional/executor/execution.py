@@ -41,7 +41,9 @@ class Execution:
         transition = Transition(before, action, after)
         with mind.tally.planning():
             self._relevant = relevant(mind.refinement.coarse, transition, mind.goal)
-            self._effects = fine_goal(mind.refinement, transition, self._relevant).effects
+            goal = fine_goal(mind.refinement, transition, self._relevant)
+            self._effects = goal.effects
+            self._lasting = tuple(each for each in goal.literals if each not in goal.effects)
             self._direct = mind.means.direct_effects.get(action, frozenset())
             things = mind.looked_for(self._relevant)
         self._looking = Looking(mind, before, after, things)
@@ -108,14 +110,36 @@ class Execution:
                 self._looking.hear((yield _WAIT))
 
     def _plan(self) -> tuple[str, ...] | None:
-        """A shortest plan for the effects; None if nothing in the zoomed domain leads to them."""
+        """A shortest plan for the effects; None if nothing in the zoomed domain leads to them.
+
+        What else is so, and is not to change, is part of the goal where the plan would change it;
+        unless there is no other.
+        """
         mind = self._mind
         with mind.tally.planning():
             candidates = self._candidates()
             plan = mind.plan(self._effects, candidates, self._relevant) if all(candidates) else None
+            if plan and (lasting := self._spoilt(plan)):
+                goal = (*self._effects, *lasting)
+                plan = mind.plan(goal, candidates, self._relevant) or plan
         if plan:
             mind.tally.plan(plan)
         return plan
+
+    def _spoilt(self, plan: Sequence[str]) -> tuple[str, ...]:
+        """What is known to hold and is not to change, if a plan has effects contrary to it."""
+        mind = self._mind
+        true = mind.belief.known.true | mind.plain
+        direct = (effect for action in plan for effect in mind.effects.of(action, true))
+        changed = {coarse for effect in direct for coarse in mind.refinement.coarse_of(effect)}
+        if changed.isdisjoint(map(complement, self._lasting)):
+            return ()
+        follows = mind.belief.coarse([atom(e) for e in self._lasting if mind.is_magnified(e)])
+        return tuple(
+            each
+            for each in self._lasting
+            if (each in follows if mind.is_magnified(each) else mind.holds(each))
+        )
 
     def _candidates(self) -> tuple[tuple[str, ...], ...]:
         """Where the things that the action is about may be, by the coarse belief.

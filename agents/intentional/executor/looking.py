@@ -39,14 +39,25 @@ class Looking:
         self.heard: set[str] = set()
 
     def look(self) -> Asking[None]:
-        """Tests what can be tested here of what is relevant, where it is not known."""
+        """Tests what can be tested here of what is relevant, where it is not known.
+
+        What a test finds may be what another one needs.
+        """
         mind, true = self._mind, self._mind.belief.known.true
         robots = {c for f in true if mind.coarse.robot in arguments(f) for c in arguments(f)}
-        for fluent in list(mind.tests.possible(true, self._things)):
-            if mind.belief.is_open(fluent):
+        tested: set[str] = set()
+        while possible := self._open(tested):
+            for fluent in filter(mind.belief.is_open, possible):
                 things = set(arguments(fluent)) - robots
                 self.looked_for.update(mind.refinement.wholes[thing] for thing in things)
                 yield from self._test(fluent)
+            tested.update(possible)
+
+    def _open(self, tested: Collection[str]) -> list[str]:
+        """What can be tested here and is not known, apart from what has been tested."""
+        mind = self._mind
+        possible = mind.tests.possible(mind.belief.known.true, self._things)
+        return [f for f in possible if f not in tested and mind.belief.is_open(f)]
 
     def doubt(self, action: str) -> Asking[None]:
         """Tests again what an action that failed took for granted."""

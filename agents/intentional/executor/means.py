@@ -8,6 +8,7 @@ from functools import cached_property
 from agents.intentional.executor.laws import Effects, Tests, carriers, conditions, direct_effects
 from asp.kept.clock import preparation
 from asp.kept.horizons import Horizons
+from asp.kept.patterns import Function, functions, subject
 from asp.kept.recent import Recent
 from asp.kept.refined import MOST_STEPS, FinePlanner, LiteralPlanner, fine_planner
 from asp.knowing import Theory
@@ -66,6 +67,15 @@ class Means:
         """Whether the components of anything are always in the same place."""
         with preparation():
             return bool(shared_places(self._refinement.weak))
+
+    @cached_property
+    def _functions(self) -> Mapping[str, Function]:
+        with preparation():
+            return functions(self._refinement.weak, self._refinement.weak_signature)
+
+    def is_value(self, fluent: str) -> bool:
+        """Whether a fine fluent is one of several of which one always holds."""
+        return subject(fluent, self._functions) is not None
 
     @cached_property
     def plain(self) -> frozenset[str]:

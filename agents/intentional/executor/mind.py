@@ -8,7 +8,7 @@ from agents.intentional.executor.belief import FineBelief
 from agents.intentional.executor.coarse import CoarseDiagram
 from agents.intentional.executor.means import means_of
 from agents.intentional.executor.tally import Tally
-from asp.fine_plans import FineStart, NoPlan, NotCandidatesError
+from asp.fine_plans import FineStart, NoPlan
 from asp.literals import arguments, atom, is_positive, name
 from asp.refinement import Refinement
 from asp.refinement.zooming import fine_constants
@@ -115,12 +115,12 @@ class Mind:
         """
         zoom = frozenset(zoom) | self._whereabouts()
         constants = zoom | fine_constants(self.refinement, zoom)
-        start = FineStart(self.belief.known.true | self._inertial(), candidates)
+        # What need not have a value is assumed to hold of the first component of which it may.
+        assumed = {group[0] for group in candidates if not self.means.is_value(group[0])}
+        values = tuple(group for group in candidates if group[0] not in assumed)
+        start = FineStart(self.belief.known.true | assumed | self._inertial(), values)
         limit = sum(len(self.refinement.components[constant]) for constant in zoom) + 1
-        try:
-            found = self.means.planner.plan(start, goal, limit, constants if self.zooms else None)
-        except NotCandidatesError:  # somebody may have handed over what need not be anywhere
-            return None
+        found = self.means.planner.plan(start, goal, limit, constants if self.zooms else None)
         return None if isinstance(found, NoPlan) else found
 
     def _inertial(self) -> frozenset[str]:
