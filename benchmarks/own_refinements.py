@@ -46,7 +46,7 @@ class Refined:
         for section, lines in (
             ("magnify", [f"{sort} into {_FINE[sort]}." for sort in self.magnified]),
             ("components", list(self._components())),
-            ("counterparts", [f"{name}." for name in self._counterparts()]),
+            ("counterparts", [f"{name}." for name in self.counterparts]),
             ("facts", list(self._facts())),
             ("laws", list(self._laws())),
             ("tests", list(self._tests())),
@@ -58,7 +58,12 @@ class Refined:
             if parts != (whole,):
                 yield f"{whole} = {{{', '.join(parts)}}}."
 
-    def _counterparts(self) -> Iterator[str]:
+    @property
+    def counterparts(self) -> tuple[str, ...]:
+        """The attributes and actions that are about magnified constants."""
+        return tuple(self._named())
+
+    def _named(self) -> Iterator[str]:
         domain, spots, things = self.domain, "spot" in self.magnified, "thing" in self.magnified
         if spots:
             yield "path"
@@ -87,7 +92,7 @@ class Refined:
 
     def _tests(self) -> Iterator[str]:
         domain = self.domain
-        fine = {name: f"fine_{name}" for name in self._counterparts()}
+        fine = {name: f"fine_{name}" for name in self.counterparts}
         here, there = (fine.get(name, name) for name in (domain.of_beast, domain.of_thing))
         if domain.of_beast in fine:
             yield f"B tests {here}(X, P) if beast(B), {here}(B, P)."
@@ -101,10 +106,11 @@ class Refined:
 
 @dataclass(frozen=True)
 class OwnTrial:
-    """A refined domain, true fluents to begin with at the fine resolution, and a goal."""
+    """A refined domain, true fluents to begin with at both resolutions, and a goal."""
 
     refined: Refined
-    initial: tuple[str, ...]
+    coarse: tuple[str, ...]
+    fine: tuple[str, ...]
     goal: tuple[str, ...]
     is_whole: bool
 
@@ -112,12 +118,13 @@ class OwnTrial:
 def random_trial(random: Random) -> OwnTrial:
     """One of many; not `is_whole` where a line of the refinement has been left out."""
     refined = _random_refinement(random_domain(random), random)
-    initial = tuple(_initial(refined, random))
+    beginning = _beginning(refined, random)
+    coarse, fine = (tuple(beginning.literals(refined, each)) for each in (False, True))
     goal = tuple(_goal(refined.domain, random))
-    if not refined.lines or random.random() < 0.75:
-        return OwnTrial(refined, initial, goal, True)
-    cut = replace(refined, left_out=(random.choice(refined.lines),))
-    return OwnTrial(cut, initial, goal, False)
+    is_whole = random.random() < 0.75
+    if not is_whole:
+        refined = replace(refined, left_out=(random.choice(refined.lines),))
+    return OwnTrial(refined, coarse, fine, goal, is_whole)
 
 
 def _random_refinement(domain: Domain, random: Random) -> Refined:
@@ -146,36 +153,50 @@ def _parts(whole: str, most: int, random: Random) -> tuple[str, ...]:
     return tuple(f"{whole}_{letter}" for letter in "abc"[:number])
 
 
-def _initial(refined: Refined, random: Random) -> Iterator[str]:
+@dataclass(frozen=True)
+class _Beginning:
     """Where everything is; what is gripped or tied is where its carrier is."""
+
+    places: Mapping[str, str]
+    gripped: str | None
+    tied: str | None
+    flooded: tuple[str, ...]
+
+    def literals(self, refined: Refined, fine: bool) -> Iterator[str]:
+        """The true fluents, at one of the resolutions."""
+        domain, named = refined.domain, refined.counterparts if fine else ()
+        parts = refined.parts if fine else {}
+        wholes = {part: whole for whole, found in refined.parts.items() for part in found}
+
+        def atom(name: str, *constants: str) -> str:
+            told = constants if fine else (wholes.get(each, each) for each in constants)
+            return f"{'fine_' if name in named else ''}{name}({','.join(told)})"
+
+        for body, place in self.places.items():
+            fluent = domain.of_thing if body in domain.things else domain.of_beast
+            yield from (atom(fluent, part, place) for part in parts.get(body, (body,)))
+        if self.gripped:
+            yield atom("grips", "otter", parts.get(self.gripped, (self.gripped,))[0])
+        if self.tied and domain.raft:
+            yield atom("tied", *(parts.get(each, (each,))[0] for each in (self.tied, domain.raft)))
+        yield from (f"flooded({spot})" for spot in self.flooded)
+
+
+def _beginning(refined: Refined, random: Random) -> _Beginning:
     domain = refined.domain
-    place = {body: _place(refined, random) for body in ("otter", *domain.things)}
+    places = {}
+    for body in ("otter", *domain.things):
+        spot = random.choice(domain.spots)
+        places[body] = random.choice(refined.parts.get(spot, (spot,)))
     gripped = domain.things[0] if domain.grips and random.random() < 0.3 else None
     tied = domain.nuts[-1] if domain.raft and random.random() < 0.4 else None
+    tied = None if tied == gripped else tied
     if gripped:
-        place[gripped] = place["otter"]
-    if tied and domain.raft and tied != gripped:
-        place[tied] = place[domain.raft]
-    fine = frozenset(refined._counterparts())
-    yield _atom(domain.of_beast, fine, "otter", place["otter"])
-    for thing in domain.things:
-        for part in refined.parts.get(thing, (thing,)):
-            yield _atom(domain.of_thing, fine, part, place[thing])
-    if gripped:
-        yield _atom("grips", fine, "otter", refined.parts.get(gripped, (gripped,))[0])
-    if tied and domain.raft and tied != gripped:
-        one, other = (refined.parts.get(x, (x,))[0] for x in (tied, domain.raft))
-        yield _atom("tied", fine, one, other)
-    yield from (f"flooded({spot})" for spot in domain.low if random.random() < 0.5)
-
-
-def _place(refined: Refined, random: Random) -> str:
-    spot = random.choice(refined.domain.spots)
-    return random.choice(refined.parts.get(spot, (spot,)))
-
-
-def _atom(name: str, fine: frozenset[str], *constants: str) -> str:
-    return f"{'fine_' if name in fine else ''}{name}({','.join(constants)})"
+        places[gripped] = places["otter"]
+    if tied and domain.raft:
+        places[tied] = places[domain.raft]
+    flooded = tuple(spot for spot in domain.low if random.random() < 0.5)
+    return _Beginning(places, gripped, tied, flooded)
 
 
 def _goal(domain: Domain, random: Random) -> Iterator[str]:

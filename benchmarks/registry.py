@@ -14,6 +14,7 @@ from benchmarks import (
     memory,
     mutation,
     peers,
+    refinements,
     rooms,
     worlds,
     zooming,
@@ -31,6 +32,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "mutation": mutation.main,
     "joint_growth": joint_growth.main,
     "zooming": zooming.main,
+    "refinements": refinements.main,
     "rooms": rooms.main,
     "worlds": worlds.main,
 }

@@ -16,6 +16,7 @@ from asp.errors import SourceError
 from asp.literals import arguments, atom, complement, ground, is_positive, name
 from asp.loading import MOST_TEXTS, analyse, parse_description
 from asp.parser import parse
+from asp.refinement.completeness import check_complete
 from asp.refinement.facts import Facts
 from asp.refinement.language import parse_fine
 from asp.refinement.maps import check_maps
@@ -131,6 +132,7 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     _check_cycles(weak, weak_signature, fine)
     check_maps(fine, coarse, vocabulary, true_statics(weak, weak_signature), problems)
     tested = tested_fluents(fine, weak_signature, problems)
+    check_complete(fine, coarse, vocabulary, problems)
     problems.raise_first()
     strong = _with(weak, observation_text(fine, vocabulary, tested))
     strong_signature = _signature(strong, fine)

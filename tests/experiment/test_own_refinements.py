@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.own import Own
 from benchmarks.own_domains import Domain
 from benchmarks.own_refinements import Refined
 from testbed import office_v0
 from tests.experiment.gardens import GARDEN, ROWS
-from tests.experiment.own import Own
 
 RAKED = GARDEN.replace("OTHER", "rake")
 GOAL = ["stands(spade,south)", "-carries(tom,spade)"]

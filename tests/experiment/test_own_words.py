@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.own import Own
 from testbed.config.errors import ConfigError
 from tests.experiment.gardens import GARDEN, PIECES
-from tests.experiment.own import Own
 
 WORDS = ["wait", "finish", "none", "start", "stop", "fewer", "by", "step", "activity", "hpd"]
 GOAL = ["stands(spade,south)", "-carries(tom,spade)"]

@@ -22,6 +22,9 @@ facts
   fine_next_to(l1, l2).
 laws
   fine_loc(P1, C) if fine_loc(P2, C), component(P1, O), component(P2, O).
+tests
+  R tests fine_loc(T, C) if robot(R), fine_loc(R, C).
+  R tests fine_in_hand(R, P).
 """
 
 

@@ -321,6 +321,19 @@ class TestLaws:
         load(COARSE, "c.al", changed("laws\n", f"laws\n  {law}.\n"), "x")
 
 
+class TestWhatIsLeftUnsaid:
+    def test_a_fluent_that_nobody_can_test(self) -> None:
+        (found,) = mistakes(changed("  R tests fine_in_hand(R, P).\n", ""))
+        assert found.startswith(f"{place('in_hand. move', FINE)}: ")
+        assert "'fine_in_hand'" in found
+
+    def test_components_that_could_be_in_different_places(self) -> None:
+        law = next(line for line in FINE.splitlines() if "fine_loc(P1, C)" in line)
+        (found,) = mistakes(changed(f"{law}\n", ""))
+        assert found.startswith(f"{place('object1 = {', FINE)}: ")
+        assert "'fine_loc'" in found
+
+
 class TestFiles:
     def test_a_text_that_does_not_say_what_it_refines(self, tmp_path: Path) -> None:
         file = tmp_path / "x.fine"
