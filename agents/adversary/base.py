@@ -13,13 +13,15 @@ class AdversaryView:
 
     `state` are the true fluents, `robot_action` what the robot will attempt at this step, `legal`
     what may be answered: `none`, and the exogenous actions possible beside the robot's. Where these
-    are many, asking whether one is legal is quick, and listing all is not.
+    are many, asking whether one is legal is quick, and listing all is not. `physical`: whether the
+    robot's action is one that is to change the world, and not a mental action or a test.
     """
 
     step: int
     state: frozenset[str]
     robot_action: str
     legal: Sequence[str]
+    physical: bool = True
 
 
 class Adversary(Protocol):

@@ -70,24 +70,62 @@ class Triggered:
 
 
 class Script:
-    """Plays given exogenous actions at given steps.
+    """Plays given exogenous actions at given steps, or with given physical actions of the robot.
 
-    An impossible entry is played all the same: the environment refuses it and says why.
+    An impossible entry is played all the same, and the environment refuses it and says why; or it
+    is skipped. `skipped` are the entries that were due at the last step and were not played.
     """
 
-    def __init__(self, entries: Iterable[tuple[int, str]]) -> None:
-        """`entries` are steps, from 1 on, with their action. Raises ValueError for a step twice."""
-        self._actions: dict[int, str] = {}
-        for step, action in entries:
-            if step in self._actions:
-                raise ValueError(f"script: step {step} has two actions: one a step is possible")
-            self._actions[step] = action
+    def __init__(
+        self,
+        entries: Iterable[tuple[int, str]],
+        at_actions: Iterable[tuple[int, str]] = (),
+        skips: bool = False,
+    ) -> None:
+        """`entries` are steps, `at_actions` numbers of physical actions, from 1 on, with an action.
+
+        `skips`: impossible entries are skipped. Raises ValueError for a step or a number twice.
+        """
+        self._at_steps, self._at_actions = _by_number(entries), _by_number(at_actions)
+        self._skips = skips
+        self.reset(0)
 
     def reset(self, seed: int) -> None:
         """A script draws nothing."""
+        del seed
+        self._physical = 0
+        self.skipped: tuple[str, ...] = ()
 
     def act(self, view: AdversaryView) -> str:
-        return self._actions.get(view.step, NONE)
+        """Raises ValueError where two entries are due at a step and none may be skipped."""
+        due = self._due(view)
+        if len(due) > 1 and not self._skips:
+            raise ValueError(f"script: at step {view.step} two entries are due: {', '.join(due)}")
+        played = [event for event in due if not self._skips or event in view.legal][:1]
+        self.skipped = tuple(event for event in due if event not in played)
+        return next(iter(played), NONE)
+
+    def _due(self, view: AdversaryView) -> list[str]:
+        due = [self._at_steps.get(view.step)]
+        if view.physical:
+            self._physical += 1
+            due.append(self._at_actions.get(self._physical))
+        return list(dict.fromkeys(event for event in due if event is not None))
+
+    def unreached(self, step: int) -> list[str]:
+        """The moments of entries that are not due before a step; after the steps before it."""
+        steps = sorted(number for number in self._at_steps if number >= step)
+        actions = sorted(number for number in self._at_actions if number > self._physical)
+        return [f"step {n}" for n in steps] + [f"action {n} of the robot" for n in actions]
+
+
+def _by_number(entries: Iterable[tuple[int, str]]) -> dict[int, str]:
+    actions: dict[int, str] = {}
+    for number, action in entries:
+        if number in actions:
+            raise ValueError(f"script: step {number} has two actions: one a step is possible")
+        actions[number] = action
+    return actions
 
 
 def _drawable(trigger: Trigger) -> tuple[str, str]:

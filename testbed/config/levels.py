@@ -15,6 +15,7 @@ from asp.signature import Signature
 from asp.spelling import suggestion
 from testbed.config.models import Drawing, ExperimentConfig
 from testbed.config.places import Key
+from testbed.config.scripts import moment_findings
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
 from testbed.environment.errors import StateError
 from testbed.environment.sparse import SparseWorld
@@ -90,6 +91,7 @@ def ground_findings(config: ExperimentConfig, refinement: Refinement) -> Iterato
         if entry.action not in known:
             message = unknown_atom(entry.action, known, "exogenous action")
             yield ("script", index, "action"), message
+    yield from moment_findings(("script",), config.script or ())
 
 
 def _together(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:

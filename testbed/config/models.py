@@ -17,6 +17,7 @@ LinkKind = Literal["zenoh", "inprocess"]
 KnowledgeKind = Literal["complete", "seen"]
 Strategy = Literal["triggers", "random"]
 Pace = Literal["concrete", "abstract"]
+ScriptPolicy = Literal["error", "skip"]
 Protocol = Literal["table1", "levels"]
 JUDGE_STATES = 5_000
 """States that are looked at for the least that achieves a goal, unless given."""
@@ -94,9 +95,13 @@ class Observability(Section):
 
 
 class ScriptEntry(Section):
-    """An exogenous action that happens at exactly this step."""
+    """An exogenous action and when it happens: either at a step, or with an action of the robot.
 
-    step: Count
+    `at_action`: the number of the physical action of the robot, from 1 on, that it happens with.
+    """
+
+    step: Count | None = None
+    at_action: Count | None = None
     action: Text
 
 
@@ -172,7 +177,9 @@ class ExperimentConfig(Section):
     `scenarios` absent, which nothing that was loaded has, means those of the domain; `none`, that
     nothing exogenous happens.
     `initial` absent means every state that the domain's `initially` allows. A `script` replaces
-    the scenario's triggers; an empty one means that nothing exogenous happens. `knowledge` is what
+    the scenario's triggers; an empty one means that nothing exogenous happens. `script_policy` says
+    what becomes of an entry that is not possible when it is due: it ends the trial with an error,
+    or is skipped. `knowledge` is what
     robots know of the initial state: all of it, or only what they see. `repeats`: so many pairs of
     trials from each initial state, in scenarios in which something is drawn. `protocol` is the
     published experiment that the trials are made to be compared with.
@@ -206,6 +213,7 @@ class ExperimentConfig(Section):
     goal_feedback: Flag = True
     exogenous_while_thinking: Flag = False
     script: tuple[ScriptEntry, ...] | None = None
+    script_policy: ScriptPolicy = "error"
     statistics: dict[str, Probability] = Field(default_factory=dict)
     adversary: AdversarySettings = AdversarySettings()
     limits: Limits = Limits()

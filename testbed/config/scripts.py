@@ -1,4 +1,4 @@
-"""Check the scripts of a configuration: what they name, and what can happen at step 1."""
+"""Check the scripts of a configuration: what they name, when, and what can happen at step 1."""
 
 from __future__ import annotations
 
@@ -9,17 +9,31 @@ from testbed.config.models import ExperimentConfig, ScriptEntry
 from testbed.config.places import Key
 from testbed.config.words import Finding, unknown_atom
 
+MOMENTS = {"step": "step", "at_action": "action of the robot"}
+"""The keys that say when an entry happens, and what they count."""
+
 
 def script_findings(
     key: Key, entries: Sequence[ScriptEntry], description: Description
 ) -> Iterator[Finding]:
-    """Entries that the domain does not know, and steps that have two."""
+    """Entries that the domain does not know, or of which it is not clear when they happen."""
     known = description.exogenous_actions
     for index, entry in enumerate(entries):
         if entry.action not in known:
             yield (*key, index, "action"), unknown_atom(entry.action, known, "exogenous action")
-        if any(entry.step == earlier.step for earlier in entries[:index]):
-            yield (*key, index, "step"), f"step {entry.step} has an action already; one a step"
+    yield from moment_findings(key, entries)
+
+
+def moment_findings(key: Key, entries: Sequence[ScriptEntry]) -> Iterator[Finding]:
+    """Entries without a moment or with two, and moments that have two entries."""
+    for index, entry in enumerate(entries):
+        given = {name: getattr(entry, name) for name in MOMENTS if getattr(entry, name) is not None}
+        if len(given) != 1:
+            yield (*key, index), "give the entry one of step and at_action"
+        for name, number in given.items():
+            if any(getattr(earlier, name) == number for earlier in entries[:index]):
+                what = f"{MOMENTS[name]} {number} has an action already; one a {MOMENTS[name]}"
+                yield (*key, index, name), what
 
 
 def first_step_findings(config: ExperimentConfig, starters: Collection[str]) -> Iterator[Finding]:
@@ -29,6 +43,8 @@ def first_step_findings(config: ExperimentConfig, starters: Collection[str]) -> 
     are the robots that act on the world from step 2 on. No other step is certain beforehand.
     """
     robot = next((name for name in config.robots if name in starters), None)
+    if config.script_policy == "skip":
+        return
     for key, entries in dict(_closed_scripts(config)).items() if robot else ():
         for index, entry in enumerate(entries):
             if entry.step == 1:

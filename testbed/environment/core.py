@@ -143,6 +143,10 @@ class Core:
         """Whether `event` is among `events(robot_action)`."""
         return self._legality.allows(self._moment(robot_action), event)
 
+    def is_physical(self, robot_action: str) -> bool:
+        """Whether an action of the robot is to change the world: neither mental nor a test."""
+        return robot_action not in (WAIT, FINISH) and bool(self.execution.physical(robot_action))
+
     def why_not(self, robot_action: str, event: str) -> str | None:
         """One line that says why the event is impossible beside the robot's action; else None."""
         return self._legality.why_not(self._moment(robot_action), event)

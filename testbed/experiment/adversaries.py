@@ -9,7 +9,7 @@ from agents.adversary.random import Random
 from agents.adversary.scripted import Script, Triggered
 from asp import Description
 from testbed.config.models import RANDOM_RATE
-from testbed.experiment.specs import TrialSpec
+from testbed.experiment.specs import Setting, TrialSpec
 
 __all__ = ["Adversary", "AdversaryView", "make_adversary"]
 
@@ -17,11 +17,16 @@ __all__ = ["Adversary", "AdversaryView", "make_adversary"]
 def make_adversary(spec: TrialSpec, description: Description) -> Adversary:
     """The adversary that plays a trial. Raises ValueError for an unknown scenario."""
     if spec.setting.script is not None:
-        return Script(spec.setting.script)
+        return script_of(spec.setting)
     if spec.setting.random_events:
         rate = RANDOM_RATE if spec.setting.rate is None else spec.setting.rate
         return Random(description.exogenous_actions, rate)
     return Triggered(_at_rate(description, spec.setting.rate), spec.scenario)
+
+
+def script_of(setting: Setting) -> Script:
+    """The script of a setting, which has one."""
+    return Script(setting.script or (), setting.script_at_actions, setting.script_skips)
 
 
 def _at_rate(description: Description, rate: float | None) -> Description:

@@ -55,6 +55,14 @@ class Occurrence(msgspec.Struct):
     observed: bool
 
 
+class Rejected(msgspec.Struct):
+    """An exogenous action that a script has for this step, that was not possible, and why."""
+
+    step: Count
+    action: str
+    reason: str
+
+
 class Report(msgspec.Struct):
     """News that reached the robot at step `told`: that `action` happened at `step`; is it true?"""
 
@@ -169,6 +177,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     steps: Count = 0
     actions: list[Attempt] = []
     exogenous: list[Occurrence] = []
+    rejected: list[Rejected] = []
     reports: list[Report] = []
     explanations: list[Explained] = []
     mental: list[At] = []

@@ -17,9 +17,11 @@ from testbed.experiment.record import (
     FineCounts,
     Occurrence,
     Outcome,
+    Rejected,
     Report,
     TrialRecord,
 )
+from testbed.experiment.wording import listed
 from testbed.link.bounds import shortened
 from testbed.link.messages import Decision, Event, Explanation, FineTrace, Trace
 
@@ -132,12 +134,15 @@ class Recorder:
         least = self.record.minimal_actions
         return None if least is None else self.record.action_count == least
 
-    def unreached(self, steps: Sequence[int]) -> None:
-        """Steps of the script at which the game was over already."""
-        if steps:
-            several = f"steps {', '.join(map(str, steps))} were"
-            which = several if len(steps) > 1 else f"step {steps[0]} was"
-            self.record.reason = f"script {which} not reached"
+    def rejected(self, step: int, action: str, reason: str) -> None:
+        """An exogenous action of the script that was not possible at `step`."""
+        self.record.rejected.append(Rejected(step, action, shortened(reason)))
+
+    def unreached(self, moments: Sequence[str]) -> None:
+        """Steps of the script, and actions of the robot, before which the game was over."""
+        if moments:
+            were = "were" if len(moments) > 1 else "was"
+            self.record.reason = f"script {listed(moments)} {were} not reached"
 
     def fail(self, outcome: Outcome, reason: str, cause: Cause) -> None:
         """The trial could not be played to its end."""

@@ -13,7 +13,13 @@ import msgspec
 import numpy as np
 
 from asp.levels import LevelSize
-from testbed.config.models import JUDGE_STATES, ExperimentConfig, KnowledgeKind, Pace
+from testbed.config.models import (
+    JUDGE_STATES,
+    ExperimentConfig,
+    KnowledgeKind,
+    Pace,
+    ScriptEntry,
+)
 from testbed.environment.rules import Observability
 
 
@@ -34,7 +40,8 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What holds in every trial of one scenario, or at one level, of a configuration.
 
     `script` is `((step, action), ...)`, or None for the scenario's triggers, or for random events
-    in place of them; `observability` is by the name of the exogenous action.
+    in place of them; `script_at_actions` has numbers of the robot's physical actions in place of
+    steps. `observability` is by the name of the exogenous action.
     """
 
     domain: str
@@ -51,6 +58,8 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     fine: FineSetting | None = None
     random_events: bool = False
     judge_states: int = JUDGE_STATES
+    script_at_actions: tuple[tuple[int, str], ...] = ()
+    script_skips: bool = False
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -74,7 +83,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
     return Setting(
         domain=config.domain,
         goal=own.goal,
-        script=None if own.script is None else tuple((e.step, e.action) for e in own.script),
+        script=None if own.script is None else _numbered(own.script, "step"),
         observability=config.rules_of_news(),
         knowledge=config.knowledge,
         goal_feedback=bool(own.goal_feedback),
@@ -85,7 +94,15 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         decision_s=config.limits.decision_s,
         random_events=config.has_random_events,
         judge_states=config.limits.judge_states,
+        script_at_actions=_numbered(own.script or (), "at_action"),
+        script_skips=config.script_policy == "skip",
     )
+
+
+def _numbered(script: Sequence[ScriptEntry], key: str) -> tuple[tuple[int, str], ...]:
+    """The entries whose moment is said by this key, with its value."""
+    moments = ((getattr(entry, key), entry.action) for entry in script)
+    return tuple((number, action) for number, action in moments if number is not None)
 
 
 def pair_specs(

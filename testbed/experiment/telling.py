@@ -41,8 +41,7 @@ class Teller:
         yield from _told(moment)
         yield from self._mind(trace, truth)
         yield f"  action       {_action(moment)}"
-        if moment.event is not None:
-            yield f"  others       {moment.event}"
+        yield from _others(moment)
 
     def _mind(self, trace: Trace, truth: Sequence[str]) -> Iterator[str]:
         yield f"  belief       {self._belief(trace)}"
@@ -87,6 +86,13 @@ def _action(moment: Moment) -> str:
     return action
 
 
+def _others(moment: Moment) -> Iterator[str]:
+    if moment.event is not None:
+        yield f"  others       {moment.event}"
+    for impossible in moment.skipped:
+        yield f"  others       {impossible}: was not possible"
+
+
 def _told(moment: Moment) -> Iterator[str]:
     if moment.percept.goal_holds is False:
         yield "  told         the goal does not hold"
@@ -120,8 +126,7 @@ class FineTeller(Teller):
             yield from self._mind(moment.decision.trace, sorted(true & self._coarse))
         yield from _refined(fine, moment.percept.step)
         yield f"  action       {_action(moment)}"
-        if moment.event is not None:
-            yield f"  others       {moment.event}"
+        yield from _others(moment)
 
     def _world_lines(self, true: frozenset[str]) -> Iterator[str]:
         """All at first, and then what is new."""

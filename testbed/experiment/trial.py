@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import msgspec
 import numpy as np
 
+from agents.adversary.scripted import Script
 from testbed.environment.core import NONE, Core
 from testbed.environment.errors import IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
@@ -28,7 +29,8 @@ class Moment:
     """One step of a trial: what the robot was told, answered, and what became of it.
 
     `happened` is None unless the robot attempted a physical action; `event` is the exogenous
-    action, or None; `before` and `after` are states of the world.
+    action, or None; `skipped` are those of a script that were not possible; `before` and `after`
+    are states of the world.
     """
 
     percept: Percept
@@ -37,6 +39,7 @@ class Moment:
     event: str | None
     before: int
     after: int
+    skipped: tuple[str, ...] = ()
 
 
 class Result(msgspec.Struct):
@@ -141,8 +144,8 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     recorder.end(core.situation.ending)
     if not core.achieved:
         recorder.in_reach(stage.judge.in_reach(core.situation.state, goal, most_states))
-    script = spec.setting.script or ()
-    recorder.unreached(sorted(step for step, _ in script if step >= core.situation.step))
+    if isinstance(adversary, Script):
+        recorder.unreached(adversary.unreached(core.situation.step))
 
 
 def _step(
@@ -157,6 +160,10 @@ def _step(
     if decision.action not in core.robot_actions:
         raise RobotLost(f"answered '{decision.action}', which is not an action")
     event = adversary.act(_view(core, decision.action))
+    skipped = adversary.skipped if isinstance(adversary, Script) else ()
+    for impossible in skipped:
+        why = core.why_not(decision.action, impossible) or f"beside {event}"
+        recorder.rejected(before.step, impossible, why)
     core.advance(decision.action, event)
     after = core.situation
     recorder.step(decision, after.happened, costs)
@@ -165,7 +172,7 @@ def _step(
         recorder.exogenous(before.step, exogenous)
     for report in after.told:
         recorder.report(after.step, report)
-    return Moment(percept, decision, after.happened, exogenous, before.state, after.state)
+    return Moment(percept, decision, after.happened, exogenous, before.state, after.state, skipped)
 
 
 def _view(core: Core, robot_action: str) -> AdversaryView:
@@ -175,6 +182,7 @@ def _view(core: Core, robot_action: str) -> AdversaryView:
         state=frozenset(core.world.true_atoms(now.state)),
         robot_action=robot_action,
         legal=core.legal_events(robot_action),
+        physical=core.is_physical(robot_action),
     )
 
 

@@ -152,6 +152,16 @@ def test_a_script_is_of_the_fine_resolution() -> None:
     ]
 
 
+def test_a_script_counts_concrete_actions_and_no_tests() -> None:
+    script = "script=[{at_action: 2, action: 'fine_exo_move(object2_1,room1_1)'}]"
+    record, _ = _play(CARRYING, script)
+    assert [event.step for event in record.exogenous] == [4]
+    again = "script=[{at_action: 2, action: 'fine_exo_move(object2_1,room2_1)'}]"
+    skipped, _ = _play(CARRYING, again, "script_policy=skip")
+    assert [own.step for own in skipped.rejected] == [4]
+    assert skipped.exogenous == []
+
+
 def _told(steps: Sequence[tuple[str, FineTrace | None]], *overrides: str) -> list[str]:
     """What a replay tells of the trial."""
     (spec,) = _specs(*FIXED, *overrides)

@@ -232,7 +232,7 @@ def test_a_script_is_played_where_it_says(configure: Configure) -> None:
     [
         ((2, 3), None),
         ((2, 5), "script step 5 was not reached"),
-        ((50, 2, 5), "script steps 5, 50 were not reached"),
+        ((50, 2, 5), "script step 5 and step 50 were not reached"),
     ],
 )
 def test_a_trial_that_ends_before_its_script_says_so(

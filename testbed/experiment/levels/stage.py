@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from agents.adversary.base import Adversary
 from agents.adversary.random import Random
-from agents.adversary.scripted import Script
 from asp.literals import arguments, complement
 from testbed.config.grounds import Ground
 from testbed.environment.core import Core
 from testbed.environment.fine import fine_core, fine_world
 from testbed.environment.world import World
+from testbed.experiment.adversaries import script_of
 from testbed.experiment.conditions import known, rules_of
 from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import Oracle
@@ -44,7 +44,7 @@ class FineStage:
     def adversary(self, spec: TrialSpec) -> Adversary:
         """Random events at the setting's rate, or the script."""
         if spec.setting.script is not None:
-            return Script(spec.setting.script)
+            return script_of(spec.setting)
         return Random(self._world.exogenous_actions, spec.setting.rate or 0.0)
 
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:

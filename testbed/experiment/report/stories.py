@@ -61,7 +61,8 @@ def timeline(record: TrialRecord) -> Iterator[Step]:
     mental = {item.step: item.action for item in record.mental}
     others = {item.step: item for item in record.exogenous}
     explanations = {item.step: item for item in record.explanations}
-    told = {*attempts, *mental, *others, *explanations}
+    rejected = {item.step: f"{item.action}, not possible" for item in record.rejected}
+    told = {*rejected, *attempts, *mental, *others, *explanations}
     for number in range(1, record.steps + 1):
         attempt, event = attempts.get(number), others.get(number)
         if record.fine is not None and number not in told:
@@ -72,7 +73,8 @@ def timeline(record: TrialRecord) -> Iterator[Step]:
         else:
             kind = "mental"
             robot = mental.get(number, "wait")
-        seen = "" if event is None else f"{event.action}{'' if event.observed else ', unseen'}"
+        unseen = "" if event is None or event.observed else ", unseen"
+        seen = rejected.get(number, "") if event is None else f"{event.action}{unseen}"
         adopted = explanations.get(number)
         yield Step(number, kind, robot, seen, explanation(adopted) if adopted else "")
 
