@@ -352,6 +352,7 @@ def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
             "contradictions": [{"step": 2, "observed": "f", "believed": "-f"}],
             "alternatives": 1,
             "more_alternatives": True,
+            "minimal": "proved",
         }
     ]
     assert (record.planning_time_s, record.diagnosis_time_s) == (0.75, 2.0)
