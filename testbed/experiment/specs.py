@@ -144,9 +144,12 @@ def playing_order(seed: int, robots: Sequence[str]) -> tuple[str, ...]:
 
 
 def _without_files(setting: Setting, domain: str) -> object:
-    """The setting as it is hashed: wherever its files lie."""
+    """The setting as it is hashed: wherever its files lie, and without what is as by default."""
     fine = setting.fine and msgspec.structs.replace(setting.fine, refinement=None)
-    return msgspec.to_builtins(msgspec.structs.replace(setting, domain=domain, fine=fine))
+    values = msgspec.to_builtins(msgspec.structs.replace(setting, domain=domain, fine=fine))
+    defaults = {field.name: field.default for field in msgspec.structs.fields(Setting)}
+    # msgspec omits a default that is the same object, which an equal number need not be.
+    return {name: value for name, value in values.items() if value != defaults[name]}
 
 
 def generator_of(root: int, path: object) -> np.random.Generator:
