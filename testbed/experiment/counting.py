@@ -8,13 +8,13 @@ from typing import Literal, TypeAlias
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
-from testbed.experiment.record import FAILURES, TrialRecord
+from testbed.experiment.record import TrialRecord
 
 BASELINE, INTENTIONAL = "traditional", "intentional"
 """The robots that a summary compares."""
 
 Apart: TypeAlias = Literal[
-    "incomplete", "failed", "deadline", "unsolvable", "nothing to do", "no event"
+    "incomplete", "lost", "deadline", "unsolvable", "nothing to do", "no event"
 ]
 NOTHING_TO_DO: Apart = "nothing to do"
 NO_EVENT: Apart = "no event"
@@ -26,12 +26,13 @@ CERTAIN = 1.0
 class Standing:
     """What decides of a trial whether its pair counts.
 
-    `failed`: it ended in error or without its robot; `late`: a decision was cut off by the clock;
+    `lost`: something other than its robot ended it; `late`: a decision was cut off by the clock;
     `solvable`: some plan achieves the goal from the initial state; `idle`: the goal held from there
-    on; `quiet`: nothing exogenous happened.
+    on; `quiet`: nothing exogenous happened. Of a trial that the robot's own error ended it is not
+    known what it would have been: it is neither.
     """
 
-    failed: bool
+    lost: bool
     late: bool
     solvable: bool
     idle: bool
@@ -41,11 +42,11 @@ class Standing:
 def standing(record: TrialRecord) -> Standing:
     """That of a trial on record."""
     return Standing(
-        failed=record.outcome in FAILURES,
+        lost=record.lost,
         late=record.deadline,
         solvable=is_solvable(record),
         idle=is_idle(record),
-        quiet=not record.exogenous,
+        quiet=not record.exogenous and not record.failed,
     )
 
 
@@ -56,7 +57,8 @@ def is_solvable(record: TrialRecord) -> bool:
 
 def is_idle(record: TrialRecord) -> bool:
     """Whether there was nothing to do: no activity, no action, and the goal holds."""
-    return record.achieved and not record.activities and not record.actions
+    acted = record.activities or record.actions
+    return record.achieved and not acted and not record.failed
 
 
 def eventful(config: ExperimentConfig) -> frozenset[str]:
@@ -96,8 +98,8 @@ def why_apart(
     known = [own for own in needed if own is not None]
     if len(known) < len(needed):
         return "incomplete"
-    if any(own.failed for own in known):
-        return "failed"
+    if any(own.lost for own in known):
+        return "lost"
     if any(own.late for own in known):
         return DEADLINE
     if not all(own.solvable for own in known):

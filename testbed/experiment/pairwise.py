@@ -18,7 +18,7 @@ from testbed.experiment.statistics import Test, holm, mcnemar, signed_rank
 ACCURACY = "accuracy"
 COUNTS: Mapping[Apart, str] = {
     "incomplete": "incomplete",
-    "failed": "failed_pairs",
+    "lost": "failed_pairs",
     "deadline": "deadline",
     "unsolvable": "unsolvable",
     "nothing to do": "nothing_to_do",
@@ -42,14 +42,17 @@ class Played:
 class Group:
     """What some pairs come to; `pairs` are the ids of those that count, `apart` counts the others.
 
-    `accuracy` is by robot, of the trials of which it is known whether they are correct; `undecided`
-    counts the others.
+    `errors` counts by robot the trials that its own error ended: they are not correct, and their
+    measures, which are those of a part of a trial, are in no ratio and no test. `accuracy` is by
+    robot, of the trials of which it is known whether they are correct; `undecided` counts the
+    others.
     Tests are by measure, of the traditional less the intentional robot's, and of `accuracy`, of the
     intentional less the traditional one's.
     """
 
     pairs: frozenset[str]
     apart: Mapping[Apart, int]
+    errors: Mapping[str, int]
     accuracy: Mapping[str, float | None]
     undecided: Mapping[str, int]
     ratios: Mapping[str, float | None]
@@ -62,6 +65,7 @@ class Group:
         return {
             "pairs": len(self.pairs),
             **{key: self.apart.get(reason, 0) for reason, key in COUNTS.items()},
+            "robot_errors": dict(self.errors),
             "accuracy": dict(self.accuracy),
             "undecided": dict(self.undecided),
             "ratios": dict(self.ratios),
@@ -85,6 +89,7 @@ def group(pairs: Sequence[Played], robots: Collection[str], sure: Collection[str
     return Group(
         pairs=frozenset(pair.pair for pair in counted),
         apart=Counter(reason for reason in reasons if reason is not None),
+        errors={robot: sum(not t.ended for t in _trials(counted, robot)) for robot in own},
         accuracy={robot: _accuracy(_trials(counted, robot)) for robot in own},
         undecided={robot: _undecided(_trials(counted, robot)) for robot in own},
         ratios={name: _ratio(both, measure) for name, measure in MEASURES.items()},
@@ -112,18 +117,23 @@ def _undecided(trials: Iterable[Outline]) -> int:
 
 
 def _ratio(pairs: Sequence[Both], measure: Callable[[Outline], float]) -> float | None:
-    ratios = [measure(base) / measure(mind) for base, mind in pairs if measure(mind)]
+    ended = [(base, mind) for base, mind in pairs if base.ended and mind.ended]
+    ratios = [measure(base) / measure(mind) for base, mind in ended if measure(mind)]
     return fmean(ratios) if ratios else None
 
 
 def _tests(pairs: Sequence[Both]) -> Iterator[tuple[str, Test | None]]:
-    states = [mind.state for _, mind in pairs]
-    decided = [pair for pair in pairs if all(trial.decided for trial in pair)]
+    ended = [(base, mind) for base, mind in pairs if base.ended and mind.ended]
     for name, measure in MEASURES.items():
-        differences = [measure(base) - measure(mind) for base, mind in pairs]
-        yield name, signed_rank(np.array(differences, dtype=float), states)
+        differences = [measure(base) - measure(mind) for base, mind in ended]
+        yield name, signed_rank(np.array(differences, dtype=float), _states(ended))
+    decided = [pair for pair in pairs if all(trial.decided for trial in pair)]
     bases, minds = (np.array([pair[i].correct for pair in decided], dtype=bool) for i in (0, 1))
-    yield ACCURACY, mcnemar(minds, bases, [mind.state for _, mind in decided])
+    yield ACCURACY, mcnemar(minds, bases, _states(decided))
+
+
+def _states(pairs: Iterable[Both]) -> list[str]:
+    return [mind.state for _, mind in pairs]
 
 
 def _optimum(trials: Iterable[Outline]) -> Optimum:

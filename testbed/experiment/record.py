@@ -145,10 +145,11 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     over before its script; `cause` is None unless it was lost or ended in error.
     `retried` are the reasons of earlier attempts at the trial, which failed.
     `minimal_actions` and `minimal_units` are the oracle's, from the initial state with nothing
-    exogenous, of a trial that was played to its end. Where the actions are None `minimal_reason`
+    exogenous, of a trial that counts. Where the actions are None `minimal_reason`
     says why: `no plan` exists, or the `budget` of states did not suffice to find the least. The
     plan with the fewest actions need not be the one that costs least. `correct` is None where that
-    depends on the fewest actions and these are not known; so is `in_reach`.
+    depends on the fewest actions and these are not known (so is `in_reach`), and of a trial that is
+    `lost`.
     `mental` holds `start(N)`, `stop(N)` and `finish`.
     Times are seconds, `..._time_s` by the wall clock, `..._cpu_s` process time of the robot, its
     solver included. `preparation_cpu_s` is what the trial's decisions caused but others can reuse
@@ -195,6 +196,21 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     fine: FineCounts | None = None
     in_reach: bool | None = None
     deadline: bool = False
+
+    @property
+    def lost(self) -> bool:
+        """Whether something other than its robot ended the trial, which then says nothing of it."""
+        return self.outcome in FAILURES and self.cause != "robot"
+
+    @property
+    def failed(self) -> bool:
+        """Whether the robot's own error ended the trial: it counts, and is not correct."""
+        return self.outcome in FAILURES and self.cause == "robot"
+
+    @property
+    def counts(self) -> bool:
+        """Whether the trial says something of its robot that another machine would say, too."""
+        return not (self.lost or self.deadline)
 
     def _repr_html_(self) -> str:
         """What a notebook shows: how the trial came out, and what happened step by step."""

@@ -145,8 +145,9 @@ class Recorder:
             self.record.reason = f"script {listed(moments)} {were} not reached"
 
     def fail(self, outcome: Outcome, reason: str, cause: Cause) -> None:
-        """The trial could not be played to its end."""
+        """The trial could not be played to its end; only of the robot's own error it is judged."""
         self.record.outcome = outcome
+        self.record.correct = False if cause == "robot" else None
         self.record.reason, self.record.cause = shortened(reason), cause
 
 

@@ -130,7 +130,7 @@ def _show(console: Console, tables: Tables) -> None:
     if tables.notice is not None:
         _say(console, f"incomplete: {tables.notice}")
     if tables.rows:
-        results = counted(sum(row.trials for row in tables.rows), "trial")
+        results = counted(sum(row.trials + row.lost for row in tables.rows), "trial")
         _say(console, f"digest of {results}: {tables.digest}")
 
 

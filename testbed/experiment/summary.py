@@ -53,7 +53,7 @@ def summarise(
     for record in records:
         trials += 1
         late += record.deadline
-        if record.fine is not None and not record.deadline:
+        if record.fine is not None and record.counts:
             fine.setdefault(record.level, []).append(fine_outline(record, record.fine))
         place = record.scenario, record.level, record.pair
         pairs.setdefault(place, {})[record.robot] = Outline(record)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from rich.table import Table
 
 from testbed.experiment.counting import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
-from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome, TrialRecord
+from testbed.experiment.record import COARSE, OUTCOMES, Outcome, TrialRecord
 from testbed.experiment.wording import counted, exception, in_words, of_place, place
 
 COLUMNS = (
@@ -33,7 +33,8 @@ class Row:
     """What the trials of one robot in one scenario, or at one level, come to: sums for means.
 
     `apart` says of trials with rows of their own that their pairs are compared in none. Trials that
-    failed (a lost robot, an error) count as trials and nowhere else.
+    the robot's own error ended (`failed`) count as trials, not achieved, and in no mean; those that
+    something else ended (`lost`) are none of its `trials`.
     """
 
     scenario: str
@@ -41,6 +42,7 @@ class Row:
     apart: Apart | None
     robot: str
     trials: int = 0
+    lost: int = 0
     failed: int = 0
     achieved: int = 0
     plans: int = 0
@@ -53,9 +55,12 @@ class Row:
 
     def add(self, record: TrialRecord) -> None:
         """Count one more trial."""
+        if record.lost:
+            self.lost += 1
+            return
         self.trials += 1
         self.endings[record.outcome] += 1
-        if record.outcome in FAILURES:
+        if record.failed:
             self.failed += 1
             return
         self.achieved += record.achieved
@@ -107,11 +112,15 @@ class Row:
     def _achieved(self) -> str:
         """How many, and how the others ended, in the order in which outcomes are declared."""
         others = [name for name in OUTCOMES if self.endings[name] and name != "achieved"]
+        lost = [f"{self.lost} lost"] * (self.lost > 0)
+        if not self.trials:
+            return ", ".join(["-", *lost])
         if self.trials == 1:
             share = "yes" if self.achieved else "no"
-            return ", ".join([share, *map(in_words, others)])
+            return ", ".join([share, *map(in_words, others), *lost])
         share = f"{self.achieved}/{self.trials}"
-        return ", ".join([share, *(f"{self.endings[name]} {in_words(name)}" for name in others)])
+        told = (f"{self.endings[name]} {in_words(name)}" for name in others)
+        return ", ".join([share, *told, *lost])
 
     def _mean(self, total: int) -> str:
         if not self._played:

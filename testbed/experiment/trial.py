@@ -128,7 +128,7 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     for_world, for_adversary, for_robot = _seeds(spec.seed)
     core = stage.core(spec.setting)
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
-    start = core.situation.state
+    start, most_states = core.situation.state, spec.setting.judge_states
     adversary = stage.adversary(spec)
     adversary.reset(for_adversary)
     try:
@@ -137,9 +137,14 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
             moment = _step(core, client, adversary, recorder, stage.costs)
             if watch is not None:
                 watch(moment)
+    except RobotLost as loss:
+        if not isinstance(
+            loss, RobotGone
+        ):  # its own error: the trial counts if the goal has a plan
+            recorder.minimal(stage.judge.minimal(start, goal, most_states))
+        raise
     finally:
         recorder.achieved(core.achieved)
-    most_states = spec.setting.judge_states
     recorder.minimal(stage.judge.minimal(start, goal, most_states))
     recorder.end(core.situation.ending)
     if not core.achieved:

@@ -68,7 +68,7 @@ def test_a_pair_with_a_failure_counts_apart(robot: str, outcome: Outcome) -> Non
     assert (same["pairs"], same["failed_pairs"]) == (3, 0)
     assert group | {"failed_pairs": 0} == same
     (row,) = comparisons(summary)
-    assert row.cells[0] == Cell("pairs", "3", "1 failed")
+    assert row.cells[0] == Cell("pairs", "3", "1 lost")
 
 
 def test_a_last_row_is_about_all_scenarios() -> None:

@@ -22,7 +22,7 @@ RECORD: dict[str, tuple[type, ...]] = {
     "goal": (list,),
     "achieved": (bool,),
     "finished": (bool,),
-    "correct": (bool,),
+    "correct": (bool, type(None)),
     "minimal_actions": (int, type(None)),
     "minimal_units": (int, type(None)),
     "outcome": (str,),
@@ -76,6 +76,7 @@ def test_a_line_has_every_key_with_a_value_of_its_type(lines: list[dict[str, Any
         assert line["level"] == "coarse"
         assert line["fine"] is None
         assert line["outcome"] in OUTCOMES
+        assert (line["correct"] is None) == (line["cause"] in ("infrastructure", "testbed"))
     assert {line["outcome"] for line in lines} == {"achieved", "false_finish", "error"}
 
 

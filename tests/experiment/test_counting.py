@@ -5,8 +5,8 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.counting import Standing, compared, eventful, pair_apart, why_apart
 
-PLAYED = Standing(failed=False, late=False, solvable=True, idle=False, quiet=False)
-QUIET = Standing(failed=False, late=False, solvable=True, idle=False, quiet=True)
+PLAYED = Standing(lost=False, late=False, solvable=True, idle=False, quiet=False)
+QUIET = Standing(lost=False, late=False, solvable=True, idle=False, quiet=True)
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_a_missing_trial_is_told_before_anything_else() -> None:
 
 
 def test_a_pair_with_a_trial_that_the_clock_cut_off_counts_apart() -> None:
-    late = Standing(failed=False, late=True, solvable=True, idle=False, quiet=False)
+    late = Standing(lost=False, late=True, solvable=True, idle=False, quiet=False)
     assert why_apart("2", [PLAYED, late], [PLAYED], {"2"}) == "deadline"
 
 

@@ -113,7 +113,10 @@ def test_the_trials_that_only_one_achieves_are_tested_as_mcnemar_does() -> None:
 
 
 def test_a_trial_without_its_robot_is_not_completed_and_has_no_times() -> None:
-    records = [*_ratios(2.0), a_level_record("q", ZOOM, achieved=False, outcome="robot_lost")]
+    records = [
+        *_ratios(2.0),
+        a_level_record("q", ZOOM, achieved=False, outcome="robot_lost", cause="robot"),
+    ]
     columns = _columns(*records)
     assert columns["reasoning"][ZOOM]["trials"] == 2
     assert columns["reasoning"][ZOOM]["completed"] == 0.5

@@ -57,12 +57,13 @@ def test_several_trials_are_counted_and_averaged() -> None:
         [
             a_record("a", action_count=4, explanations=explanations),
             a_record("b", action_count=7, **GAVE_UP, explanations=explanations[1:]),
-            a_record("c", action_count=90, outcome="robot_lost", achieved=False),
+            a_record("c", action_count=90, outcome="robot_lost", cause="robot", achieved=False),
+            a_record("e", action_count=90, outcome="robot_lost", cause="infrastructure"),
             a_record("d", robot="traditional"),
         ]
     )
     cells = dict(zip(COLUMNS, rows[0].cells(), strict=True))
-    assert (cells["achieved"], cells["actions"]) == ("1/3, 1 gave up, 1 robot lost", "5.5")
+    assert (cells["achieved"], cells["actions"]) == ("1/3, 1 gave up, 1 robot lost, 1 lost", "5.5")
     assert cells["explained by"] == "e x2, exception -d x1"
     assert [row.robot for row in rows] == ["intentional", "traditional"]
 
@@ -74,7 +75,7 @@ def test_means_have_one_decimal_whatever_they_are() -> None:
 
 
 def test_a_row_of_failures_alone_has_no_means() -> None:
-    (row,) = rows_of([a_record(outcome="error", achieved=False)])
+    (row,) = rows_of([a_record(outcome="error", cause="robot", achieved=False)])
     cells = dict(zip(COLUMNS, row.cells(), strict=True))
     assert (cells["achieved"], cells["plans"], cells["planning"]) == ("no, error", "-", "-")
 
@@ -88,7 +89,7 @@ def test_a_note_is_kept_of_trials_that_were_played_to_their_end() -> None:
         [a_record("a", reason=reason), a_record("b", reason=reason), a_record("c"), lost]
     )
     assert row.notes() == (
-        "scenario 1, intentional: script step 50 was not reached in 2 of 4 trials",
+        "scenario 1, intentional: script step 50 was not reached in 2 of 3 trials",
     )
 
 
@@ -100,7 +101,7 @@ def test_a_note_is_kept_of_trials_that_were_played_to_their_end() -> None:
         (False, "false_finish", "no, false finish"),
         (False, "step_limit", "no, step limit"),
         (True, "step_limit", "yes, step limit"),
-        (False, "robot_lost", "no, robot lost"),
+        (False, "robot_lost", "-, 1 lost"),
     ],
 )
 def test_a_trial_alone_in_its_row_is_shown_with_its_outcome(
@@ -114,7 +115,7 @@ def test_outcomes_are_counted_in_the_order_in_which_they_are_declared() -> None:
     endings = ["error", "gave_up", "step_limit", "gave_up", "false_finish"]
     bad = [a_record(str(n), achieved=False, outcome=ending) for n, ending in enumerate(endings)]
     (row,) = rows_of([*bad, a_record("good")])
-    shown = "1/6, 1 false finish, 2 gave up, 1 step limit, 1 error"
+    shown = "1/5, 1 false finish, 2 gave up, 1 step limit, 1 lost"
     assert row.cells()[COLUMNS.index("achieved")] == shown
 
 
@@ -132,13 +133,13 @@ def test_pairs_that_are_not_compared_have_rows_of_their_own() -> None:
         *_pair(2, {"scenario": "3"}, {"scenario": "3"}),
         *_pair(3, {"scenario": "3"}, {"scenario": "3"}),
         *_pair(4, {"scenario": "4"}, {"scenario": "4"}),
-        *_pair(5, {"scenario": "4"}, {"scenario": "4", "outcome": "error"}),
+        *_pair(5, {"scenario": "4"}, {"scenario": "4", "outcome": "error", "cause": "robot"}),
     ]
     apart: dict[str, Apart] = {
         "pair 1": NO_EVENT,
         "pair 2": NOTHING_TO_DO,
         "pair 4": NOTHING_TO_DO,
-        "pair 5": "failed",
+        "pair 5": "lost",
     }
     rows = rows_of(records, apart)
     assert [(row.cells()[0], row.trials) for row in rows if row.robot == "intentional"] == [
@@ -147,7 +148,7 @@ def test_pairs_that_are_not_compared_have_rows_of_their_own() -> None:
         ("4", 1),
         ("nothing to do", 2),
     ]
-    assert sum(row.trials for row in rows) == len(records)
+    assert sum(row.trials + row.lost for row in rows) == len(records)
 
 
 def test_a_note_says_where_its_pairs_are() -> None:

@@ -100,11 +100,12 @@ def _spread(values: Iterable[float]) -> Spread | None:
 
 
 def _shares(
-    robots: Mapping[str, Outlines], value: Callable[[FineOutline], bool]
+    robots: Mapping[str, Outlines], value: Callable[[FineOutline], bool | None]
 ) -> dict[str, Estimate]:
+    known = {r: [v for v in map(value, own) if v is not None] for r, own in robots.items()}
     found = {
-        robot: statistics.proportion([(np.array([value(o) for o in own], dtype=float), 1)])
-        for robot, own in robots.items()
+        robot: statistics.proportion([(np.array(own, dtype=float), 1)])
+        for robot, own in known.items()
     }
     return {robot: share for robot, share in found.items() if share is not None}
 

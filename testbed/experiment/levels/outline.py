@@ -37,7 +37,7 @@ def fine_outline(record: TrialRecord, fine: FineCounts) -> FineOutline:
         robot=record.robot,
         pair=record.pair,
         played=record.outcome not in FAILURES,
-        achieved=record.achieved,
+        achieved=record.achieved and record.outcome not in FAILURES,
         correct=record.correct is True,
         decided=record.correct is not None,
         out_of_reach=record.in_reach is False,

@@ -21,7 +21,8 @@ class Spread(msgspec.Struct, frozen=True):
 class Reasoning(msgspec.Struct, frozen=True):
     """One robot at a level: how its trials ended, what it did in them; times are seconds.
 
-    Trials that failed (a lost robot, an error) count as trials, and as not completed.
+    Trials that the robot's own error ended count as trials, and as not completed; those that
+    something else ended are not among them.
     """
 
     trials: int

@@ -50,6 +50,6 @@ def read_run(folder: Path) -> Run:
 def _outlines(folder: Path) -> dict[str, list[FineOutline]]:
     levels: dict[str, list[FineOutline]] = {}
     for record in read_records(folder):
-        if record.fine is not None and not record.deadline:
+        if record.fine is not None and record.counts:
             levels.setdefault(record.level, []).append(fine_outline(record, record.fine))
     return levels

@@ -61,7 +61,8 @@ def _groups(records: Iterable[TrialRecord]) -> dict[str, list[Pair]]:
 
 def _ratios(groups: Mapping[str, list[Pair]], measure: Callable[[Outline], float]) -> Series:
     def estimate(pairs: list[Pair]) -> Estimate | None:
-        known = [(base, mind) for mind, base in pairs if measure(mind)]
+        ended = [(base, mind) for mind, base in pairs if base.ended and mind.ended]
+        known = [(base, mind) for base, mind in ended if measure(mind)]
         ratios = [measure(base) / measure(mind) for base, mind in known]
         return mean([(np.array(ratios, dtype=float), 1)], [[mind.state for _, mind in known]])
 

@@ -64,7 +64,7 @@ def failures(records: Iterable[TrialRecord], folder: Path) -> list[Failed]:
     """Every trial that is not correct, by place, robot and ending; lost ones and errors first."""
     groups: dict[tuple[str, str, str, bool], list[tuple[str, str]]] = {}
     for record in records:
-        if record.correct is False:
+        if record.correct is False or record.lost:
             lost = record.outcome in FAILURES
             key = (of_place(record.scenario, record.level), record.robot, _ending(record), lost)
             line = (command_of(folder, record.trial), _events(record))

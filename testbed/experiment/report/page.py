@@ -89,9 +89,10 @@ def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
     return {
         "config": config,
         "domain": Path(config.domain).stem,
-        "trials": sum(row.trials for row in tables.rows),
+        "trials": sum(row.trials + row.lost for row in tables.rows),
         "achieved": sum(row.achieved for row in tables.rows),
         "failed": sum(row.failed for row in tables.rows),
+        "lost": sum(row.lost for row in tables.rows),
         "digest": tables.digest,
         "notice": tables.notice,
     }

@@ -118,9 +118,9 @@ def _value(
 def _notes(table: Table) -> Iterator[str]:
     everything = [row for row in table.rows if row.name.isdigit()]
     apart = [f"{counted(number, 'pair')} of {name}" for name, number in table.apart.items()]
-    keys = ("failed", "late", "unsolvable")
-    failed, late, never = (sum(getattr(row, key) for row in everything) for key in keys)
-    apart += [f"{counted(failed, 'pair')} with an error or a lost robot"] * (failed > 0)
+    keys = ("lost", "late", "unsolvable")
+    lost, late, never = (sum(getattr(row, key) for row in everything) for key in keys)
+    apart += [f"{counted(lost, 'pair')} with a lost trial"] * (lost > 0)
     apart += [f"{counted(late, 'pair')} with a decision cut off by the clock"] * (late > 0)
     apart += [f"{counted(never, 'pair')} whose goal no plan achieves"] * (never > 0)
     undecided = sum(row.undecided for row in everything)

@@ -89,7 +89,7 @@ def _rows(scenarios: Mapping[str, list[Pair]]) -> Iterator[tuple[str, list[Pair]
 
 def _without_failures(pairs: Iterable[Pair]) -> list[Pair]:
     """Without the pairs in which the traditional robot does not achieve the goal."""
-    return [pair for pair in pairs if pair.base.correct or pair.base.failed]
+    return [pair for pair in pairs if pair.base.correct or pair.base.lost]
 
 
 def _row(
@@ -97,21 +97,22 @@ def _row(
 ) -> Row:
     counted = [pair for pair in pairs if pair.played]
     decided = [pair for pair in counted if pair.decided]
+    ended = [pair for pair in counted if pair.ended]
     return Row(
         name=name,
         pairs=len(counted),
-        failed=sum(pair.failed for pair in pairs),
-        late=sum(pair.late and not pair.failed for pair in pairs),
-        unsolvable=sum(not (pair.solvable or pair.failed or pair.late) for pair in pairs),
+        lost=sum(pair.lost for pair in pairs),
+        late=sum(pair.late and not pair.lost for pair in pairs),
+        unsolvable=sum(not (pair.solvable or pair.lost or pair.late) for pair in pairs),
         out_of_reach=sum(p.mind.out_of_reach or p.base.out_of_reach for p in counted),
         meetings=dict(sorted(Counter(pair.meeting for pair in counted).items())),
         undecided=len(counted) - len(decided),
         intentional=proportion(*_sample(decided, weights, lambda pair: pair.mind.correct)),
         baseline=proportion(*_sample(decided, weights, lambda pair: pair.base.correct)),
         accuracy=_accuracy(decided, weights),
-        ratios={measure: _ratio(counted, measure, weights) for measure in MEASURES},
+        ratios={measure: _ratio(ended, measure, weights) for measure in MEASURES},
         advantage=mean(*_sample(decided, weights, lambda p: p.mind.correct - p.base.correct)),
-        optimum=dict(zip(who, both_optima(counted, weights), strict=True)),
+        optimum=dict(zip(who, both_optima(ended, weights), strict=True)),
     )
 
 

@@ -39,7 +39,7 @@ def _row(row: Row, of: Analysis) -> Numbers:
     ratios: Mapping[str, float] = {} if paper is None else paper.ratios
     return {
         "pairs": row.pairs,
-        "failed": row.failed,
+        "failed": row.lost,
         "deadline": row.late,
         "unsolvable": row.unsolvable,
         "undecided": row.undecided,

@@ -34,11 +34,12 @@ class Side:
 
     `decided`: whether it is known if it was correct.
     `before` are its actions up to the one that `event` goes with, or all where there is no event;
-    `undone`: whether the event took away a part of the goal that would have been true.
+    `undone`: whether the event took away a part of the goal that would have been true; `ended`:
+    whether the trial came to its end without an error.
     """
 
     trial: str
-    failed: bool
+    lost: bool
     achieved: bool
     correct: bool
     out_of_reach: bool
@@ -49,6 +50,7 @@ class Side:
     measures: Mapping[str, float]
     late: bool = False
     decided: bool = True
+    ended: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +71,8 @@ class Pair:
 
     @property
     def played(self) -> bool:
-        """Whether both trials ended by themselves, and the goal could be achieved at all."""
-        return self.solvable and not self.failed and not self.late
+        """Whether both trials say something of their robots, and some plan achieves the goal."""
+        return self.solvable and not self.lost and not self.late
 
     @property
     def decided(self) -> bool:
@@ -78,9 +80,14 @@ class Pair:
         return self.mind.decided and self.base.decided
 
     @property
-    def failed(self) -> bool:
-        """Whether one of the trials ended in error or lost its robot."""
-        return self.mind.failed or self.base.failed
+    def ended(self) -> bool:
+        """Whether no robot's own error ended its trial: the measures are of whole trials."""
+        return self.mind.ended and self.base.ended
+
+    @property
+    def lost(self) -> bool:
+        """Whether something other than its robot ended one of the trials."""
+        return self.mind.lost or self.base.lost
 
     @property
     def late(self) -> bool:
@@ -89,9 +96,10 @@ class Pair:
 
     def apart(self, sure: Collection[str]) -> Apart | None:
         """Why the pair is not counted under the scenario that was played; `sure` as `why_apart`."""
-        idle, quiet = self.happened == NOTHING_TO_DO, self.mind.event is None
+        ended = self.mind.ended
+        idle, quiet = ended and self.happened == NOTHING_TO_DO, ended and self.mind.event is None
         mind, base = (
-            Standing(side.failed, side.late, self.solvable, idle, quiet)
+            Standing(side.lost, side.late, self.solvable, idle, quiet)
             for side in (self.mind, self.base)
         )
         return why_apart(self.intended, (mind, base), (mind,), sure)
@@ -139,7 +147,8 @@ def _side(record: TrialRecord, world: World) -> Side:
     row = Outline(record)
     return Side(
         trial=record.trial,
-        failed=record.outcome in FAILURES,
+        lost=record.lost,
+        ended=record.outcome not in FAILURES,
         late=record.deadline,
         achieved=record.achieved,
         correct=record.correct is True,

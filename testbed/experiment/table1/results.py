@@ -26,7 +26,7 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the table; `pairs` are those counted; `failed`, `late`, `unsolvable` those left out.
+    """A row of the table; `pairs` are those counted; `lost`, `late`, `unsolvable` those left out.
 
     `undecided` pairs count, but in no accuracy: of these it is not known whether both trials were
     correct.
@@ -37,7 +37,7 @@ class Row:
 
     name: str
     pairs: int
-    failed: int
+    lost: int
     unsolvable: int
     out_of_reach: int
     meetings: Mapping[Meeting, int]

@@ -59,17 +59,19 @@ def _rows(inside: Sequence[Weighed]) -> Iterator[tuple[str, list[Weighed]]]:
 
 
 def _row(name: str, own: Sequence[Weighed]) -> Row:
+    decided = [(pair, weight) for pair, weight in own if pair.decided]
+    ended = [(pair, weight) for pair, weight in own if pair.ended]
     return Row(
         name=name,
         pairs=len(own),
-        failed=0,
+        lost=0,
         unsolvable=0,
         out_of_reach=0,
         meetings={},
-        intentional=_share(own, lambda pair: pair.mind.correct),
-        baseline=_share(own, lambda pair: pair.base.correct),
+        intentional=_share(decided, lambda pair: pair.mind.correct),
+        baseline=_share(decided, lambda pair: pair.base.correct),
         accuracy=None,
-        ratios={measure: _ratio(own, measure) for measure in MEASURES},
+        ratios={measure: _ratio(ended, measure) for measure in MEASURES},
     )
 
 

@@ -13,7 +13,7 @@ def a_side(correct: bool = True, **values: object) -> Side:
     measures.update({name: float(str(values.pop(name))) for name in MEASURES if name in values})
     given: dict[str, object] = {
         "trial": "t",
-        "failed": False,
+        "lost": False,
         "achieved": correct,
         "correct": correct,
         "out_of_reach": False,

@@ -25,11 +25,11 @@ def _side(
     correct: bool = True,
     event: str | None = "exo_lock(library)",
     before: tuple[str, ...] = ("a",),
-    failed: bool = False,
+    lost: bool = False,
 ) -> Side:
     return Side(
         trial="t",
-        failed=failed,
+        lost=lost,
         achieved=correct,
         correct=correct,
         out_of_reach=False,
@@ -91,13 +91,13 @@ def test_what_nobody_failed_in_is_left_after_the_baselines_failures() -> None:
 def test_lost_trials_and_goals_that_nothing_achieves_are_counted_apart() -> None:
     pairs = [
         _pair("3", _side(), _side()),
-        _pair("3", _side(failed=True, correct=False), _side()),
-        _pair("3", _side(), _side(failed=True, correct=False)),
-        _pair("3", _side(), _side(failed=True, correct=False), solvable=False),
+        _pair("3", _side(lost=True, correct=False), _side()),
+        _pair("3", _side(), _side(lost=True, correct=False)),
+        _pair("3", _side(), _side(lost=True, correct=False), solvable=False),
         _pair("3", _side(correct=False), _side(correct=False), solvable=False),
     ]
     row = _named(_analyse(pairs).triggered)["3"]
-    assert (row.pairs, row.failed, row.unsolvable) == (1, 3, 1)
+    assert (row.pairs, row.lost, row.unsolvable) == (1, 3, 1)
     assert row.intentional is not None
     assert row.intentional.value == 1.0
 

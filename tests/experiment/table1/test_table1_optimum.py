@@ -11,7 +11,7 @@ def _side(actions: float, units: float, achieved: bool = True) -> Side:
     measures = dict.fromkeys(MEASURES, 1.0) | {"actions": actions, "execution_units": units}
     return Side(
         trial="t",
-        failed=False,
+        lost=False,
         achieved=achieved,
         correct=achieved,
         out_of_reach=False,

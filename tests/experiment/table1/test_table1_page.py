@@ -53,7 +53,7 @@ def test_pairs_are_told_apart_by_whether_the_event_undid_a_part_of_the_goal() ->
 
 
 def test_lost_trials_say_nothing_of_what_the_event_undid() -> None:
-    lost = a_side(correct=False, undone=True, failed=True)
+    lost = a_side(correct=False, undone=True, lost=True)
     assert evidence.blindness([a_pair("3", base=lost)]).undone == 0
 
 

@@ -81,7 +81,7 @@ def test_a_single_state_with_both_outcomes_says_as_much_as_one_trial() -> None:
 
 
 def test_lost_trials_are_in_no_row() -> None:
-    lost = a_pair("3", base=a_side(correct=False, failed=True))
+    lost = a_pair("3", base=a_side(correct=False, lost=True))
     weighed = weighing([*PAIRS, lost], [1.0, 3.0, 4.0, 5.0, 9.0])
     assert (_rows(weighed)["3"].pairs, weighed.shares["3"]) == (2, 0.5)
 

@@ -166,7 +166,7 @@ def _apart(table: Table) -> str:
     apart = [f"{count} pairs: {name}" for name, count in table.apart.items()]
     everything = [row for row in table.rows if row.name.isdigit()]
     counts = (
-        ("trials in error or without a robot", sum(row.failed for row in everything)),
+        ("trials in error or without a robot", sum(row.lost for row in everything)),
         ("decisions cut off by the clock", sum(row.late for row in everything)),
         ("goal out of reach from the start", sum(row.unsolvable for row in everything)),
         ("goal out of reach at the end", sum(row.out_of_reach for row in everything)),
