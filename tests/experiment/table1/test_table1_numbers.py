@@ -107,8 +107,9 @@ def test_the_summary_has_both_tables(summary: Any, analysis: Analysis) -> None:
 
 
 def _compare(found: Any, row: Row) -> None:
-    counts = ("pairs", "failed", "unsolvable", "out_of_reach", "meetings")
+    counts = ("pairs", "unsolvable", "out_of_reach", "meetings")
     assert {key: found[key] for key in counts} == {key: getattr(row, key) for key in counts}
+    assert found["failed"] == row.lost
     for measure, ratio in row.ratios.items():
         own = found["ratios"][measure]
         assert own["pairs"] == ratio.pairs
@@ -174,6 +175,7 @@ def _trials(draw: st.DrawFn) -> list[TrialRecord]:
             **common,
             robot=robot,
             outcome=draw(st.sampled_from(["achieved"] * 4 + ["error"])),
+            cause=draw(st.sampled_from(["robot", "infrastructure"])),
             correct=draw(st.booleans()),
             action_count=draw(st.integers(0, 4)),
             plans=draw(st.integers(0, 2)),
@@ -203,7 +205,7 @@ def test_whatever_comes_of_pairs_both_count_the_same(trials: list[list[TrialReco
             assert (group["pairs"], group["failed_pairs"], group["unsolvable"]) == (0, 0, 0)
             continue
         counts = (group["pairs"], group["failed_pairs"], group["unsolvable"])
-        assert counts == (row.pairs, row.failed, row.unsolvable)
+        assert counts == (row.pairs, row.lost, row.unsolvable)
         shares = (group["accuracy"].get("intentional"), group["accuracy"].get("traditional"))
         assert shares == tuple(own and own.value for own in (row.intentional, row.baseline))
         means = {m: ratio.mean and ratio.mean.value for m, ratio in row.ratios.items()}
