@@ -84,11 +84,13 @@ class Execution:
         mind = self._mind
         expected = mind.effects.of(action, mind.belief.known.true | mind.plain)
         mind.tally.action()
+        mind.pending = expected
         percept = yield action
         self._looking.hear(percept)
         outcome: list[str] = []
         for effect in expected:
             outcome += [(yield from self._looking.outcome(effect, percept))]
+        mind.pending = ()
         mind.assume(outcome)
         self._looking.commit(literal for literal in outcome if mind.tests.of(literal) is not None)
         if outcome == list(expected):

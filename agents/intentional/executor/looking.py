@@ -60,12 +60,14 @@ class Looking:
         return [f for f in possible if f not in tested and mind.belief.is_open(f)]
 
     def doubt(self, action: str) -> Asking[None]:
-        """Tests again what an action that failed took for granted."""
+        """Tests again what an action that failed took for granted, and what is not certain."""
         mind = self._mind
         about = {mind.refinement.wholes.get(part, part) for part in arguments(action)}
         things = mind.looked_for(about)
+        with mind.tally.inferring():
+            doubtful = mind.belief.known.true - mind.certain().known.true
         for fluent in [*mind.tests.possible(mind.belief.known.true, things)]:
-            if fluent in mind.belief.known.true:
+            if fluent in doubtful and fluent in mind.belief.known.true:
                 yield from self._test(fluent)
 
     def outcome(self, effect: str, percept: Percept) -> Asking[str]:
@@ -80,7 +82,9 @@ class Looking:
 
     def commit(self, literals: Iterable[str]) -> None:
         """Takes observations of the present moment for certain."""
-        mind, seen = self._mind, list(literals)
+        mind = self._mind
+        with mind.tally.inferring():
+            seen = mind.believable(literals)
         new = [literal for literal in seen if not self._is_known(literal)]
         with mind.tally.inferring():
             mind.belief.see(seen)

@@ -20,7 +20,8 @@ class Mind:
 
     `plain` are the true fluents of those that have no counterpart, as far as they are believed;
     `shown` are the literals about such fluents that the last percept had, and `noticed` the
-    fluents of which there was any since the coarse robot was last asked.
+    fluents of which there was any since the coarse robot was last asked; `pending` are the effects
+    of an action that were not tested yet.
     """
 
     def __init__(
@@ -40,6 +41,7 @@ class Mind:
         self.plain: frozenset[str] = frozenset()
         self.shown: frozenset[str] = frozenset()
         self.noticed: set[str] = set()
+        self.pending: tuple[str, ...] = ()
         self.news: list[tuple[int, str]] = []
 
     def know(self, literals: Iterable[str], coarse: Collection[str]) -> None:
@@ -75,7 +77,7 @@ class Mind:
             self.news.append((event.step, event.action))
             effects = self.effects.of(event.action, self.belief.known.true)
             self.assume(effects)
-            self.belief.see(e for e in effects if self._is_fine(e))
+            self.belief.see(self.believable(filter(self._is_fine, effects)))
             touched.update(c for effect in effects for c in arguments(effect))
         self.shown = frozenset(filter(self._is_plain, percept.visible))
         self.noticed.update(map(atom, self.shown))
@@ -84,6 +86,35 @@ class Mind:
         self.assume(new)
         wholes = self.refinement.wholes
         return frozenset([*touched, *(wholes.get(constant, constant) for constant in touched)])
+
+    def certain(self) -> FineBelief:
+        """What the robot knows of itself, with what follows: tests of that are always right."""
+        changing = frozenset(map(atom, self.pending))
+        certain = FineBelief(self.refinement, filter(self._is_own, self.belief.known.true - changing))
+        certain.suppose(frozenset(filter(self._is_own, self.plain - changing)))
+        return certain
+
+    def believable(self, literals: Iterable[str]) -> list[str]:
+        """Those of the literals seen at one moment that agree with what is certain.
+
+        A thing that is held is where the robot is: seen elsewhere, or not seen there, it was
+        mistaken.
+        """
+        seen = list(literals)
+        if all(map(self._is_own, seen)):
+            return seen
+        certain = self.certain()
+        certain.see(filter(self._is_own, seen))
+        return [
+            literal
+            for literal in seen
+            if self._is_own(literal)
+            or not (
+                certain.is_false(literal)
+                if is_positive(literal)
+                else atom(literal) in certain.known.true
+            )
+        ]
 
     def holds(self, literal: str) -> bool:
         """Whether a literal without a counterpart is believed."""
@@ -139,6 +170,10 @@ class Mind:
         components = (self.refinement.components[whole] for whole in wholes)
         shares = self.means.shares_places
         return frozenset(part for parts in components for part in (parts[:1] if shares else parts))
+
+    def _is_own(self, literal: str) -> bool:
+        """Whether a literal is about the robot itself."""
+        return self.coarse.robot in arguments(literal)
 
     def _is_fine(self, literal: str) -> bool:
         return name(literal) in self.refinement.counterparts.values()
