@@ -113,6 +113,8 @@ class IntentionalRobot:
             # A mental action and finishing cannot fail; the world only answers physical ones.
             success = percept.happened if self._attempted == percept.attempted else True
             history.happened(self._attempted, success is not False, history.step)
+            if success is False and percept.failing:
+                history.failed(self._attempted, history.step)
         for event in percept.events:
             history.happened(event.action, True, event.step)
         if percept.goal_holds is not None:

@@ -17,6 +17,13 @@ def happened_under(record: Record, diagnosis: Diagnosis, step: int) -> tuple[str
     return (*(event for event in record.reported if event not in false), *unobserved)
 
 
+def executed_under(record: Record, diagnosis: Diagnosis, step: int) -> str | None:
+    """The agent's attempt of a step, given an explanation; None where none was executed."""
+    if record.attempt is None or Event(step=step, action=record.attempt[0]) in diagnosis.distrusted:
+        return None
+    return record.attempt[0]
+
+
 def without_reported(history: History, adopted: Diagnosis) -> Diagnosis:
     """What is left to assume of an explanation where some of its events were reported since."""
     unobserved = (e for e in adopted.unobserved if not history.at(e.step).happened.get(e.action))

@@ -7,7 +7,7 @@ from agents.shared.knowledge import Knowledge
 from agents.shared.tools import tools_of
 from asp.kept.control import State
 from asp.literals import atom, complement, is_positive
-from testbed.link.messages import Contradiction
+from testbed.link.messages import Contradiction, Event
 
 
 class Contradicting:
@@ -32,7 +32,7 @@ class Contradicting:
             found = self._unexpected(moment, state, step)
             if found or step >= history.step:
                 return found
-            attempt = next((a for a in moment.attempted if a in self._actions), None)
+            attempt = self._executed(moment, adopted, step)
             events = self._trusted(moment, adopted, step)
             after = self._transitions.after(state, attempt, events)
             if after is None:
@@ -54,6 +54,11 @@ class Contradicting:
                     Contradiction(step=step, observed=literal, believed=complement(literal))
                 )
         return found
+
+    def _executed(self, moment: Moment, adopted: Diagnosis, step: int) -> str | None:
+        attempts = (action for action in moment.attempted if action in self._actions)
+        trusted = (a for a in attempts if Event(step=step, action=a) not in adopted.distrusted)
+        return next(trusted, None)
 
     def _trusted(self, moment: Moment, adopted: Diagnosis, step: int) -> tuple[str, ...]:
         false = {report.action for report in adopted.distrusted if report.step == step}

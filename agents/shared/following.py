@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from agents.shared.assuming import happened_under
+from agents.shared.assuming import executed_under, happened_under
 from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import record_of
@@ -63,7 +63,7 @@ class Follower:
         """The belief a step later, if what happened there agrees with the explanation."""
         step = belief.step
         record = record_of(self._knowledge, history.at(step))
-        attempt = None if record.attempt is None else record.attempt[0]
+        attempt = executed_under(record, adopted, step)
         events = happened_under(record, adopted, step)
         if events and step < self._since:
             return None

@@ -27,17 +27,19 @@ class Moment:
     """What the history says of one step.
 
     `observed` has the truth of fluents, `attempted` the agent's actions of any kind, `happened`
-    whether an action, the agent's own or another's, took effect.
+    whether an action, the agent's own or another's, took effect; `failing` are attempts whose
+    execution failed though they may have been possible.
     """
 
     observed: dict[str, bool] = field(default_factory=dict)
     attempted: list[str] = field(default_factory=list)
     happened: dict[str, bool] = field(default_factory=dict)
+    failing: list[str] = field(default_factory=list)
 
 
 @dataclass
 class History:
-    """Statements obs, hpd and attempt of all steps up to `step`."""
+    """Statements obs, hpd, attempt and failing of all steps up to `step`."""
 
     step: int = 0
     activities: list[Activity] = field(default_factory=list)
@@ -63,6 +65,10 @@ class History:
         """attempt(A,I)."""
         self.at(step).attempted.append(action)
 
+    def failed(self, action: str, step: int) -> None:
+        """failing(A,I)."""
+        self.at(step).failing.append(action)
+
     def facts(self) -> Iterator[Symbol]:
         """The history as facts for the theory, step by step, without the activities."""
         for step, moment in self.moments.items():
@@ -72,6 +78,8 @@ class History:
                 yield fact("attempt", action, step)
             for action, truth in moment.happened.items():
                 yield fact("hpd", action, _boolean(truth), step)
+            for action in moment.failing:
+                yield fact("failing", action, step)
         yield fact("current_step", self.step)
 
     def activity_facts(self) -> Iterator[Symbol]:
@@ -92,7 +100,7 @@ class History:
 class Diagnosis:
     """An explanation of a history: exogenous events that nobody reported, and how it began.
 
-    `distrusted` are reports of events that did not happen;
+    `distrusted` are reports of events that did not happen, and attempts that were not executed;
     `exceptions` are names of the domain's defaults, `initial` literals of the inertial fluents of
     which nothing was observed at step 0; both are sorted.
     """
@@ -103,7 +111,7 @@ class Diagnosis:
     initial: tuple[str, ...] = ()
 
     def facts(self, predicate: str) -> Iterator[Symbol]:
-        """predicate(PEA,I) for each event, and predicate_distrusted(PEA,I) for each report.
+        """predicate(PEA,I) for each event, and predicate_distrusted(A,I) for what is distrusted.
 
         Also predicate_exception(D), predicate_initial(F,B).
         """
@@ -118,7 +126,7 @@ class Diagnosis:
 
     @property
     def size(self) -> int:
-        """How many events and false reports it assumes (27)."""
+        """How many events, and false reports and attempts, it assumes (27)."""
         return len(self.unobserved) + len(self.distrusted)
 
 

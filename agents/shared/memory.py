@@ -113,6 +113,7 @@ def record_of(knowledge: Knowledge, moment: Moment) -> Record:
             if fluent != GOAL
         ),
         attempt=None if physical is None else (physical, moment.happened[physical]),
+        failing=physical in moment.failing,
         reported=tuple(a for a, truth in moment.happened.items() if truth and a in others),
         goal=moment.observed.get(GOAL),
     )

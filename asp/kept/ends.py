@@ -10,7 +10,7 @@ import clingo
 
 from asp.kept.control import KeptControl, State
 from asp.kept.frontier import Frontier
-from asp.kept.pasts import Past
+from asp.kept.pasts import Past, distrustable
 from asp.kept.prefixes import Prefix
 
 MOST_MORE = 4
@@ -57,10 +57,9 @@ class Question:
         groups = groupby(numbered, key=lambda entry: entry[1][1][0].distrusts)
         return [[number for number, _ in group] for _, group in groups]
 
-    def trust(self, model: clingo.Model, events: Sequence[str]) -> Iterator[int]:
-        """Assumptions: the same reports are distrusted as in a model."""
-        for step in range(self.end.step):
-            for event in events:
-                literal = self.kept.literal("distrusted", event, step)
-                if literal is not None:
-                    yield literal if model.is_true(literal) else -literal
+    def trust(self, model: clingo.Model) -> Iterator[int]:
+        """Assumptions: the same reports and attempts are distrusted as in a model."""
+        for step, action in distrustable(self.end):
+            literal = self.kept.literal("distrusted", action, step)
+            if literal is not None:
+                yield literal if model.is_true(literal) else -literal

@@ -101,7 +101,7 @@ class Explanations:
         """The control that counts so far, with the past's externals, and what was observed."""
         kept = self._reaching(past.step, most)
         kept.switch_on(*goal_externals(past.goal), *externals(past))
-        return _Question(kept, most, past.step, observations(kept, past))
+        return _Question(kept, most, past, observations(kept, past))
 
     def _first(self, question: _Question, events: int, exceptions: int) -> Account | None:
         """The preferred explanation with at most so many events and exactly so many exceptions."""
@@ -112,7 +112,7 @@ class Explanations:
         with preferring(kept.control, limited) as model:
             if model is None:
                 return None
-            return account(kept, model, question.step, self._events, self._defaults)
+            return account(kept, model, question.past, self._events, self._defaults)
 
     def _reaching(self, step: int, most: int) -> KeptControl:
         while self._horizon < step:
@@ -132,11 +132,11 @@ class Explanations:
 
 @dataclass(frozen=True)
 class _Question:
-    """A control switched to a past of so many steps, and assumptions for everything observed."""
+    """A control switched to a past, and assumptions for everything observed."""
 
     kept: KeptControl
     most: int
-    step: int
+    past: Past
     given: list[int] | None
 
     @property
@@ -149,7 +149,7 @@ class _Question:
     def at_most(self, events: int, exceptions: int) -> list[int] | None:
         """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
         kept = self.kept
-        more = kept.literal("count", self.step, events + 1) if events < self.most else None
+        more = kept.literal("count", self.past.step, events + 1) if events < self.most else None
         number = kept.literal("number_exceptions", exceptions)
         if self.given is None or number is None:
             return None

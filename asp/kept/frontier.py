@@ -114,7 +114,7 @@ class Frontier:
 
     def _key(self, state: State, record: Record, room: int) -> tuple[object, ...]:
         attempt = None if record.attempt is None else record.attempt[0]
-        return state, attempt, record.reported, self._room(room)
+        return state, attempt, record.failing, record.reported, self._room(room)
 
     def _room(self, room: int) -> int:
         return -1 if self.step < self._since else room
@@ -125,7 +125,7 @@ class Frontier:
             self._branches.clear()
         attempt = None if record.attempt is None else record.attempt[0]
         found = self._transitions.branches(
-            state, attempt, record.reported, self._room(room), self._most * 4
+            state, attempt, record.reported, self._room(room), self._most * 4, record.failing
         )
         # Of several outcomes of the same events the order says nothing.
         self._branches[key] = found if found is None or _is_deterministic(found) else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import clingo
@@ -21,13 +21,21 @@ class Record:
     """What one step of a history says.
 
     `observed` are literals, `attempt` the agent's physical action with whether it took effect,
-    `reported` the exogenous actions that happened, `goal` whether the goal was seen to hold.
+    `failing` if its execution failed though it may have been possible, `reported` the exogenous
+    actions that happened, `goal` whether the goal was seen to hold.
     """
 
     observed: tuple[str, ...] = ()
     attempt: tuple[str, bool] | None = None
     reported: tuple[str, ...] = ()
     goal: bool | None = None
+    failing: bool = False
+
+    @property
+    def distrustable(self) -> tuple[str, ...]:
+        """What may be distrusted of the step: reports, and an attempt that failed."""
+        failed = (self.attempt[0],) if self.attempt is not None and self.failing else ()
+        return (*self.reported, *failed)
 
 
 @dataclass(frozen=True)
@@ -54,7 +62,7 @@ class Past:
 
 @dataclass(frozen=True)
 class Assumed:
-    """An explanation: unobserved events, reports of what did not happen, defaults by name."""
+    """An explanation: unobserved events, false reports and attempts, defaults by name."""
 
     events: tuple[Happening, ...] = ()
     distrusted: tuple[Happening, ...] = ()
@@ -62,7 +70,7 @@ class Assumed:
 
     @property
     def size(self) -> int:
-        """How many events and false reports it assumes (27)."""
+        """How many events, and false reports and attempts, it assumes (27)."""
         return len(self.events) + len(self.distrusted)
 
 
@@ -77,14 +85,23 @@ class Account:
 
 
 def externals(past: Past) -> list[Symbol]:
-    """past(I), reported(E,I) and attempted(A,I) of a past."""
+    """past(I), reported(E,I), attempted(A,I) and failing(I) of a past."""
     atoms = [fact("past", time) for time in range(past.since, past.step)]
     for time, record in past.records.items():
         if time < past.step:
             atoms += (fact("reported", event, time) for event in record.reported)
             if record.attempt is not None:
                 atoms.append(fact("attempted", record.attempt[0], time))
+            if record.failing:
+                atoms.append(fact("failing", time))
     return atoms
+
+
+def distrustable(past: Past) -> Iterator[Happening]:
+    """What may be distrusted of a past, step by step."""
+    for time in range(past.step):
+        record = past.records.get(time, Record())
+        yield from ((time, action) for action in record.distrustable)
 
 
 def observations(kept: KeptControl, past: Past) -> list[int] | None:
@@ -115,19 +132,22 @@ def assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:
 def account(
     kept: KeptControl,
     model: clingo.Model,
-    step: int,
+    past: Past,
     events: Sequence[str],
     defaults: Sequence[str],
 ) -> Account:
-    """What a model says of the steps up to `step`."""
-    unobserved, distrusted = (
-        tuple(
-            (time, event)
-            for time in range(step)
-            for event in events
-            if is_true(model, kept.literal(predicate, event, time))
-        )
-        for predicate in ("unobserved", "distrusted")
+    """What a model says of a past; `events` are the exogenous actions, `defaults` names."""
+    step = past.step
+    unobserved = tuple(
+        (time, event)
+        for time in range(step)
+        for event in events
+        if is_true(model, kept.literal("unobserved", event, time))
+    )
+    distrusted = tuple(
+        (time, action)
+        for time, action in distrustable(past)
+        if is_true(model, kept.literal("distrusted", action, time))
     )
     exceptions = tuple(name for name in defaults if is_true(model, kept.literal("exception", name)))
     held = frozenset(

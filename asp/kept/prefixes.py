@@ -9,6 +9,7 @@ from asp.kept.pasts import Assumed, Happening
 from asp.kept.transitions import Branch
 
 _INFINITE = float("inf")
+_ATTEMPT, _END, _REPORT = range(3)
 
 Steps = tuple[int, "Steps"] | None
 """Steps as a chain, the last one first."""
@@ -16,27 +17,27 @@ Steps = tuple[int, "Steps"] | None
 
 @dataclass(frozen=True)
 class Prefix:
-    """An explanation up to a step: its events and distrusted reports, the latest first.
+    """An explanation up to a step: its events, its distrusted reports and attempts, latest first.
 
     `distrusts` and `assumes` are its place in the order of explanations that are as small, the
     first part being compared with others before the second; `held` are the steps at which the goal
-    held.
+    held. In `distrusts` an attempt comes before the end, and the end before a report.
     """
 
     events: tuple[Happening, ...] = ()
     distrusted: tuple[Happening, ...] = ()
-    distrusts: tuple[tuple[float, ...], ...] = ()
+    distrusts: tuple[tuple[float, ...], ...] = ((_END,),)
     assumes: tuple[tuple[float, ...], ...] = ((_INFINITE,),)
     held: Steps = None
 
     @property
     def size(self) -> int:
-        """How many events and false reports it assumes (27)."""
+        """How many events, and false reports and attempts, it assumes (27)."""
         return len(self.events) + len(self.distrusted)
 
     @property
     def order(self) -> tuple[object, ...]:
-        """Its place: reports are believed, the latest first; then events are late (`order.lp`)."""
+        """Its place (`order.lp`): what is distrusted, the latest first; then events are late."""
         return self.distrusts, self.assumes
 
     def is_of(self, assumed: Assumed) -> bool:
@@ -55,13 +56,13 @@ class Prefix:
         held = (step + 1, self.held) if reached else self.held
         if not branch.size:
             return replace(self, held=held) if reached else self
-        events, distrusted = (
-            sorted(names, key=places.__getitem__) for names in (branch.events, branch.distrusted)
-        )
+        events = sorted(branch.events, key=places.__getitem__)
+        # An attempt has no place among exogenous actions, and comes before reports.
+        distrusted = sorted(branch.distrusted, key=lambda action: places.get(action, -1))
         return Prefix(
             (*((step, event) for event in events), *self.events),
             (*((step, event) for event in distrusted), *self.distrusted),
-            (*((step, -places[event]) for event in distrusted), *self.distrusts),
+            (*(_distrust(step, places.get(action)) for action in distrusted), *self.distrusts),
             (*((-step, places[event]) for event in events), *self.assumes),
             held,
         )
@@ -79,6 +80,10 @@ def steps(chain: Steps) -> Iterator[int]:
     while chain is not None:
         step, chain = chain
         yield step
+
+
+def _distrust(step: int, place: int | None) -> tuple[int, ...]:
+    return (_ATTEMPT, -step) if place is None else (_REPORT, step, -place)
 
 
 def _one_after_another(

@@ -14,12 +14,12 @@ from asp.solving import answer_sets, fact, solving
 MOST_ASSUMED = 6
 """How many unobserved events and distrusted reports are assumed of one step at most."""
 
-_BRANCHING, _PAST = clingo.Function("branching"), clingo.Function("past")
+_BRANCHING, _PAST, _FAILING = map(clingo.Function, ("branching", "past", "failing"))
 
 
 @dataclass(frozen=True)
 class Branch:
-    """A transition, with the unobserved events and the distrusted reports that it assumes."""
+    """A transition, with the unobserved events and the distrusted statements that it assumes."""
 
     state: State
     took_effect: bool
@@ -58,17 +58,24 @@ class Transitions:
             return kept.state(model, 1), happened is not None and model.is_true(happened)
 
     def branches(
-        self, state: State, attempt: str | None, reported: tuple[str, ...], size: int, most: int
+        self,
+        state: State,
+        attempt: str | None,
+        reported: tuple[str, ...],
+        size: int,
+        most: int,
+        failing: bool = False,
     ) -> list[Branch] | None:
         """Every transition with at most `size` events that nobody reported and distrusted reports.
 
-        With `size` -1 nothing may have happened at all: reports are distrusted, whatever their
-        number. None where there are more than `most`, or `size` is above MOST_ASSUMED.
+        The attempt, where it is `failing`, may be distrusted, too: it was not executed. With `size`
+        -1 nothing may have happened at all: reports are distrusted, whatever their number. None
+        where there are more than `most`, or `size` is above MOST_ASSUMED.
         """
         kept = self._kept
         if size > MOST_ASSUMED:
             return None
-        switches = (_BRANCHING,) if size < 0 else (_BRANCHING, _PAST)
+        switches = [_BRANCHING, *([_PAST] if size >= 0 else []), *([_FAILING] if failing else [])]
         kept.switch_on(*switches, *_actions(attempt, reported))
         assumptions = kept.assume_state(state, 0)
         if assumptions is None:

@@ -93,7 +93,7 @@ class Windows:
                 return None
             if len(question.alike) == 1:
                 return self._read(question, model)
-            limited = [*limited, *question.trust(model, self._events)]
+            limited = [*limited, *question.trust(model)]
         # Which reports are distrusted before the end comes before which events are assumed in it.
         for entries in question.alike:
             self._offer(question, entries)
@@ -135,7 +135,7 @@ class Windows:
     def _read(self, question: Question, model: clingo.Model) -> Account:
         """An account of the whole history, but for how it began and its exceptions."""
         kept, first = question.kept, question.frontier.step
-        end = account(kept, model, question.end.step, self._events, ())
+        end = account(kept, model, question.end, self._events, ())
         prefixes = next(
             prefixes
             for number, (_, prefixes) in enumerate(question.entries, start=1)

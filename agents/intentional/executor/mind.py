@@ -90,7 +90,9 @@ class Mind:
     def certain(self) -> FineBelief:
         """What the robot knows of itself, with what follows: tests of that are always right."""
         changing = frozenset(map(atom, self.pending))
-        certain = FineBelief(self.refinement, filter(self._is_own, self.belief.known.true - changing))
+        certain = FineBelief(
+            self.refinement, filter(self._is_own, self.belief.known.true - changing)
+        )
         certain.suppose(frozenset(filter(self._is_own, self.plain - changing)))
         return certain
 

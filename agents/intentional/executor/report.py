@@ -14,7 +14,10 @@ from testbed.link.messages import Event, Percept
 
 @dataclass(frozen=True)
 class Outcome:
-    """An abstract action that is over, whether it had its effects, and what these were to be."""
+    """An abstract action that is over, whether it had its effects, and what these were to be.
+
+    One without its effects need not have been impossible: its execution may have failed.
+    """
 
     action: str
     happened: bool
@@ -51,6 +54,7 @@ class Reporter:
             visible=told,
             attempted=None if outcome is None else outcome.action,
             happened=None if outcome is None else outcome.happened,
+            failing=outcome is not None and not outcome.happened,
             events=events,
             goal_holds=percept.goal_holds,
         ), expected
