@@ -13,6 +13,7 @@ from tests.asp.stories import (
     Case,
     activity,
     did,
+    failed,
     happened,
     intending,
     lines,
@@ -151,6 +152,15 @@ CASES = (
         n=1,
         rule=1,
         condition="not distrusted(A,I)",
+    ),
+    Case(
+        20,
+        "what was possible did not occur if the attempt is distrusted",
+        lines(_OPEN, "current_step(1). distrusted(switch_on,0).", failed(0, "switch_on")),
+        Always("-holds(lit,1)"),
+        n=1,
+        rule=1,
+        condition="not distrusted(AA,I)",
     ),
     Case(
         25,

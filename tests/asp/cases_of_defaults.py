@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.asp.axioms import Always, never, possible
-from tests.asp.stories import GATE_OPEN, GOAL, Case, happened, lines
+from tests.asp.stories import GATE_OPEN, GOAL, Case, failed, happened, lines
 
 _LAMP_LIT = "default(lamp,lit,true)."
 _LAMP_OUT = "default(lamp,lit,false)."
@@ -115,6 +115,14 @@ CASES = (
         lines(_LAMP_LIT, "keep. adopted_exception(lamp)."),
         Always("exception(lamp)"),
         rule=6,
+    ),
+    Case(
+        "diagnosis.c",
+        "an attempt that kept failing may not have been executed, though it was possible",
+        lines(_PAST, failed(0, "switch_on"), "failing(switch_on,0)."),
+        possible("distrusted(switch_on,0)"),
+        limit=1,
+        rule=1,
     ),
     Case(
         "diagnosis.b",

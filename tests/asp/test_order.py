@@ -12,7 +12,7 @@ from asp import load_description
 from asp.preferring import preferring
 from asp.solving import fact, ground, symbol
 from tests.asp.axioms import domain_text, lettered, theory_text
-from tests.asp.stories import CART, GATE_OPEN, GOAL, lines, theories_for
+from tests.asp.stories import CART, GATE_OPEN, GOAL, failed, lines, theories_for
 
 EVENTS = load_description(CART).exogenous_actions
 FLUENTS = ("at(left)", "at(right)", "shut", "lit")
@@ -28,6 +28,7 @@ STORY = lines(
     f"obs(shut,true,{NOW}). current_step({NOW}). explaining({NOW}).",
 )
 NEWS = lines(STORY, "hpd(push(right),true,1). hpd(push(right),true,0).")
+FAILED = lines(failed(1, "go(right)"), "failing(go(right),1).")
 
 
 def _story(
@@ -52,7 +53,7 @@ def _decisions(control: clingo.Control) -> list[tuple[int, Symbol, bool]]:
     found = []
     for atom in control.symbolic_atoms.by_signature("precedence", 2):
         what, place = atom.symbol.arguments
-        found.append((place.number, what, what.name == "unobserved"))
+        found.append((place.number, what, what.name in ("unobserved", "unexecuted")))
     return sorted(found, reverse=True)
 
 
@@ -79,10 +80,11 @@ def _best(control: clingo.Control, assumptions: list[int]) -> tuple[bool, ...] |
 
 @pytest.mark.parametrize("size", [1, 2, 5, 32000])
 @pytest.mark.parametrize(("events", "exceptions"), list(product(range(4), range(3))))
+@pytest.mark.parametrize("story", [NEWS, lines(NEWS, FAILED)])
 def test_the_preferred_explanation_is_the_best_of_all(
-    events: int, exceptions: int, size: int
+    story: str, events: int, exceptions: int, size: int
 ) -> None:
-    control = _story(NEWS, size)
+    control = _story(story, size)
     atoms = control.symbolic_atoms
     numbers = (
         fact("number_unobserved", events, NOW),
@@ -94,7 +96,9 @@ def test_the_preferred_explanation_is_the_best_of_all(
 
 def test_no_two_decisions_have_one_place() -> None:
     places = [place for place, _, _ in _decisions(_story(STORY, 32000))]
-    assert len(places) == len(set(places)) == 2 * NOW * len(EVENTS) + len(FLUENTS) + len(DEFAULTS)
+    assert len(places) == len(set(places))
+    of_steps, at_first = NOW * (2 * len(EVENTS) + 1), len(FLUENTS) + len(DEFAULTS)
+    assert len(places) == of_steps + at_first
     assert min(places) > 0
 
 
@@ -128,6 +132,7 @@ SAID = {
         (1, 0),
         {"distrusted(shut_gate,0)": True, "distrusted(shut_gate,2)": False},
     ),
+    "order.e": (lines(GATE_OPEN, FAILED), (1, 0), {"distrusted(go(right),1)": True}),
 }
 
 

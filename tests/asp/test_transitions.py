@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import combinations, product
 from pathlib import Path
 
@@ -58,11 +59,19 @@ def test_what_is_attempted_and_reported_leads_where_the_world_says(
     assert found == {None, True, False}
 
 
+@pytest.mark.parametrize("failing", [False, True])
 @pytest.mark.parametrize("size", [-1, 0, 1, 2, 5])
-def test_branches_are_all_that_may_have_happened(transitions: Transitions, size: int) -> None:
+def test_branches_are_all_that_may_have_happened(
+    transitions: Transitions, size: int, failing: bool
+) -> None:
     for state, attempt, reported in _cases():
         expected = list(_branches(state, attempt, reported, size))
-        found = transitions.branches(_true(state), attempt, reported, size, PLENTY)
+        if failing and attempt is not None and size > 0:  # it was not executed, which is one more
+            expected += (
+                replace(rest, distrusted=(*rest.distrusted, attempt))
+                for rest in _branches(state, None, reported, size - 1)
+            )
+        found = transitions.branches(_true(state), attempt, reported, size, PLENTY, failing)
         assert found is not None
         assert len(found) == len(expected)
         assert {_plain(branch) for branch in found} == {_plain(branch) for branch in expected}

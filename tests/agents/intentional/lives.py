@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from msgspec import structs
 
 from asp.loading import load_description, read_domain
 from testbed.environment.world import World
@@ -89,8 +91,12 @@ def live(
     steps: int = 40,
     feedback: bool = True,
     where: Place = OFFICE,
+    failing: Collection[int] = (),
 ) -> Life:
-    """Plays a trial in the state `initial`, with or without goal feedback, for so many steps."""
+    """Plays a trial in the state `initial`, with or without goal feedback, for so many steps.
+
+    At the steps in `failing` the execution of an attempt fails, whether it is possible or not.
+    """
     states = [initial]
     state, decisions, news = initial, list[Decision](), list[tuple[int, Event]]()
     robot.begin(_task(initial, goal, where))
@@ -109,7 +115,8 @@ def live(
             continue
         attempt = None if decision.action == "wait" else decision.action
         wish = (wishes or {}).get(percept.step)
-        state, percept = _advance(where, state, percept.step, attempt, wish, news)
+        fails = percept.step in failing
+        state, percept = _advance(where, state, percept.step, attempt, wish, news, fails)
         states.append(state)
     return Life(decisions, where.world.satisfies(state, goal), states)
 
@@ -121,9 +128,10 @@ def _advance(
     attempt: str | None,
     wish: Wish | None,
     news: list[tuple[int, Event]],
+    fails: bool,
 ) -> tuple[int, Percept]:
     world = where.world
-    happened = None if attempt is None else world.executable(state, [attempt])
+    happened = None if attempt is None else not fails and world.executable(state, [attempt])
     actions = {attempt} if attempt is not None and happened else set[str]()
     possible = [
         event
@@ -136,7 +144,8 @@ def _advance(
     if wish is not None and not wish.happens:
         events = []
     after = world.successor(state, actions.union(events))
-    return after, _percept(where, after, step + 1, _due(news, step), attempt, happened)
+    percept = _percept(where, after, step + 1, _due(news, step), attempt, happened)
+    return after, structs.replace(percept, failing=fails and attempt is not None)
 
 
 def _due(news: list[tuple[int, Event]], step: int) -> list[Event]:

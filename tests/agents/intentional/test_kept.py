@@ -72,6 +72,18 @@ def test_whatever_is_folded(initial: int, wishes: dict[int, Wish]) -> None:
     live(IntentionalRobot(BothFolded), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
 
 
+@pytest.mark.parametrize("reasoner", [Both, BothFolded])
+@settings(max_examples=8)
+@given(
+    initial=st.sampled_from(STATES), wishes=wishes, failing=st.sets(st.integers(2, 12), max_size=4)
+)
+def test_whatever_fails_in_its_execution(
+    reasoner: type[Both], initial: int, wishes: dict[int, Wish], failing: set[int]
+) -> None:
+    robot = IntentionalRobot(reasoner)
+    live(robot, initial, BOTH_IN_THE_LIBRARY, wishes, steps=30, failing=failing)
+
+
 @settings(max_examples=12)
 @given(
     initial=st.sampled_from(STATES),
