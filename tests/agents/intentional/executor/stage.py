@@ -22,13 +22,15 @@ Nth = tuple[str, int]
 class Faults:
     """Tests that are answered wrongly, actions without effect, events beside actions.
 
-    Of an event in `reported` the robot is told in the percept that follows.
+    Of an event in `reported` the robot is told in the percept that follows; where the news is
+    `false`, nothing happened.
     """
 
     lies: Collection[Nth] = ()
     slips: Collection[Nth] = ()
     events: Mapping[Nth, str] = field(default_factory=dict)
     reported: bool = False
+    false: bool = False
 
 
 NO_FAULTS = Faults()
@@ -110,7 +112,8 @@ class _Stage:
         effective = [action] if possible and self._world.executable(self.state, [action]) else []
         event = self._faults.events.get(nth)
         events = [] if event is None else [event]
-        self.state = self._world.successor(self.state, [*effective, *events])
+        happening = [] if self._faults.false else events
+        self.state = self._world.successor(self.state, [*effective, *happening])
         seen = self._outcome(nth) if is_test else ()
         told = [Event(step=step, action=e) for e in events if self._faults.reported]
         return self.percept(step + 1, seen, events=told)
