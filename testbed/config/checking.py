@@ -7,9 +7,11 @@ from contextlib import contextmanager
 
 import asp
 from asp import Description
+from asp.bodies import check_one_robot
 from asp.conflicts import cannot_hold, never_together
 from asp.errors import SourceError
 from asp.literals import atom, complement
+from asp.loading import read_domain
 from asp.spelling import suggestion
 from asp.translation import translate
 from testbed.config.errors import ConfigError
@@ -55,6 +57,8 @@ def _of_the_levels(config: ExperimentConfig, places: Places) -> list[str]:
     if findings := list(settings_findings(config)):
         return lines_of(findings, places)
     with _texts_read(places, "refinement"):
+        if config.refinement is not None:
+            check_one_robot(*reversed(read_domain(config.domain)))
         if findings := list(map_findings(config)):
             return lines_of(findings, places)
         for _, ground in grounds(config):
@@ -87,6 +91,7 @@ def _domain_findings(config: ExperimentConfig, description: Description) -> list
 
 def _description(config: ExperimentConfig, places: Places) -> Description:
     with _texts_read(places, "domain"):
+        check_one_robot(*reversed(read_domain(config.domain)))
         return asp.load_description(config.domain)
 
 
