@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 import asp
+from benchmarks import killing
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 
@@ -93,6 +94,7 @@ def test_a_run_can_be_run_again_from_its_folder() -> None:
     assert _untimed("first") == _untimed("second")
 
 
+@pytest.mark.load
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_an_interrupted_run_keeps_what_is_finished_and_goes_on(workers: str) -> None:
     arguments = ["run", "quickstart", "scenarios=[2,4,5,6]", "robots=[held]", "link=inprocess"]
@@ -130,21 +132,27 @@ def _held(trials: int, *arguments: str) -> subprocess.Popen[str]:
     )
 
 
+@pytest.mark.load
 def test_a_killed_driver_takes_its_processes_along_and_the_run_goes_on() -> None:
     arguments = ["run", "office", "scenarios=[1]", "limit=6", "--out", "run", "--workers", "2"]
     process = subprocess.Popen(
-        [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        [*killing.COMMAND, "1", *arguments],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
     )
-    records = Path("run/trials.jsonl")
-    while process.poll() is None and not (records.exists() and records.read_bytes()):
-        time.sleep(0.02)
+    assert process.stdout is not None
+    assert killing.HELD in map(str.strip, process.stdout)
     process.kill()
     # Workers and robots hold the pipe open as long as they live: this returns when all are gone.
     process.communicate()
+    assert len(_trials("run")) == 1
     assert _testbed(*arguments, "--resume", "--quiet").returncode == 0
     assert len(_trials("run")) == len({str(trial["trial"]) for trial in _trials("run")}) == 12
 
 
+@pytest.mark.load
 def test_resuming_another_configuration_is_refused_with_the_difference() -> None:
     arguments = ["run", "quickstart", "scenarios=[1]", "link=inprocess", "--quiet", "--out", "run"]
     assert _testbed(*arguments).returncode == 0
@@ -300,6 +308,7 @@ def test_the_version_is_that_of_the_distribution() -> None:
     assert (done.returncode, done.stdout) == (0, f"testbed {version('intention-testbed')}\n")
 
 
+@pytest.mark.load
 def test_an_interrupt_while_workers_start_is_as_quiet_as_any() -> None:
     arguments = ["run", "quickstart", "robots=[held]", "link=inprocess", "--workers", "2"]
     process = _held(0, *arguments, "--out", "run")

@@ -42,7 +42,7 @@ def _ended(trials: int, workers: str, *signals: signal.Signals) -> tuple[int, st
         time.sleep(0.01)
     for number in signals:
         os.killpg(process.pid, number)
-    output, errors = process.communicate(timeout=60)
+    output, errors = process.communicate()
     Path("hold").unlink()
     return process.returncode, output, errors
 

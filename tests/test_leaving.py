@@ -12,10 +12,12 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.load
+
 TESTBED = [sys.executable, "-m", "testbed"]
 HELD = [sys.executable, "-m", "tests.held"]
 RUN = ["run", "quickstart", "scenarios=[1,2]", "--out", "run"]
-PATIENCE_S = 120.0
+PATIENCE_S = 600.0
 ROBOTS_WAIT = """
 import os, pathlib, sys, time
 if "robot" in sys.orig_argv:

@@ -15,7 +15,7 @@ CHROMIUM = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))),
     None,
 )
-PATIENCE_S = 90.0
+PATIENCE_S = 600.0
 HIGH = 20  # descriptors from here on are not those that the browser reads and writes
 # A program of its own: what subprocess runs between fork and exec may hang where there are threads.
 AS_EXPECTED = """

@@ -18,7 +18,7 @@ from testbed.link.session import endpoint, open_driver
 
 pytestmark = pytest.mark.load
 
-PATIENCE_S = 60.0
+PATIENCE_S = 600.0
 SERVE = "import sys; from testbed.experiment import serving; {setting}; serving.serve_robot({call})"
 
 

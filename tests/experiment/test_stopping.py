@@ -14,7 +14,7 @@ from tests.experiment.samples import Configure
 
 pytestmark = pytest.mark.load
 
-PATIENCE_S = 120.0
+PATIENCE_S = 600.0
 # Nobody unlocks a room but the robot.
 LOCKED, UNLOCKED = "locked(library)", "-locked(library)"
 

@@ -19,7 +19,7 @@ from testbed.link.messages import Decision, Percept, Task, Trace
 from testbed.link.serve import serve_forever
 
 COMMAND = (sys.executable, "-m", "tests.link.scripted")
-PATIENCE_S = 120.0
+PATIENCE_S = 600.0
 """An answer limit no test should ever meet."""
 
 

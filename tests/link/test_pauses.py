@@ -16,6 +16,8 @@ from testbed.link.session import endpoint, open_driver
 from testbed.link.spawned import SpawnedRobot
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
+pytestmark = pytest.mark.load
+
 WITNESS = """
 import json, sys, time, zenoh
 config = zenoh.Config()
