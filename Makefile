@@ -2,6 +2,7 @@
 # make test   the test suite
 # make check  formatting, lint, types, import directions
 # make bench  the benchmarks at full size
+# make load   the test suite beside busy processes, then three times the tests of link, interrupt, resume
 # make lowest a part of the suite with the lowest version of each dependency that pyproject.toml allows
 #
 # Each target prepares .venv by itself from constraints.txt; Python 3.11 and make are enough.
@@ -9,11 +10,14 @@
 PYTHON ?= python3
 VENV   := .venv
 LOWEST := .venv-lowest
+BUSY   ?= 8
 BIN    := $(VENV)/bin
 PIP    := PIP_CONSTRAINT=$(CURDIR)/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1 \
           $(BIN)/python -m pip install --quiet
 
-.PHONY: demo test check bench lowest clean
+BESIDE  = $(BIN)/python -m tests.beside $(BUSY)
+
+.PHONY: demo test check bench load lowest clean
 
 demo: $(VENV)/.demo
 	$(BIN)/testbed run configs/quickstart.yaml
@@ -29,6 +33,10 @@ check: $(VENV)/.test
 
 bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks
+
+load: $(VENV)/.test
+	$(BESIDE) $(BIN)/python -m pytest -n 2 --dist worksteal
+	for round in 1 2 3; do $(BESIDE) $(BIN)/python -m pytest -n 2 --dist worksteal -m load || exit 1; done
 
 lowest: $(VENV)/.test
 	$(BIN)/uv venv --quiet --clear --python $(PYTHON) $(LOWEST)
