@@ -12,7 +12,7 @@ import numpy as np
 
 from testbed.experiment.counting import BASELINE, INTENTIONAL, Apart, pair_apart
 from testbed.experiment.optimum import Needed, Optimum, optimum
-from testbed.experiment.outline import MEASURES, Outline
+from testbed.experiment.outline import DIVIDED, MEASURES, Outline
 from testbed.experiment.statistics import Test, holm, mcnemar, signed_rank
 
 ACCURACY = "accuracy"
@@ -56,6 +56,7 @@ class Group:
     accuracy: Mapping[str, float | None]
     undecided: Mapping[str, int]
     ratios: Mapping[str, float | None]
+    of_sums: Mapping[str, float | None]
     tests: Mapping[str, Test | None]
     optimum: Mapping[str, Optimum]
 
@@ -69,6 +70,7 @@ class Group:
             "accuracy": dict(self.accuracy),
             "undecided": dict(self.undecided),
             "ratios": dict(self.ratios),
+            "ratios_of_sums": dict(self.of_sums),
             "p_values": {name: None if test is None else test.p for name, test in tests},
             "holm": {name: None if test is None else test.holm for name, test in tests},
             "effects": {name: None if test is None else test.effect for name, test in tests},
@@ -92,7 +94,8 @@ def group(pairs: Sequence[Played], robots: Collection[str], sure: Collection[str
         errors={robot: sum(not t.ended for t in _trials(counted, robot)) for robot in own},
         accuracy={robot: _accuracy(_trials(counted, robot)) for robot in own},
         undecided={robot: _undecided(_trials(counted, robot)) for robot in own},
-        ratios={name: _ratio(both, measure) for name, measure in MEASURES.items()},
+        ratios={name: _ratio(both, measure) for name, measure in DIVIDED.items()},
+        of_sums={name: _of_sums(both, measure) for name, measure in DIVIDED.items()},
         tests=dict(_tests(both)),
         optimum={robot: _optimum(_trials(counted, robot)) for robot in own},
     )
@@ -120,6 +123,11 @@ def _ratio(pairs: Sequence[Both], measure: Callable[[Outline], float]) -> float 
     ended = [(base, mind) for base, mind in pairs if base.ended and mind.ended]
     ratios = [measure(base) / measure(mind) for base, mind in ended if measure(mind)]
     return fmean(ratios) if ratios else None
+
+
+def _of_sums(pairs: Sequence[Both], measure: Callable[[Outline], float]) -> float | None:
+    below = sum(measure(mind) for _, mind in pairs)
+    return sum(measure(base) for base, _ in pairs) / below if below else None
 
 
 def _tests(pairs: Sequence[Both]) -> Iterator[tuple[str, Test | None]]:

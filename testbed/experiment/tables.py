@@ -67,7 +67,7 @@ class Row:
         self.plans += record.plans
         self.actions += record.action_count
         self.units += record.execution_units
-        self.planning_s += record.planning_time_s
+        self.planning_s += record.planning_cpu_s
         self.explanations.update(explained(record))
         if record.reason is not None:
             self.reasons[record.reason] += 1

@@ -31,7 +31,8 @@ def a_record(trial: str = "t1", **values: object) -> TrialRecord:
 
 
 def a_level_record(trial: str, robot: str, level: str = "L3", **values: object) -> TrialRecord:
-    """A record of a pair's trial at a level; `fine`, `infer`, `planning`, `diagnosis` are seconds.
+    """A record of a pair's trial at a level; `fine`, `infer`, `planning`, `diagnosis` are
+    seconds of process time.
 
     Unless given they are 0.2, 0.1, 0.3 and 0.4; two refined plans are made.
     """
@@ -43,11 +44,11 @@ def a_level_record(trial: str, robot: str, level: str = "L3", **values: object) 
         "robot": robot,
         "scenario": "levels",
         "level": level,
-        "fine": FineCounts(plans=2, planning_time_s=own["fine"], infer_time_s=own["infer"]),
+        "fine": FineCounts(plans=2, planning_cpu_s=own["fine"], infer_cpu_s=own["infer"]),
         "correct": achieved,
         "outcome": "achieved" if achieved else "gave_up",
-        "planning_time_s": own["planning"],
-        "diagnosis_time_s": own["diagnosis"],
+        "planning_cpu_s": own["planning"],
+        "diagnosis_cpu_s": own["diagnosis"],
     }
     return a_record(f"{trial} {robot}", **given | values)
 

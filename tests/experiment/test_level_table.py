@@ -86,9 +86,10 @@ def test_a_share_of_trials_that_ended_alike_has_the_exact_interval() -> None:
 
 
 def test_a_published_ratio_that_our_interval_does_not_hold_is_marked() -> None:
-    mean, median, published = ratio_rows(_levels(*_both("L1", 3)), PAPER)
+    mean, median, of_sums, published = ratio_rows(_levels(*_both("L1", 3)), PAPER)
     assert mean == ("L1", "no zoom / zoom", "3", *["1.00 [1.00, 1.00]"] * 4)
     assert median == ("L1", "  median", "", *["1.00 [1.00, 1.00]"] * 4)
+    assert of_sums == ("L1", "  of sums", "", *["1.00"] * 4)
     assert published == ("L1", "  published", "", "1.01 *", "1.02 *", "1.00", "1.03 *")
 
 
@@ -142,7 +143,7 @@ def test_the_terminal_has_each_interval_below_its_value() -> None:
     (_, _, ratios) = level_tables(_levels(*_both("L1", comparing.FEW)), PAPER)
     shown = rich_level_table(ratios)
     assert shown.title == "No zoom / zoom, over pairs (*: outside of our interval)"
-    assert list(shown.columns[3].cells) == ["1.00", "[1.00, 1.00]", "1.01 *"]
+    assert list(shown.columns[3].cells) == ["1.00", "[1.00, 1.00]", "1.00", "1.01 *"]
 
 
 def test_tests_are_told_where_times_differ() -> None:

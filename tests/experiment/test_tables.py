@@ -35,7 +35,7 @@ def test_one_trial_a_row_is_shown_as_it_was() -> None:
         plans=2,
         action_count=8,
         execution_units=80,
-        planning_time_s=0.0123,
+        planning_cpu_s=0.0123,
         explanations=[Explained(3, [At(2, "exo_lock(library)")], [])],
     )
     (row,) = rows_of([record])
@@ -194,8 +194,8 @@ def test_total_time_is_planning_seconds_plus_units() -> None:
     group = _group(
         _pair(
             1,
-            {"planning_time_s": 5.0, "execution_units": 15},
-            {"planning_time_s": 2.0, "execution_units": 8},
+            {"planning_cpu_s": 5.0, "execution_units": 15},
+            {"planning_cpu_s": 2.0, "execution_units": 8},
         )
     )
     assert group["ratios"]["total_time"] == pytest.approx(2.0)

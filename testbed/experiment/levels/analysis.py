@@ -120,7 +120,8 @@ def _ratio(pairs: Iterable[Pair], part: str) -> Ratio:
     below, above = (np.array([own[i] for own in times], dtype=float) for i in (0, 1))
     ratios = [(above / below, 1)]
     mean, middle = statistics.mean(ratios), statistics.median(ratios)
-    return Ratio(len(times), mean, middle, signed_rank(above - below))
+    of_sums = float(above.sum() / below.sum()) if times else None
+    return Ratio(len(times), mean, middle, signed_rank(above - below), of_sums)
 
 
 def _growth(

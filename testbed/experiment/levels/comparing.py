@@ -17,11 +17,15 @@ Levels = Mapping[str, Level]
 
 @dataclass(frozen=True)
 class Cell:
-    """Ours with its interval (of the mean, where there is a median), and the published value."""
+    """Ours with its interval (of the mean, where there is a median), and the published value.
+
+    `of_sums` is the ratio of sums beside a mean of ratios.
+    """
 
     ours: Estimate | None
     median: Estimate | None = None
     published: Rounded | None = None
+    of_sums: float | None = None
 
     @property
     def inside(self) -> bool | None:
@@ -60,7 +64,10 @@ def ratios(levels: Levels, paper: Paper) -> Iterator[Line]:
         own = level.compared.ratios
         pairs = max(ratio.pairs for ratio in own.values())
         if pairs:
-            cells = (Cell(own[p].mean, own[p].median, paper.ratio(name, p)) for p in PARTS)
+            cells = (
+                Cell(own[p].mean, own[p].median, paper.ratio(name, p), own[p].of_sums)
+                for p in PARTS
+            )
             yield Line(name, RATIO, "", pairs, tuple(cells))
 
 

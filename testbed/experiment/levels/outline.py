@@ -10,7 +10,7 @@ from testbed.experiment.record import FAILURES, FineCounts, TrialRecord
 
 @dataclass(frozen=True, slots=True)
 class FineOutline:
-    """The numbers of one trial; `seconds` are by the names of PARTS.
+    """The numbers of one trial; `seconds`, of process time, are by the names of PARTS.
 
     `decided`: whether it is known if the trial is correct.
     They are those of the whole trial: `coarse` is planning and diagnosis, `fine` refined plans and
@@ -49,9 +49,9 @@ def fine_outline(record: TrialRecord, fine: FineCounts) -> FineOutline:
 
 
 def _seconds(record: TrialRecord, fine: FineCounts) -> dict[str, float]:
-    own = fine.planning_time_s + fine.infer_time_s
-    coarse = record.planning_time_s + record.diagnosis_time_s
+    own = fine.planning_cpu_s + fine.infer_cpu_s
+    coarse = record.planning_cpu_s + record.diagnosis_cpu_s
     seconds = {"total": own + coarse, "fine": own, "coarse": coarse}
     if fine.plans:
-        seconds["refined_plan"] = fine.planning_time_s / fine.plans
+        seconds["refined_plan"] = fine.planning_cpu_s / fine.plans
     return seconds

@@ -41,12 +41,14 @@ class Ratio(msgspec.Struct, frozen=True):
     """A time without zooming, divided by that with it, over `pairs` that both have it.
 
     The test compares the times themselves; its effect is above 0 where zooming saves time.
+    `of_sums` is the ratio of the sums over these pairs.
     """
 
     pairs: int
     mean: Estimate | None
     median: Estimate | None
     test: Test | None
+    of_sums: float | None = None
 
 
 class Growth(msgspec.Struct, frozen=True):

@@ -22,7 +22,7 @@ SHARES = ("level", "reasoning", "trials", "achieved", "published")
 RATIOS = ("level", "reasoning", "pairs", *HEADINGS)
 GROWTH = ("level", "reasoning", "trials", *HEADINGS)
 TESTS = ("level", "pairs", *HEADINGS, "achieved", "correct")
-MEDIAN, PUBLISHED = "  median", "  published"
+MEDIAN, OF_SUMS, PUBLISHED = "  median", "  of sums", "  published"
 OUTSIDE, MARKED = " *", " (*: outside of our interval)"
 """How a published value is marked that does not lie in our interval, and what the mark says."""
 
@@ -99,6 +99,8 @@ def _of_lines(lines: Iterable[Line]) -> Iterator[Cells]:
         means = (times(cell.ours) for cell in line.cells)
         yield (line.level, line.what, str(line.number), *means)
         yield (line.level, MEDIAN, "", *(times(cell.median) for cell in line.cells))
+        if any(cell.of_sums is not None for cell in line.cells):
+            yield (line.level, OF_SUMS, "", *(_number(cell.of_sums) for cell in line.cells))
         if any(cell.published is not None for cell in line.cells):
             yield (line.level, PUBLISHED, "", *map(_times, line.cells))
 
@@ -144,6 +146,10 @@ def times(estimate: Estimate | None) -> str:
     if estimate is None:
         return "-"
     return f"{estimate.value:.2f} [{estimate.low:.2f}, {estimate.high:.2f}]"
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2f}"
 
 
 def _share(cell: Cell) -> str:

@@ -150,6 +150,7 @@ def _published(analysis: Analysis) -> dict[str, Any]:
         "columns": table1.COLUMNS,
         "tests": table1.TESTS,
         "optimum": table1.OPTIMUM,
+        "times": table1.TIMES,
         "views": table1.views(analysis),
         "panels": table1.panels(analysis),
         "became": analysis.became,

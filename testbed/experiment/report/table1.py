@@ -13,7 +13,7 @@ from testbed.experiment.report.figures import Panel, Point, Series, forest
 from testbed.experiment.report.svg import FIRST, PAPER, SECOND
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.store import read_records
-from testbed.experiment.table1 import optimum
+from testbed.experiment.table1 import optimum, times
 from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import MEETINGS, pairs_of
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
@@ -25,6 +25,7 @@ ACCURACIES = ("TP correct", "ATI correct")
 COLUMNS = ("scenario", "pairs", *HEADINGS, *ACCURACIES)
 TESTS = ("scenario", *HEADINGS, "correct")
 OPTIMUM = optimum.COLUMNS
+TIMES = times.COLUMNS
 TRIGGERED, RANDOM = "triggered", "drawn at random, classified"
 
 
@@ -55,6 +56,7 @@ class View:
     lines: tuple[Line, ...]
     tests: tuple[tuple[str, ...], ...]
     optimum: tuple[tuple[str, ...], ...]
+    times: tuple[tuple[str, ...], ...]
     notes: tuple[str, ...]
 
 
@@ -78,6 +80,7 @@ def views(analysis: Analysis) -> list[View]:
             tuple(_lines(table)),
             tuple(tests_of(table)),
             tuple(optimum.rows_of(table, analysis.mind, analysis.base)),
+            tuple(times.rows_of(table)),
             tuple(_notes(table)),
         )
         for title, table in both

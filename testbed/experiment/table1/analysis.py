@@ -10,6 +10,7 @@ from math import lcm
 import numpy as np
 
 from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO
+from testbed.experiment.outline import TIMES
 from testbed.experiment.statistics import (
     Clusters,
     Strata,
@@ -26,6 +27,7 @@ from testbed.experiment.table1.optimum import both_optima
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
 from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
+from testbed.experiment.table1.times import seconds
 
 __all__ = ["RANDOM", "Analysis", "Ratio", "Row", "Table", "analyse"]
 
@@ -113,6 +115,7 @@ def _row(
         ratios={measure: _ratio(ended, measure, weights) for measure in MEASURES},
         advantage=mean(*_sample(decided, weights, lambda p: p.mind.correct - p.base.correct)),
         optimum=dict(zip(who, both_optima(ended, weights), strict=True)),
+        times=seconds(ended, {name: _times(ended, name, weights) for name in TIMES}, weights),
     )
 
 
@@ -140,7 +143,20 @@ def _ratio(pairs: Sequence[Pair], measure: str, weights: Mapping[str, float]) ->
         mean=mean(*own),
         median=median(*own),
         test=signed_rank(np.array(differences, dtype=float), states, _weights_of(pairs, weights)),
+        of_sums=_of_sums(pairs, measure, weights),
     )
+
+
+def _times(pairs: Sequence[Pair], name: str, weights: Mapping[str, float]) -> Ratio:
+    """A ratio of times beside the published measures: it is tested as one of these, or not."""
+    return dataclasses.replace(_ratio(pairs, name, weights), test=None)
+
+
+def _of_sums(pairs: Sequence[Pair], measure: str, weights: Mapping[str, float]) -> float | None:
+    own = [(weights[pair.intended], pair) for pair in pairs]
+    below = sum(weight * pair.mind.measures[measure] for weight, pair in own)
+    above = sum(weight * pair.base.measures[measure] for weight, pair in own)
+    return above / below if below else None
 
 
 def _sample(

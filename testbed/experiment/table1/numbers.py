@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.published import PUBLISHED
-from testbed.experiment.table1.results import Analysis, Ratio, Row, Table
+from testbed.experiment.table1.results import Analysis, Ratio, Row, Seconds, Table
 from testbed.experiment.table1.table import HALF_CENT, HALF_PERCENT
 
 Numbers: TypeAlias = dict[str, object]
@@ -52,6 +52,7 @@ def _row(row: Row, of: Analysis) -> Numbers:
         "difference": _interval(row.advantage, "value") | _test(row.accuracy),
         "ratios": {name: _ratio(own, ratios.get(name)) for name, own in row.ratios.items()},
         "optimum": {robot: own.values() for robot, own in row.optimum.items()},
+        "times": {name: _seconds(own, of) for name, own in row.times.items()},
     }
 
 
@@ -60,8 +61,19 @@ def _ratio(ratio: Ratio, published: float | None) -> Numbers:
         "pairs": ratio.pairs,
         **_interval(ratio.mean, "mean"),
         **_interval(ratio.median, "median", "median_"),
+        "of_sums": ratio.of_sums,
         **_test(ratio.test),
         **_beside(ratio.mean, published, HALF_CENT),
+    }
+
+
+def _seconds(own: Seconds, of: Analysis) -> Numbers:
+    return {
+        "seconds": {of.base: own.baseline, of.mind: own.intentional},
+        "pairs": own.ratio.pairs,
+        **_interval(own.ratio.mean, "mean"),
+        **_interval(own.ratio.median, "median", "median_"),
+        "of_sums": own.ratio.of_sums,
     }
 
 

@@ -14,7 +14,7 @@ from testbed.experiment.counting import (
     is_solvable,
     why_apart,
 )
-from testbed.experiment.outline import MEASURES, Outline, state_of
+from testbed.experiment.outline import DIVIDED, Outline, state_of
 from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
 from testbed.experiment.table1.classify import classify, state_at
 
@@ -158,7 +158,7 @@ def _side(record: TrialRecord, world: World) -> Side:
         event=None if event is None else event.action,
         undone=event is not None and undone(record, event, world),
         before=tuple(a.action for a in record.actions if a.step <= until),
-        measures={name: measure(row) for name, measure in MEASURES.items()},
+        measures={name: measure(row) for name, measure in DIVIDED.items()},
     )
 
 

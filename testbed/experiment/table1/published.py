@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-MEASURES = ("total_time", "plans", "planning_time", "execution_units", "actions")
+PLANNING = "planning_time"
+MEASURES = ("total_time", "plans", PLANNING, "execution_units", "actions")
 """What is divided in each pair, in the order of the published columns."""
 
 SCENARIOS = ("1", "2", "3", "4", "5")

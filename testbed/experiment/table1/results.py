@@ -15,13 +15,24 @@ class Ratio:
     """A measure of the traditional robot, divided by the intentional one's.
 
     `pairs` have a ratio: the intentional robot's measure is not 0. The test compares the measures
-    themselves; its effect is above 0 where the traditional robot needed more.
+    themselves; its effect is above 0 where the traditional robot needed more. `of_sums` is the
+    ratio of the sums over all pairs, each with its weight.
     """
 
     pairs: int
     mean: Estimate | None
     median: Estimate | None
     test: Test | None
+    of_sums: float | None = None
+
+
+@dataclass(frozen=True)
+class Seconds:
+    """Seconds of process time per trial, the means of both robots, and what their ratio is."""
+
+    baseline: float | None
+    intentional: float | None
+    ratio: Ratio
 
 
 @dataclass(frozen=True)
@@ -32,7 +43,8 @@ class Row:
     correct.
     The test of the accuracies has its effect above 0 where the intentional robot was right more
     often; `advantage` is that difference of the proportions with its interval. `out_of_reach` are
-    goals that could not be achieved any more where a trial ended. `optimum` is by robot.
+    goals that could not be achieved any more where a trial ended. `optimum` is by robot,
+    `times` by the name of the measure: planning, diagnosis, and both.
     """
 
     name: str
@@ -48,6 +60,7 @@ class Row:
     advantage: Estimate | None = None
     optimum: Mapping[str, Optimum] = field(default_factory=dict)
     undecided: int = 0
+    times: Mapping[str, Seconds] = field(default_factory=dict)
     late: int = 0
 
 

@@ -1,5 +1,6 @@
 """Pairs made by hand, from which the numbers of a page can be worked out on paper."""
 
+from testbed.experiment.outline import TIMES
 from testbed.experiment.table1.pairing import Pair, Side
 from testbed.experiment.table1.published import MEASURES
 
@@ -9,8 +10,11 @@ def a_side(correct: bool = True, **values: object) -> Side:
 
     `plans`, `actions` and other measures are given by their names.
     """
-    measures = dict.fromkeys(MEASURES, 1.0)
-    measures.update({name: float(str(values.pop(name))) for name in MEASURES if name in values})
+    names = (*MEASURES, *TIMES)
+    measures = dict.fromkeys(names, 1.0)
+    measures.update(
+        {name: float(str(values.pop(name))) for name in dict.fromkeys(names) if name in values}
+    )
     given: dict[str, object] = {
         "trial": "t",
         "lost": False,

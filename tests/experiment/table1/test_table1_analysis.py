@@ -6,6 +6,7 @@ from itertools import count
 import pytest
 
 from testbed.experiment.domains import load_world
+from testbed.experiment.outline import DIVIDED
 from testbed.experiment.outline import MEASURES as COMPUTED
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.experiment.table1 import table as text
@@ -37,7 +38,7 @@ def _side(
         event=event,
         undone=False,
         before=before,
-        measures=dict.fromkeys(MEASURES, value),
+        measures=dict.fromkeys(DIVIDED, value),
     )
 
 

@@ -1,14 +1,14 @@
 """How far both robots are from the optimum, from pairs made by hand."""
 
 from testbed.experiment.optimum import Optimum
+from testbed.experiment.outline import DIVIDED
 from testbed.experiment.table1.analysis import analyse
 from testbed.experiment.table1.optimum import section
 from testbed.experiment.table1.pairing import Pair, Side
-from testbed.experiment.table1.published import MEASURES
 
 
 def _side(actions: float, units: float, achieved: bool = True) -> Side:
-    measures = dict.fromkeys(MEASURES, 1.0) | {"actions": actions, "execution_units": units}
+    measures = dict.fromkeys(DIVIDED, 1.0) | {"actions": actions, "execution_units": units}
     return Side(
         trial="t",
         lost=False,

@@ -10,7 +10,7 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.store import read_records
-from testbed.experiment.table1 import optimum
+from testbed.experiment.table1 import optimum, times
 from testbed.experiment.table1.analysis import RANDOM, Analysis, Table
 from testbed.experiment.table1.page.commands import Sources, commands, played
 from testbed.experiment.table1.page.drawing import drawing
@@ -48,7 +48,8 @@ does. The digests of the results, which are also said at the end of each run, ar
 {incomplete}
 In each table: our mean with its 95% interval, our median, and the published value, with `*` where
 it does not lie in the interval of our mean. TP is `traditional`, ATI `intentional`; ratios are
-TP / ATI.
+TP / ATI. Times are process time; *planning time* is without diagnosis, [which is told
+beside it](#planning-diagnosis-and-both).
 """
 
 TESTS = """\
@@ -73,6 +74,7 @@ def document(sources: Sources) -> str:
             incomplete=_incomplete(sources),
         ),
         *_tables(analysis),
+        times.section(analysis),
         drawing(analysis),
         blindness(pairs),
         row_by_row(pairs, load_world(sources.main.config.domain)),
