@@ -15,6 +15,7 @@ import typer
 
 from testbed.cli import check, export, replay, report, robot, run, translate
 from testbed.cli.common import DONE
+from testbed.experiment.terminal import tolerant
 
 __all__ = ["app", "main"]
 
@@ -48,6 +49,7 @@ def common(
 
 def main() -> None:
     """Entry point of the distribution."""
+    tolerant()
     app(prog_name="testbed")
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import typer
-
-from testbed.cli.common import Config, Overrides, examples, input_errors
+from testbed.cli.common import Config, Overrides, emit, examples, input_errors
 
 EPILOG = examples("testbed check quickstart scenarios=[5] limits.steps=40")
 
@@ -15,4 +13,4 @@ def command(config: Config, overrides: Overrides = None) -> None:
     from testbed.experiment.run_config import config_text
 
     with input_errors():
-        typer.echo(config_text(load(config, overrides or [])), nl=False)
+        emit(config_text(load(config, overrides or [])))

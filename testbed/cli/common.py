@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Annotated, NoReturn
 
 import typer
+
+from testbed.experiment.terminal import mute, plain, warn
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
@@ -26,6 +28,23 @@ def examples(*lines: str) -> str:
     return "\n".join(["\b", "Examples:" if len(lines) > 1 else "Example:", *lines])
 
 
+def emit(text: str) -> None:
+    """Write text that a command is asked for to standard output. Raises OSError, naming it."""
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except OSError as error:
+        mute(sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            raise
+        raise OSError(error.errno, error.strerror, "standard output") from error
+
+
+def say(line: str) -> None:
+    """The same of a line, in which nothing steers a terminal."""
+    emit(f"{plain(line)}\n")
+
+
 @contextmanager
 def input_errors() -> Iterator[None]:
     """Turn what a user can get wrong into one line per error and the exit code for it."""
@@ -36,19 +55,21 @@ def input_errors() -> Iterator[None]:
     try:
         yield
     except SourceError as error:
-        _refuse("\n".join(str(mistake) for mistake in error.all))
-    except (ConfigError, StoreError, ServingError, WorkerError) as error:
-        _refuse(str(error))
+        _refuse(map(str, error.all))
+    except ConfigError as error:
+        _refuse(error.lines)
+    except (StoreError, ServingError, WorkerError) as error:
+        _refuse(str(error).split("\n"))
     except UnicodeDecodeError as error:
-        _refuse(f"not a text file in UTF-8: {error.reason} at byte {error.start}")
-    except BrokenPipeError:
-        raise
+        _refuse([f"not a text file in UTF-8: {error.reason} at byte {error.start}"])
+    except BrokenPipeError:  # the reader of standard output has enough
+        raise typer.Exit(DONE) from None
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
-        _refuse(f"{where}{error.strerror or error}")
+        _refuse([f"{where}{error.strerror or error}"])
 
 
-def _refuse(message: str) -> NoReturn:
-    sys.stdout.flush()
-    typer.echo(message, err=True)
+def _refuse(lines: Iterable[str]) -> NoReturn:
+    for line in lines:
+        warn(line)
     raise typer.Exit(BAD_INPUT)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from testbed.cli.common import examples, input_errors
+from testbed.cli.common import examples, input_errors, say
 
 EPILOG = examples("testbed export runs/quickstart")
 
@@ -25,4 +25,4 @@ def command(
 
         for folder in folders:
             for path in write(folder):
-                typer.echo(path)
+                say(str(path))

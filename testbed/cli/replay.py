@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from testbed.cli.common import DONE, FAILED, examples, input_errors
+from testbed.cli.common import DONE, FAILED, examples, input_errors, say
 
 EPILOG = examples("testbed replay runs/quickstart", "testbed replay runs/quickstart --trial 107b")
 
@@ -32,7 +32,7 @@ def command(
         from testbed.experiment.replay import replay as tell
 
         if trial is None:
-            list_trials(folder, typer.echo)
+            list_trials(folder, say)
             return
-        as_recorded = tell(folder, trial, typer.echo)
+        as_recorded = tell(folder, trial, say)
     raise typer.Exit(DONE if as_recorded else FAILED)

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from testbed.cli.common import Config, Overrides, examples, input_errors
+from testbed.experiment.terminal import warn
 
 EPILOG = examples(
     "testbed run quickstart",
@@ -45,6 +46,8 @@ def command(
 
     with input_errors():
         loaded = load(config, overrides or [])
+        if not quiet:
+            warn(f"preparing {loaded.name}: statistics, the plan of its trials, robots")
         from testbed.experiment.session import run_session
 
         code = run_session(loaded, out, workers, resume, quiet)

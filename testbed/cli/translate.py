@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from testbed.cli.common import examples, input_errors
+from testbed.cli.common import emit, examples, input_errors
 
 EPILOG = examples("testbed translate office -o office.lp", "testbed translate office.fine")
 
@@ -40,6 +40,6 @@ def command(
         else:
             program = translated(*reversed(read_domain(source)))
         if output is None:
-            typer.echo(program, nl=False)
+            emit(program)
         else:
             output.write_text(program, encoding="utf-8")

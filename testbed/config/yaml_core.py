@@ -76,8 +76,19 @@ def read_yaml(text: str) -> Any:
 
 
 def write_yaml(value: object) -> str:
-    """A document that holds the value: keys in their order, lines of at most 100 characters."""
-    return str(yaml.dump(value, Dumper=Dumper, sort_keys=False, width=100, allow_unicode=True))
+    """A document that holds the value: keys in their order, lines of at most 100 characters.
+
+    Where a character would steer what shows it, only ASCII is written, and escapes for the rest.
+    """
+    document = _written(value, allow_unicode=True)
+    steers = any(not (own.isprintable() or own == "\n") for own in document)
+    return _written(value, allow_unicode=False) if steers else document
+
+
+def _written(value: object, allow_unicode: bool) -> str:
+    return str(
+        yaml.dump(value, Dumper=Dumper, sort_keys=False, width=100, allow_unicode=allow_unicode)
+    )
 
 
 def read_scalar(text: str) -> Any:

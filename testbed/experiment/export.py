@@ -14,6 +14,8 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import read_config, read_records
 
 PARQUET, CSV = "trials.parquet", "trials.csv"
+FORMULA = "^[=+@\t\r\n\u2212\uff1d\uff0b\uff0d\uff20-]"
+"""How text begins that spreadsheets take for a formula."""
 SCALARS: dict[type[inspect.Type], type[pl.DataType]] = {
     inspect.StrType: pl.String,
     inspect.LiteralType: pl.String,
@@ -65,13 +67,18 @@ def _column(kind: inspect.Type) -> pl.DataType:
 
 
 def flat(trials: pl.DataFrame) -> pl.DataFrame:
-    """The same with lists and parts of a record as JSON text, for CSV."""
+    """The same with lists and parts of a record as JSON text, for CSV.
+
+    Text that a spreadsheet would take for a formula has an apostrophe before it. Literals, which
+    may begin with `-`, are in lists, whose text begins with a bracket: they stay as they are.
+    """
     nested = [name for name, kind in trials.schema.items() if kind.is_nested()]
     texts = (
         pl.Series(name, [None if item is None else _json(item) for item in trials[name].to_list()])
         for name in nested
     )
-    return trials.with_columns(*(text.cast(pl.String) for text in texts))
+    inert = trials.select(pl.col(pl.String).str.replace(FORMULA, "'$0"))
+    return trials.with_columns(*inert, *(text.cast(pl.String) for text in texts))
 
 
 def _json(value: object) -> str:

@@ -14,6 +14,7 @@ from threading import Thread, current_thread, main_thread
 from types import FrameType
 
 from testbed.experiment.processes import SIGNALS, kill
+from testbed.experiment.terminal import mute
 
 INTERRUPTED = 130
 ENDING_S = 60.0
@@ -118,10 +119,4 @@ def _leave_terminal() -> None:
             os.write(stream.fileno(), b"")
         except (OSError, ValueError):
             with suppress(OSError, ValueError):
-                _redirect(stream.fileno())
-
-
-def _redirect(descriptor: int) -> None:
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, descriptor)
-    os.close(nowhere)
+                mute(stream.fileno())

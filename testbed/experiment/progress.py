@@ -19,6 +19,7 @@ from rich.progress import (
 from rich.text import Text
 
 from testbed.experiment.runner import Notify, Tally
+from testbed.experiment.terminal import warn
 from testbed.experiment.wording import counted
 
 EVERY_S = 30.0
@@ -34,7 +35,7 @@ def progress(quiet: bool) -> Iterator[Notify]:
         with _bar(console) as notify:
             yield notify
     else:
-        yield Lines(lambda line: console.print(line, soft_wrap=True, highlight=False)).notify
+        yield Lines(warn).notify
 
 
 def _nothing(tally: Tally) -> None:
@@ -86,7 +87,7 @@ def _bar(console: Console) -> Iterator[Notify]:
         TimeRemainingColumn(),
     )
     with Progress(*columns, console=console) as bar:
-        task = bar.add_task("trials", total=None)
+        task = bar.add_task("planning the trials", total=None)
 
         def notify(tally: Tally) -> None:
             failed = f", {tally.failed} failed" if tally.failed else ""

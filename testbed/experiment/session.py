@@ -6,13 +6,12 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rich.console import Console
-
 from testbed.config import ExperimentConfig
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.errors import WorkerError
+from testbed.experiment.grid import Grid
 from testbed.experiment.interrupts import INTERRUPTED, stoppable
-from testbed.experiment.levels.table import rich_level_table
+from testbed.experiment.levels.table import level_grid
 from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
 from testbed.experiment.report import Tables, write_report
@@ -26,14 +25,14 @@ from testbed.experiment.store import (
     read_records,
     write_config,
 )
-from testbed.experiment.tables import rich_table
+from testbed.experiment.tables import grid
+from testbed.experiment.terminal import Printer, Say, columns
 from testbed.experiment.wording import counted
 
 if TYPE_CHECKING:
     from testbed.experiment.table1.analysis import Analysis
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
-WIDE, WIDEST = 120, 150
 
 
 def run_session(
@@ -50,9 +49,9 @@ def run_session(
         WorkerError: where no trial can be played; what is on record stays.
     """
     folder = choose_folder(out, config.name, resume)
-    console = _console(quiet)
+    say = Printer(quiet)
     if resume and not holds_run(folder):
-        _say(console, f"nothing to resume: a new run in {folder}")
+        say(f"nothing to resume: a new run in {folder}")
     _prepare(folder, config)
     with stoppable(_to_go_on(folder), quiet):
         provenance = Provenance(folder, config, session_arguments())
@@ -64,24 +63,18 @@ def run_session(
         code = _exit_code(tally)
         provenance.close(code, tally.workers)
         try:
-            _conclude(folder, config, tally, console)
+            _conclude(folder, config, tally, say)
         except KeyboardInterrupt:  # the trials are on record, the report is not made
-            _say(console, f"interrupted; for the report: testbed report {_quoted(folder)}")
+            say(f"interrupted; for the report: testbed report {_quoted(folder)}")
             return INTERRUPTED
     return code
 
 
 def report_again(folder: Path, config: ExperimentConfig) -> None:
     """Table, summary and report of a run, made again. Raises StoreError."""
-    console = _console()
-    _show(console, write_report(folder, config))
-    _say(console, f"report: {folder / REPORT}")
-
-
-def _console(quiet: bool = False) -> Console:
-    """Standard output: as wide as the terminal, and wide where it is none."""
-    console = Console(quiet=quiet)
-    return console if console.is_terminal else Console(quiet=quiet, width=WIDE)
+    say = Printer()
+    _show(say, write_report(folder, config))
+    say(f"report: {folder / REPORT}")
 
 
 def _prepare(folder: Path, config: ExperimentConfig) -> None:
@@ -108,55 +101,58 @@ def _exit_code(tally: Tally) -> int:
     return FAILED if tally.failed else DONE
 
 
-def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, console: Console) -> None:
+def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, say: Say) -> None:
     tables = write_report(folder, config)
     if tables.rows:
-        _show(console, tables)
+        _show(say, tables)
     if tally.interrupted:
         kept = f"{tally.done} of {counted(tally.planned, 'trial')}"
-        _say(console, f"interrupted: {kept} kept in {folder}")
-        _say(console, _to_go_on(folder))
+        say(f"interrupted: {kept} kept in {folder}")
+        say(_to_go_on(folder))
         if not tables.rows:
             return
     if tally.failed:
         failed = counted(tally.failed, "trial")
-        _say(console, f"{failed} ended in error or without a robot; see the report")
-    _say(console, f"report: {folder / REPORT}")
+        say(f"{failed} ended in error or without a robot; see the report")
+    say(f"report: {folder / REPORT}")
 
 
-def _show(console: Console, tables: Tables) -> None:
+def _show(say: Say, tables: Tables) -> None:
     if tables.rows:
-        _show_tables(console, tables)
+        _show_tables(say, tables)
     if tables.notice is not None:
-        _say(console, f"incomplete: {tables.notice}")
+        say(f"incomplete: {tables.notice}")
     if tables.rows:
         results = counted(sum(row.trials + row.lost for row in tables.rows), "trial")
-        _say(console, f"digest of {results}: {tables.digest}")
+        say(f"digest of {results}: {tables.digest}")
 
 
-def _show_tables(console: Console, tables: Tables) -> None:
-    console.print(rich_table(tables.rows))
+def _show_tables(say: Say, tables: Tables) -> None:
+    _show_grid(say, grid(tables.rows))
     for levels in tables.levels:
-        console.print()
-        console.print(rich_level_table(levels))
+        say("")
+        _show_grid(say, level_grid(levels))
     for analysis in tables.table1:
-        _show_table1(console, analysis)
+        _show_table1(say, analysis)
     for row in tables.rows:
         for note in row.notes():
-            _say(console, note)
+            say(note)
 
 
-def _show_table1(console: Console, analysis: Analysis) -> None:
-    from testbed.experiment.table1.table import rich_table1  # noqa: PLC0415  # slow, and rare
+def _show_table1(say: Say, analysis: Analysis) -> None:
+    from testbed.experiment.table1.table import table1_grid  # noqa: PLC0415  # slow, and rare
 
     whom = f"Table 1, {analysis.mind} against {analysis.base}"
     both = (("triggered", analysis.triggered), ("random events, classified", analysis.random))
-    width = None if console.is_terminal else WIDEST
     for kind, table in both:
         if table is not None:
-            title = f"{whom}: {kind} (*: outside of our interval)"
-            console.print()
-            console.print(rich_table1(table, title), width=width)
+            say("")
+            _show_grid(say, table1_grid(table, f"{whom}: {kind} (*: outside of our interval)"))
+
+
+def _show_grid(say: Say, shown: Grid) -> None:
+    for line in shown.lines(columns()):
+        say(line)
 
 
 def _to_go_on(folder: Path) -> str:
@@ -166,7 +162,3 @@ def _to_go_on(folder: Path) -> str:
 
 def _quoted(path: Path) -> str:
     return shlex.quote(str(path))
-
-
-def _say(console: Console, line: str) -> None:
-    console.print(line, soft_wrap=True, highlight=False, markup=False)

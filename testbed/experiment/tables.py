@@ -6,9 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rich.table import Table
-
 from testbed.experiment.counting import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.experiment.grid import Grid
 from testbed.experiment.record import COARSE, OUTCOMES, Outcome, TrialRecord
 from testbed.experiment.wording import counted, exception, in_words, of_place, place
 
@@ -185,18 +184,13 @@ def headings(rows: Iterable[Row]) -> tuple[str, ...]:
     return tuple(AT_LEVELS.get(name, name) for name in COLUMNS) if fine else COLUMNS
 
 
-def rich_table(rows: Sequence[Row]) -> Table:
+def grid(rows: Sequence[Row]) -> Grid:
     """The table for a terminal, with an empty line between scenarios, or levels."""
-    table = Table(*headings(rows)[:-1], box=None, padding=(0, 2, 0, 0), collapse_padding=True)
-    table.add_column(COLUMNS[-1], overflow="fold")
-    for column in table.columns[:-1]:
-        column.no_wrap = column.header != "achieved"
-    for column in table.columns[3:-1]:
-        column.justify = "right"
+    cells: list[Sequence[str] | None] = []
     before: str | None = None
     for row in rows:
         if before not in (None, row.place):
-            table.add_row()
+            cells.append(None)
         before = row.place
-        table.add_row(*row.cells())
-    return table
+        cells.append(row.cells())
+    return Grid(headings(rows), cells, numbers=range(3, len(COLUMNS) - 1))

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-import rich.table
-from rich.markup import escape
-
+from testbed.experiment.grid import Grid
 from testbed.experiment.levels import comparing
 from testbed.experiment.levels.comparing import CONDITIONS, Cell, Levels, Line
 from testbed.experiment.levels.published import FIRST, PARTS, Paper
@@ -164,27 +162,16 @@ def _mark(cell: Cell) -> str:
     return "" if cell.inside else OUTSIDE
 
 
-def rich_level_table(shown: LevelTable) -> rich.table.Table:
+def level_grid(shown: LevelTable) -> Grid:
     """A table for a terminal, with an empty line between levels; medians are in the report."""
-    table = rich.table.Table(
-        *shown.columns,
-        title=shown.title + (MARKED if _marked(shown) else ""),
-        title_justify="left",
-        box=None,
-        padding=(0, 2, 0, 0),
-        collapse_padding=True,
-    )
-    for column in table.columns:
-        column.no_wrap = True
-    for column in table.columns[3:]:
-        column.justify = "right"
     rows = [row for row in shown.rows if row[1] != MEDIAN]
+    cells: list[Sequence[str] | None] = []
     for before, row in zip((None, *rows), rows, strict=False):
         if before is not None and before[0] != row[0]:
-            table.add_row()
-        for cells in _narrow(row):
-            table.add_row(*map(escape, cells))
-    return table
+            cells.append(None)
+        cells.extend(_narrow(row))
+    title = shown.title + (MARKED if _marked(shown) else "")
+    return Grid(shown.columns, cells, range(3, len(shown.columns)), title)
 
 
 def _marked(shown: LevelTable) -> bool:

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 from testbed.experiment.report.svg import CARD, LINE, SETTINGS, SOFT, blank, inline
+from testbed.experiment.terminal import plain
 
 WIDTH = 3.2
 ROW_HEIGHT, FRAME_HEIGHT = 0.33, 0.45
@@ -60,7 +61,7 @@ def forest(
         for number, own in enumerate(series):
             shift = APART * (number - (len(series) - 1) / 2)
             _dots(axes, own, {row: index + shift for index, row in enumerate(rows)})
-        axes.set_yticks(range(len(rows)), rows)
+        axes.set_yticks(range(len(rows)), list(map(plain, rows)))
         axes.set_ylim(len(rows) - 0.4, -0.6)
         _bands(axes, len(rows))
         _shares(axes) if share else _ratios(axes, series)
@@ -75,7 +76,7 @@ def curves(name: str, title: str, levels: Sequence[str], series: Sequence[Series
         for own in series:
             shift = -ASIDE if own.colour == series[0].colour else ASIDE
             _curve(axes, own, {level: place + shift for level, place in places.items()})
-        axes.set_xticks(range(len(levels)), levels)
+        axes.set_xticks(range(len(levels)), list(map(plain, levels)))
         axes.set_xlim(-0.4, len(levels) - 0.6)
         axes.set_yscale("log")
         axes.yaxis.set_minor_locator(NullLocator())
@@ -153,4 +154,4 @@ def _seconds(value: float) -> str:
 
 def _told(title: str, series: Sequence[Series]) -> str:
     """The figure for those who do not see it: the numbers are in the tables."""
-    return f"{title}: {', '.join(own.label for own in series)}. The table has the numbers."
+    return plain(f"{title}: {', '.join(own.label for own in series)}. The table has the numbers.")

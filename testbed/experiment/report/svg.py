@@ -27,6 +27,7 @@ VARIABLES: Mapping[str, str] = {
 
 SETTINGS: Any = {  # matplotlib names every setting that there is in its type
     "svg.fonttype": "none",
+    "text.parse_math": False,  # a name with $ in it is no formula
     "font.size": 8.5,
     "axes.edgecolor": LINE,
     "axes.labelcolor": SOFT,

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import rich.table
-from rich.markup import escape
-
+from testbed.experiment.grid import Grid
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.published import MEASURES, PUBLISHED
@@ -104,13 +102,6 @@ def _parts(cell: str) -> tuple[str, str]:
     return value, bracket.strip() + rest
 
 
-def rich_table1(table: Table, title: str) -> rich.table.Table:
+def table1_grid(table: Table, title: str) -> Grid:
     """The table for a terminal."""
-    shown = rich.table.Table(
-        *COLUMNS, title=title, title_justify="left", box=None, padding=(0, 1, 0, 0)
-    )
-    for column in shown.columns[1:]:
-        column.justify = "right"
-    for cells in _narrow(table):
-        shown.add_row(*(escape(cell) for cell in cells))
-    return shown
+    return Grid(COLUMNS, list(_narrow(table)), range(1, len(COLUMNS)), title)

@@ -1,0 +1,84 @@
+"""Lines for a terminal: text of users and robots is shown, and cannot steer it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import unicodedata
+from collections.abc import Callable
+
+Say = Callable[[str], None]
+
+WIDE = 150
+"""Columns where output goes to no terminal and COLUMNS is not set."""
+_HIDDEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
+"""Categories of characters that steer: control, format (also of direction), separators of lines."""
+
+
+def plain(text: str, keep: str = "") -> str:
+    """The text with an escape such as `\\x1b` for each character that steers what shows it.
+
+    Characters of `keep` stay as they are.
+    """
+    if text.isprintable():
+        return text
+    return "".join(_escape(own) if _steers(own, keep) else own for own in text)
+
+
+def _steers(character: str, keep: str) -> bool:
+    return character not in keep and unicodedata.category(character) in _HIDDEN
+
+
+def _escape(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")
+
+
+def tolerant() -> None:
+    """Let standard output and error take any text: what they cannot encode becomes `?`."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+
+
+def columns() -> int:
+    """How wide lines may be: COLUMNS, else the terminal, else `WIDE`."""
+    return shutil.get_terminal_size((WIDE, 0)).columns
+
+
+class Printer:
+    """Says lines on standard output as long as there is somebody to hear them.
+
+    A reader who has enough (`| head`) is no error; where writing fails otherwise, standard error
+    says so once, and what is said from then on is lost. Neither ends what is under way.
+    """
+
+    def __init__(self, quiet: bool = False) -> None:
+        self._muted = quiet
+
+    def __call__(self, line: str = "") -> None:
+        """Say one line."""
+        if self._muted:
+            return
+        try:
+            print(plain(line), flush=True)
+        except OSError as error:
+            self._muted = True
+            mute(sys.stdout.fileno())
+            if not isinstance(error, BrokenPipeError):
+                warn(f"standard output: {error.strerror}")
+
+
+def warn(line: str) -> None:
+    """Say a line on standard error, if anybody hears it."""
+    try:
+        print(plain(line), file=sys.stderr, flush=True)
+    except OSError:
+        mute(sys.stderr.fileno())
+
+
+def mute(descriptor: int) -> None:
+    """Let what is still to be written there go nowhere, so that no flush at the end fails."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, descriptor)
+    os.close(nowhere)
