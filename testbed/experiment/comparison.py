@@ -55,7 +55,8 @@ def _cells(group: Mapping[str, Any]) -> Iterator[Cell]:
     for robot in ROBOTS:
         share = group["accuracy"].get(robot)
         notes = [_test(group, ACCURACY)] if robot == INTENTIONAL else []
-        notes += [f"{group['undecided'][robot]} not decided"] * bool(group["undecided"].get(robot))
+        undecided = group["undecided"].get(robot)  # of a robot that has played
+        notes += [f"{undecided} not decided"] * bool(undecided)
         value = "-" if share is None else f"{100 * share:.1f} %"
         yield Cell(f"{robot} correct", value, ", ".join(filter(None, notes)))
     for measure in MEASURES:
