@@ -1,6 +1,7 @@
 """The command line with one robot more, which a file `hold` stops after a number of trials.
 
-A file `stuck` holds it where trials are planned, deaf to interrupts as only foreign code can be.
+With a file `broken` it fails. A file `stuck` holds the command where trials are planned, deaf to
+interrupts as only foreign code can be.
 
 Worker processes import this module as their main one, and so know the robot, too.
 """
@@ -28,6 +29,8 @@ class Held(IntentionalRobot):
     begun = 0
 
     def begin(self, task: Task) -> None:
+        if Path("broken").exists():
+            raise RuntimeError("broken")
         while HOLD.exists() and Held.begun >= int(HOLD.read_text()):
             time.sleep(0.01)
         Held.begun += 1

@@ -62,7 +62,7 @@ def _resumed() -> str:
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_a_run_that_is_terminated_ends_as_one_that_is_interrupted(workers: str) -> None:
     code, output, errors = _ended(1, workers, signal.SIGTERM, signal.SIGTERM)
-    assert (code, len(errors.splitlines())) == (130, 1), errors
+    assert (code, "Traceback" in errors) == (130, False), errors
     lines = Path("run/trials.jsonl").read_text(encoding="utf-8").splitlines()
     outcomes = [json.loads(line)["outcome"] for line in lines]
     assert 1 <= len(outcomes) <= int(workers)
@@ -81,7 +81,7 @@ def test_a_run_that_is_terminated_ends_as_one_that_is_interrupted(workers: str) 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_run_that_ends_before_its_first_trial_shows_no_table(number: signal.Signals) -> None:
     code, output, errors = _ended(0, "1", number)
-    assert (code, len(errors.splitlines())) == (130, 1), errors
+    assert (code, "Traceback" in errors) == (130, False), errors
     assert output.splitlines() == [
         "interrupted: 0 of 4 trials kept in run",
         "to go on: testbed run run/config.yaml --out run --resume",

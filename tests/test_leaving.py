@@ -103,7 +103,7 @@ def test_robots_that_start_end_with_their_driver(signals: list[signal.Signals]) 
         for robot in filter(_is_there, robots):
             os.kill(robot, signal.SIGKILL)
     if signal.SIGKILL not in signals:
-        assert (driver.returncode, len(errors.splitlines())) == (130, 1), errors
+        assert (driver.returncode, "Traceback" in errors) == (130, False), errors
         assert "--resume" in output
 
 
@@ -115,7 +115,8 @@ def test_a_second_interrupt_ends_a_driver_that_cannot_hear_it() -> None:
             time.sleep(0.01)
         driver.send_signal(signal.SIGINT)
         assert driver.stderr is not None
-        assert driver.stderr.readline()  # at once, though nobody is there to hear the interrupt
+        # At once, though nobody is there to hear the interrupt.
+        assert any("stopping" in line for line in iter(driver.stderr.readline, ""))
         while driver.poll() is None:
             driver.send_signal(signal.SIGINT)
             time.sleep(0.1)
@@ -143,7 +144,7 @@ def test_a_worker_that_cannot_play_is_told_once_and_ends_the_run(
     program: str, reason: str, workers: str
 ) -> None:
     _begin_with(program)
-    with _running(*TESTBED, *RUN, "--workers", workers) as driver:
+    with _running(*TESTBED, *RUN, "--quiet", "--workers", workers) as driver:
         output, errors = driver.communicate(timeout=PATIENCE_S)
     assert (driver.returncode, output) == (2, "")
     assert len(errors.splitlines()) == 1

@@ -13,13 +13,13 @@ from typing import Annotated
 
 import typer
 
-from testbed.cli import check, export, replay, report, robot, run, translate
+from testbed.cli import check, export, repair, replay, report, robot, run, translate
 from testbed.cli.common import DONE
 from testbed.experiment.terminal import tolerant
 
 __all__ = ["app", "main"]
 
-COMMANDS = (run, check, robot, report, export, replay, translate)
+COMMANDS = (run, check, robot, report, export, replay, repair, translate)
 """In the order of the help. Each has a function of its own name, and the end of its help."""
 
 app = typer.Typer(

@@ -55,21 +55,22 @@ def input_errors() -> Iterator[None]:
     try:
         yield
     except SourceError as error:
-        _refuse(map(str, error.all))
+        refuse(map(str, error.all))
     except ConfigError as error:
-        _refuse(error.lines)
+        refuse(error.lines)
     except (StoreError, ServingError, WorkerError) as error:
-        _refuse(str(error).split("\n"))
+        refuse(str(error).split("\n"))
     except UnicodeDecodeError as error:
-        _refuse([f"not a text file in UTF-8: {error.reason} at byte {error.start}"])
+        refuse([f"not a text file in UTF-8: {error.reason} at byte {error.start}"])
     except BrokenPipeError:  # the reader of standard output has enough
         raise typer.Exit(DONE) from None
     except OSError as error:
         where = f"{error.filename}: " if error.filename else ""
-        _refuse([f"{where}{error.strerror or error}"])
+        refuse([f"{where}{error.strerror or error}"])
 
 
-def _refuse(lines: Iterable[str]) -> NoReturn:
+def refuse(lines: Iterable[str]) -> NoReturn:
+    """Say what is wrong with the input, and exit."""
     for line in lines:
         warn(line)
     raise typer.Exit(BAD_INPUT)

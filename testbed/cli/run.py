@@ -7,13 +7,13 @@ from typing import Annotated
 
 import typer
 
-from testbed.cli.common import Config, Overrides, examples, input_errors
+from testbed.cli.common import Config, Overrides, examples, input_errors, refuse
 from testbed.experiment.terminal import warn
 
 EPILOG = examples(
     "testbed run quickstart",
     "testbed run office limit=5 robots=[intentional] --workers 2",
-    "testbed run office --out runs/office --resume",
+    "testbed run office --out runs/office --resume --retry-failed",
 )
 
 
@@ -39,16 +39,25 @@ def command(
             "runs/NAME, runs/NAME-2 and so on.",
         ),
     ] = False,
+    retry_failed: Annotated[
+        bool,
+        typer.Option(
+            "--retry-failed",
+            help="With --resume: play trials again that ended in error or without a robot.",
+        ),
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")] = False,
 ) -> None:
     """Run every trial of a configuration and print a table of what came out."""
     from testbed.experiment.loading import load
 
+    if retry_failed and not resume:
+        refuse(["--retry-failed: there is something to retry with --resume only"])
     with input_errors():
         loaded = load(config, overrides or [])
         if not quiet:
             warn(f"preparing {loaded.name}: statistics, the plan of its trials, robots")
         from testbed.experiment.session import run_session
 
-        code = run_session(loaded, out, workers, resume, quiet)
+        code = run_session(loaded, out, workers, resume, quiet, retry_failed)
     raise typer.Exit(code)

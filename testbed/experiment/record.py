@@ -239,10 +239,10 @@ def decode(line: bytes) -> TrialRecord:
 
 
 def logical(record: TrialRecord) -> dict[str, object]:
-    """The record without its times: what the same seed must give again."""
+    """The record without times and earlier attempts: what the same seed must give again."""
     kept = _timeless(msgspec.to_builtins(record))
     return kept | {"fine": None if record.fine is None else _timeless(kept["fine"])}
 
 
 def _timeless(values: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in values.items() if key not in TIMES}
+    return {key: value for key, value in values.items() if key not in (*TIMES, "retried")}

@@ -10,12 +10,13 @@ from functools import partial
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
+from testbed.experiment.conformity import check_planned
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.pool import play_all, workers_for
 from testbed.experiment.record import FAILURES
 from testbed.experiment.registry import make_robot
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import ERRORS, TrialWriter
+from testbed.experiment.store import ERRORS, TrialWriter, locked
 from testbed.experiment.trial import Result, play_trial
 from testbed.experiment.worker import Play
 from testbed.link.inprocess import InProcessRobot
@@ -43,19 +44,36 @@ Notify = Callable[[Tally], None]
 def run_trials(
     config: ExperimentConfig, folder: Path, workers: int | None, notify: Notify
 ) -> Tally:
+    """As `go_on`, in a folder that is locked meanwhile."""
+    with locked(folder):
+        return go_on(config, folder, workers, notify)
+
+
+def go_on(
+    config: ExperimentConfig,
+    folder: Path,
+    workers: int | None,
+    notify: Notify,
+    retry_failed: bool = False,
+) -> Tally:
     """Play every trial of `config` that `folder` has no record of; append them in their order.
 
-    Without a number of `workers` there are as many as the missing trials are worth.
-    An interrupt ends the run early: what was finished is on record, and the tally says so.
-    `notify` is called once at the start and after every trial.
+    With `retry_failed` those that failed are played, too, and their records replaced.
+    Without a number of `workers` there are as many as the missing trials are worth; 0 plays them
+    in this process. An interrupt ends the run early: what was finished is on record, and the tally
+    says so. `notify` is called once at the start and after every trial.
 
     Raises:
-        StoreError: when the folder cannot be written to.
+        StoreError: when the folder cannot be written to, or has records of other trials.
+        WorkerError: when no trial can be played.
     """
     specs = plan_trials(config)
     with TrialWriter(folder) as writer:
-        missing = [spec for spec in specs if spec.trial not in writer.done]
-        tally = Tally(len(specs), done=len(specs) - len(missing), failed=writer.failed)
+        check_planned(folder, specs)
+        failed = set(writer.failures)
+        done = writer.done - failed if retry_failed else writer.done
+        missing = [spec for spec in specs if spec.trial not in done]
+        tally = Tally(len(specs), done=len(specs) - len(missing), failed=len(failed & done))
         tally.workers = workers_for(len(missing)) if workers is None else workers
         notify(tally)
         if missing:
@@ -101,10 +119,12 @@ class _Filing:
 
     def _file(self, result: Result) -> None:
         self._writer.append(result.record)
+        details = self._folder / ERRORS / f"{result.record.trial}.txt"
         if result.details:
-            errors = self._folder / ERRORS
-            errors.mkdir(exist_ok=True)
-            (errors / f"{result.record.trial}.txt").write_text(result.details, encoding="utf-8")
+            details.parent.mkdir(exist_ok=True)
+            details.write_text(result.details, encoding="utf-8")
+        else:  # those of an earlier attempt
+            details.unlink(missing_ok=True)
 
 
 @contextmanager

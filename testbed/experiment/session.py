@@ -7,22 +7,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from testbed.config import ExperimentConfig
+from testbed.experiment.conformity import check_planned
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.grid import Grid
 from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.levels.table import level_grid
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
 from testbed.experiment.provenance import Provenance, session_arguments
 from testbed.experiment.report import Tables, write_report
-from testbed.experiment.runner import Tally, run_trials
+from testbed.experiment.runner import Tally, go_on
 from testbed.experiment.store import (
     CONFIG,
     REPORT,
     check_unchanged,
     choose_folder,
     holds_run,
+    locked,
     read_records,
+    refuse_second_run,
     write_config,
 )
 from testbed.experiment.tables import grid
@@ -41,6 +45,7 @@ def run_session(
     workers: int | None,
     resume: bool,
     quiet: bool,
+    retry_failed: bool = False,
 ) -> int:
     """Run a configuration and report; the exit code.
 
@@ -52,11 +57,11 @@ def run_session(
     say = Printer(quiet)
     if resume and not holds_run(folder):
         say(f"nothing to resume: a new run in {folder}")
-    _prepare(folder, config)
-    with stoppable(_to_go_on(folder), quiet):
+    with locked(folder), stoppable(_to_go_on(folder), quiet):
+        _prepare(folder, config, resume)
         provenance = Provenance(folder, config, session_arguments())
         try:
-            tally = _played(config, folder, workers, quiet)
+            tally = _played(config, folder, workers, quiet, retry_failed)
         except WorkerError:
             provenance.close(BAD_INPUT, workers=0)
             raise
@@ -73,21 +78,26 @@ def run_session(
 def report_again(folder: Path, config: ExperimentConfig) -> None:
     """Table, summary and report of a run, made again. Raises StoreError."""
     say = Printer()
+    if not config.is_fine:  # to draw levels again takes long
+        check_planned(folder, plan_trials(config))
     _show(say, write_report(folder, config))
     say(f"report: {folder / REPORT}")
 
 
-def _prepare(folder: Path, config: ExperimentConfig) -> None:
+def _prepare(folder: Path, config: ExperimentConfig, resume: bool) -> None:
+    refuse_second_run(folder, resume)  # another may have begun, and ended, since it was chosen
     if holds_run(folder):
         check_unchanged(folder, config)
     else:
         write_config(folder, config)
 
 
-def _played(config: ExperimentConfig, folder: Path, workers: int | None, quiet: bool) -> Tally:
+def _played(
+    config: ExperimentConfig, folder: Path, workers: int | None, quiet: bool, retry_failed: bool
+) -> Tally:
     try:
         with progress(quiet) as notify:
-            return run_trials(config, folder, workers, notify)
+            return go_on(config, folder, workers, notify, retry_failed)
     except KeyboardInterrupt:  # while the trials were planned: none was played
         covered = coverage_of(read_records(folder), config)
         planned = sum(covered.planned.values())

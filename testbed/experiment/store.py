@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
+import shlex
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
@@ -13,6 +13,7 @@ import msgspec
 
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import FAILURES, TrialRecord, decode, encode
+from testbed.experiment.retries import RETRIES, settle
 from testbed.experiment.run_config import (
     check_unchanged,
     config_text,
@@ -29,6 +30,8 @@ from testbed.experiment.run_folder import (
     TRIALS,
     choose_folder,
     holds_run,
+    locked,
+    refuse_second_run,
     replace_text,
 )
 
@@ -43,10 +46,14 @@ __all__ = [
     "check_unchanged",
     "choose_folder",
     "config_text",
+    "damaged",
     "flat_config",
     "holds_run",
+    "locked",
+    "numbered_records",
     "read_config",
     "read_records",
+    "refuse_second_run",
     "replace_text",
     "write_config",
 ]
@@ -56,51 +63,76 @@ def read_records(folder: Path) -> Iterator[TrialRecord]:
     """The records of a run, one at a time, also while it grows: a torn last line is left out.
 
     Raises:
-        StoreError: for a line in the middle that is not a record.
+        StoreError: for a line in the middle that is not a record, or a trial's second one.
     """
+    return (record for _, record in numbered_records(folder))
+
+
+def numbered_records(folder: Path) -> Iterator[tuple[int, TrialRecord]]:
+    """As `read_records`, each with the number of its line."""
     path = folder / TRIALS
     if not path.is_file():
         return
+    lines_of: dict[str, int] = {}
     with path.open("rb") as lines:
         for number, line in enumerate(lines, start=1):
             if not line.endswith(b"\n"):
                 return
-            try:
-                yield decode(line)
-            except msgspec.DecodeError as error:
-                raise StoreError(f"{path}:{number}: not a record of a trial: {error}") from None
+            record = _record(line, folder, number)
+            first = lines_of.setdefault(record.trial, number)
+            if first != number:
+                again = f"trial {record.trial} is on record at line {first} already"
+                raise damaged(folder, number, again)
+            yield number, record
+
+
+def damaged(folder: Path, number: int, what: str) -> StoreError:
+    """The error that a line of a run's records is."""
+    remedy = f"testbed repair {shlex.quote(str(folder))}"
+    return StoreError(f"{folder / TRIALS}:{number}: {what}; '{remedy}' keeps what is whole")
+
+
+def _record(line: bytes, folder: Path, number: int) -> TrialRecord:
+    try:
+        return decode(line)
+    except msgspec.DecodeError as error:
+        raise damaged(folder, number, f"not a record of a trial: {error}") from None
 
 
 class TrialWriter:
-    """Appends records to a run folder's `trials.jsonl`; at most one writer a folder.
+    """Appends records to a run folder's `trials.jsonl`, which is to be locked meanwhile.
 
     Opening it drops a torn last line; `done` then holds the ids of the trials on record, and
-    `failed` counts those that ended in error or lost their robot.
+    `failures` the reasons of those that failed, the last one of each last. A later record of one
+    of these takes its place when the writer is closed, or opened again after it was killed.
     """
 
     def __init__(self, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        self._file: BinaryIO = (folder / TRIALS).open("ab")
-        try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            self._file.close()
-            raise StoreError(f"{folder}: another run is writing here") from None
+        settle(folder)
+        self._folder = folder
+        self._files: dict[str, BinaryIO] = {}
+        self._open(TRIALS)
         _drop_torn_line(folder / TRIALS)
         self.done: set[str] = set()
-        self.failed = 0
+        self.failures: dict[str, list[str]] = {}
         for record in read_records(folder):
-            self._count(record)
+            self.done.add(record.trial)
+            if record.outcome in FAILURES:
+                self.failures[record.trial] = [*record.retried, record.reason or ""]
 
     def append(self, record: TrialRecord) -> None:
-        """Write one record, visible to readers at once."""
-        self._file.write(encode(record))
-        self._file.flush()
-        self._count(record)
-
-    def _count(self, record: TrialRecord) -> None:
+        """Write one record, visible to readers at once, or in the place of another later."""
+        record.retried = [*self.failures.get(record.trial, ()), *record.retried]
+        file = self._open(RETRIES if record.trial in self.done else TRIALS)
+        file.write(encode(record))
+        file.flush()
         self.done.add(record.trial)
-        self.failed += record.outcome in FAILURES
+
+    def _open(self, name: str) -> BinaryIO:
+        if name not in self._files:
+            self._files[name] = (self._folder / name).open("ab")
+        return self._files[name]
 
     def __enter__(self) -> Self:
         return self
@@ -111,8 +143,10 @@ class TrialWriter:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        os.fsync(self._file.fileno())
-        self._file.close()
+        for file in self._files.values():
+            os.fsync(file.fileno())
+            file.close()
+        settle(self._folder)
 
 
 def _drop_torn_line(path: Path) -> None:

@@ -4,7 +4,7 @@ import os
 import signal
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from itertools import count
@@ -145,6 +145,52 @@ def test_a_killed_worker_costs_its_trial_alone(configure: Configure, doomed: int
     assert (records[doomed].outcome, records[doomed].cause) == ("error", "infrastructure")
     assert records[doomed].retried == [records[doomed].reason]
     assert records[doomed].reason == "worker process ended with exit code -9"
+
+
+@contextmanager
+def _fragile_once(mark: Path, victim: str) -> Iterator[Play]:
+    with player("inprocess", "fragile", 60.0) as play:
+
+        def play_or_die(spec: TrialSpec) -> Result:
+            if spec.trial == victim and not mark.exists():
+                mark.touch()
+                os.kill(os.getpid(), signal.SIGKILL)
+            return play(spec)
+
+        yield play_or_die
+
+
+@contextmanager
+def _robot_killed_once(mark: Path, victim: str) -> Iterator[Play]:
+    with spawned_robot("killing", 60.0) as robot:
+
+        def play(spec: TrialSpec) -> Result:
+            def kill(moment: Moment) -> None:
+                if spec.trial == victim and moment.percept.step == 3 and not mark.exists():
+                    mark.touch()
+                    assert robot.process is not None
+                    os.kill(robot.process.pid, signal.SIGKILL)
+
+            return play_trial(spec, robot, watch=kill)
+
+        yield play
+
+
+@pytest.mark.parametrize(("killing", "workers"), [(_fragile_once, 2), (_robot_killed_once, 0)])
+def test_what_infrastructure_fails_once_costs_nothing(
+    tmp_path: Path,
+    configure: Configure,
+    killing: Callable[[Path, str], AbstractContextManager[Play]],
+    workers: int,
+) -> None:
+    specs = plan_trials(configure("scenarios=[1]"))
+    victim = specs[0].trial
+    results = dict(play_all(specs, workers, partial(killing, tmp_path / "mark", victim)))
+    records = [results[position].record for position in range(len(specs))]
+    assert (tmp_path / "mark").exists()
+    assert [record.outcome for record in records] == ["achieved"] * len(specs)
+    assert [len(record.retried) for record in records] == [1] + [0] * (len(specs) - 1)
+    assert "9" in records[0].retried[0], "the signal"
 
 
 @contextmanager

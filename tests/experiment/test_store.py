@@ -11,12 +11,14 @@ import asp
 from testbed.config import ExperimentConfig, load_config
 from testbed.config.models import Limits
 from testbed.experiment.errors import StoreError
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import decode, encode
 from testbed.experiment.store import (
     TrialWriter,
     check_unchanged,
     choose_folder,
     config_text,
+    locked,
     read_config,
     read_records,
     replace_text,
@@ -86,31 +88,31 @@ def test_damage_in_the_middle_is_reported_with_its_line(tmp_path: Path) -> None:
 
 
 def test_a_folder_has_one_writer(tmp_path: Path) -> None:
-    with TrialWriter(tmp_path), pytest.raises(StoreError, match="another run is writing here"):
-        TrialWriter(tmp_path)
-    _write(tmp_path, "a")
+    with locked(tmp_path), pytest.raises(StoreError, match=str(tmp_path)), locked(tmp_path):
+        raise AssertionError("unreachable")
+    with locked(tmp_path):
+        _write(tmp_path, "a")
 
 
 def test_a_writer_killed_leaves_the_folder_free(tmp_path: Path) -> None:
     program = (
         "import os, signal, sys; from pathlib import Path;"
-        "from testbed.experiment.store import TrialWriter;"
-        "writer = TrialWriter(Path(sys.argv[1])); os.kill(os.getpid(), signal.SIGKILL)"
+        "from testbed.experiment.store import locked;"
+        "locked(Path(sys.argv[1])).__enter__(); os.kill(os.getpid(), signal.SIGKILL)"
     )
     killed = subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=False)
     assert killed.returncode == -9
-    _write(tmp_path, "a")
+    with locked(tmp_path):
+        _write(tmp_path, "a")
 
 
 @pytest.mark.usefixtures("at_home")
 def test_runs_of_one_name_get_folders_of_their_own() -> None:
     first = choose_folder(None, "tiny", resume=False)
-    first.mkdir(parents=True)
     second = choose_folder(None, "tiny", resume=False)
-    second.mkdir()
+    assert choose_folder(None, "tiny", resume=True) == second
     third = choose_folder(None, "tiny", resume=False)
     assert [first, second, third] == [Path("runs") / n for n in ("tiny", "tiny-2", "tiny-3")]
-    assert choose_folder(None, "tiny", resume=True) == second
     assert choose_folder(None, "another", resume=True) == Path("runs/another")
 
 
@@ -129,6 +131,8 @@ def test_the_stored_configuration_is_the_one_that_ran(tmp_path: Path, configure:
     write_config(tmp_path, config)
     assert read_config(tmp_path) == config
     check_unchanged(tmp_path, config)
+    planned = [spec.trial for spec in plan_trials(config)]
+    assert [spec.trial for spec in plan_trials(read_config(tmp_path))] == planned
 
 
 def test_a_changed_configuration_is_refused_with_the_difference(

@@ -1,0 +1,48 @@
+"""Results of trials that failed before: kept beside the records until they take their places.
+
+A run that is killed meanwhile loses neither: the old records stay where they are, and what is in
+this file takes their places when the run goes on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+import msgspec
+
+from testbed.experiment.run_folder import TRIALS, replace_lines
+
+RETRIES = "retries.jsonl"
+
+
+class _Named(msgspec.Struct):
+    """Of a record its id."""
+
+    trial: str
+
+
+def trial_of(line: bytes) -> str | None:
+    """The id of the trial that a line is the record of; None if it is none, or torn."""
+    try:
+        return msgspec.json.decode(line, type=_Named).trial if line.endswith(b"\n") else None
+    except (msgspec.DecodeError, UnicodeDecodeError):
+        return None
+
+
+def settle(folder: Path) -> None:
+    """Put the results of a retry in the places of the records of the same trials."""
+    retries = folder / RETRIES
+    if not retries.is_file():
+        return
+    with retries.open("rb") as file:
+        again = {trial: line for line in file if (trial := trial_of(line)) is not None}
+    with (folder / TRIALS).open("rb") as file:
+        replace_lines(folder / TRIALS, _replaced(file, again))
+    retries.unlink()
+
+
+def _replaced(lines: BinaryIO, again: dict[str, bytes]) -> Iterator[bytes]:
+    for line in lines:
+        yield again.get(trial_of(line) or "", line)
