@@ -159,6 +159,7 @@ class IntentionalRobot:
             belief=sorted(intention.believed - {GOAL}),
             reason=why.text,
             futile_at=why.futile_at,
+            no_plan=why.no_plan,
             plans=trace.plans + (intention.action == name),
         )
 

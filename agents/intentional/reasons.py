@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from agents.intentional.intention import Intention
 from agents.shared.contradicting import Contradicting, holds
 from agents.shared.diagnosis import Explained
+from agents.shared.giving_up import GivingUp
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import past_of
@@ -19,7 +20,7 @@ from asp.kept.control import State
 from asp.kept.pasts import Assumed
 from asp.literals import complement
 from asp.solving import TimeLimitError, time_limit
-from testbed.link.messages import Contradiction, Event, Explanation
+from testbed.link.messages import Contradiction, Event, Explanation, NoPlan
 
 MOST_ALTERNATIVES = 20
 
@@ -28,10 +29,14 @@ _FIRST_EVENT = 1  # (16): nothing else happens while the goal is selected
 
 @dataclass(frozen=True)
 class Why:
-    """The reason of a decision, and the first step at which the projected plan breaks, if any."""
+    """The reason of a decision; the first step at which the projected plan breaks, if any.
+
+    `no_plan` is why there is no plan, where the robot gives up.
+    """
 
     text: str
     futile_at: int | None = None
+    no_plan: NoPlan | None = None
 
 
 class Reasons:
@@ -47,7 +52,7 @@ class Reasons:
         self._knowledge = knowledge
         self._tools = tools_of(knowledge)
         self._goal = goal
-        self._plan_limit = plan_limit
+        self._giving_up = GivingUp(knowledge, goal, plan_limit, decision_s)
         self._decision_s = decision_s
         self._contradicting = Contradicting(knowledge, goal)
 
@@ -55,7 +60,10 @@ class Reasons:
         """Why this is intended at the history's step."""
         state, action = intention.believed - {GOAL}, intention.action
         if action == "finish":
-            return Why("the goal holds" if GOAL in intention.believed else self._given_up(state))
+            if GOAL in intention.believed:
+                return Why("the goal holds")
+            no_plan, text = self._giving_up.why(state)
+            return Why(text, no_plan=no_plan)
         if action.startswith("start("):
             return Why(_started(history, intention))
         name, index = next(iter(explained.indices.items()))
@@ -104,15 +112,6 @@ class Reasons:
             distrusted=list(diagnosis.distrusted),
             exceptions=self._knowledge.against(diagnosis.exceptions),
         )
-
-    def _given_up(self, state: State) -> str:
-        try:
-            with time_limit(self._decision_s):
-                if self._tools.reach.out_of_reach(state, self._goal):
-                    return "the goal is out of reach: no plan of any length achieves it"
-        except TimeLimitError:
-            pass
-        return f"no plan of at most {self._plan_limit} actions achieves the goal"
 
     def _futile(self, step: int, state: State, left: tuple[str, ...]) -> Why:
         """Where the projection of a plan breaks (36)."""

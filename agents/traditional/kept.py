@@ -41,5 +41,5 @@ class KeptPlanner:
             return Plan((), tuple(sorted(state)), reachable=True)
         plan = self._plans.shortest(state, self._goal, self._plan_limit)
         if plan is None:
-            return Plan((), (), reachable=False)
+            return Plan((), tuple(sorted(state)), reachable=False)
         return Plan(plan, tuple(sorted(state)), reachable=True)

@@ -28,7 +28,8 @@ class Planner:
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         self._base = (knowledge.program, theory("history"))
-        self._given = (*knowledge.ranks, *knowledge.start, *goal_facts(goal))
+        self._given = (*knowledge.ranks, *knowledge.start)
+        self._goal = tuple(goal_facts(goal))
         self._plan_limit = plan_limit
 
     def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
@@ -39,15 +40,19 @@ class Planner:
     def plan(self, history: History, diagnosis: Diagnosis) -> Plan:
         """A shortest plan, by iterative deepening; an empty one where there is none."""
         texts = [*self._base, theory("traditional")]
-        facts = [*self._facts(history), *diagnosis.facts("explained")]
+        known = [*self._given, *history.facts(), *diagnosis.facts("explained")]
+        facts = [*known, *self._goal]
         for length in range(self._plan_limit + 1):
             model = first_model(ground(texts, {"n": history.step + length}, facts))
             if model is not None:
                 return _read(model)
-        return Plan((), (), reachable=False)
+        model = first_model(ground(texts, {"n": history.step}, known))
+        assert model is not None, "an explanation explains every step"
+        return Plan((), _read(model).believed, reachable=False)
 
     def _facts(self, history: History) -> Iterator[Symbol]:
         yield from self._given
+        yield from self._goal
         yield from history.facts()
 
 

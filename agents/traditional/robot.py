@@ -10,6 +10,7 @@ from msgspec import structs
 
 from agents.shared.contradicting import Contradicting
 from agents.shared.diagnosis import Explained
+from agents.shared.giving_up import GivingUp
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.phases import Phases
@@ -66,7 +67,7 @@ class TraditionalRobot:
         self._told = self._diagnosis
         self._believed: tuple[int, State] = (0, frozenset(filter(is_positive, task.initial)))
         self._contradicting = Contradicting(domain, tuple(task.goal))
-        self._plan_limit = task.plan_limit
+        self._giving_up = GivingUp(domain, tuple(task.goal), task.plan_limit, task.decision_s)
 
     def act(self, percept: Percept) -> Decision:
         """The next action of the plan; where the time for a decision runs out, it waits a step.
@@ -129,15 +130,17 @@ class TraditionalRobot:
         plan = thought.plan
         if plan is None:
             return trace
-        if thought.made and plan.reachable:
+        if thought.made:
             self._believed = (step, frozenset(plan.believed))
         self._plans += thought.made and bool(plan.actions)
+        no_plan, given_up = (None, "") if plan.reachable else self._giving_up.why(plan.believed)
         return structs.replace(
             trace,
             intention=_next(plan),
             plan=list(plan.actions),
             belief=list(plan.believed) if thought.made else [],
-            reason=self._why(thought.made, plan),
+            reason=given_up or _why(thought.made, plan),
+            no_plan=no_plan,
             plans=self._plans,
         )
 
@@ -161,14 +164,6 @@ class TraditionalRobot:
             ),
         )
 
-    def _why(self, made: bool, plan: Plan) -> str:
-        if not plan.reachable:
-            return f"no plan of at most {self._plan_limit} actions achieves the goal"
-        if not plan.actions:
-            return "the goal holds" if made else "the plan is over"
-        left = f"{len(plan.actions)} action{'' if len(plan.actions) == 1 else 's'}"
-        return f"a new plan: {left} to the goal, none fewer" if made else f"{left} of the plan left"
-
 
 @dataclass
 class _Thought:
@@ -177,6 +172,14 @@ class _Thought:
     phases: Phases = field(default_factory=Phases)
     plan: Plan | None = None
     made: bool = False
+
+
+def _why(made: bool, plan: Plan) -> str:
+    """Why a plan that reaches the goal is carried out."""
+    if not plan.actions:
+        return "the goal holds" if made else "the plan is over"
+    left = f"{len(plan.actions)} action{'' if len(plan.actions) == 1 else 's'}"
+    return f"a new plan: {left} to the goal, none fewer" if made else f"{left} of the plan left"
 
 
 def _next(plan: Plan) -> str:

@@ -21,12 +21,12 @@ MOST_ANSWERS, MOST_ORIGINS = 1_000, 16
 
 
 class Reach:
-    """Proves that a goal is out of reach of the agent's own actions, where it can.
+    """Proves that a goal is out of reach of the agent's own actions, or in reach, where it can.
 
-    It is if no state satisfies it, or if one of its literals can never become true even where laws
-    ask for no more than each condition by itself, or if every state that can be reached has been
-    looked at: by the search that bounds plans where there is one, else one by one, where nothing is
-    said of a state with more than some thousand of those.
+    It is out of reach if no state satisfies it, or if one of its literals can never become true
+    even where laws ask for no more than each condition by itself. Else every state that can be
+    reached is looked at: by the search that bounds plans where there is one, else one by one, where
+    nothing is said of a state with more than some thousand of those.
     """
 
     def __init__(self, description: Description, program: str, plans: Plans) -> None:
@@ -35,7 +35,7 @@ class Reach:
         self._program = program
         self._plans = plans
         self._kept: KeptControl | None = None
-        self._answers: Answers[tuple[State, tuple[str, ...]], bool] = Answers(MOST_ANSWERS)
+        self._answers: Answers[tuple[State, tuple[str, ...]], bool | None] = Answers(MOST_ANSWERS)
         self._all_from: Answers[State, frozenset[State] | None] = Answers(MOST_ORIGINS)
 
     def out_of_reach(self, state: State, goal: tuple[str, ...]) -> bool:
@@ -43,10 +43,19 @@ class Reach:
 
         Raises TimeLimitError.
         """
-        return self._answers.get((state, goal), lambda: self._is_proved(state, goal))
+        return self.reachable(state, goal) is False
 
-    def _is_proved(self, state: State, goal: tuple[str, ...]) -> bool:
-        return self._contradictory(goal) or self._relaxed(state, goal) or self._looked(state, goal)
+    def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
+        """Whether some plan, of any length, leads from the state to the goal; None: not known.
+
+        Raises TimeLimitError.
+        """
+        return self._answers.get((state, goal), lambda: self._decide(state, goal))
+
+    def _decide(self, state: State, goal: tuple[str, ...]) -> bool | None:
+        if self._contradictory(goal) or self._relaxed(state, goal):
+            return False
+        return self._looked(state, goal)
 
     def hindrance(self, state: State, action: str) -> tuple[str, ...]:
         """Literals of a state that make an action impossible, none of which can be left out.
@@ -83,14 +92,18 @@ class Reach:
         found, _ = answer_sets(ground([theory("reach")], {}, [*self._laws, *facts]), most=1)
         return any(shown for shown in found)
 
-    def _looked(self, state: State, goal: tuple[str, ...]) -> bool:
+    def _looked(self, state: State, goal: tuple[str, ...]) -> bool | None:
         reachable = self._plans.reachable(state, goal)
         if reachable is not None:
-            return not reachable
+            return reachable
         states = self._all_from.get(state, lambda: self._explore(state))
-        return states is not None and not any(
-            all((atom(literal) in other) == is_positive(literal) for literal in goal)
-            for other in states
+        return (
+            None
+            if states is None
+            else any(
+                all((atom(literal) in other) == is_positive(literal) for literal in goal)
+                for other in states
+            )
         )
 
     def _explore(self, state: State) -> frozenset[State] | None:

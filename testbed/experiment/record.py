@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, TypeAlias, get_args
 import msgspec
 
 from testbed.link.bounds import Count
-from testbed.link.messages import Minimality
+from testbed.link.messages import Minimality, NoPlan
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
@@ -150,6 +150,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     plan with the fewest actions need not be the one that costs least. `correct` is None where that
     depends on the fewest actions and these are not known (so is `in_reach`), and of a trial that is
     `lost`.
+    `no_plan` says why the robot gave up, from what it believed; `in_reach` from what is true.
     `mental` holds `start(N)`, `stop(N)` and `finish`.
     Times are seconds, `..._time_s` by the wall clock, `..._cpu_s` process time of the robot, its
     solver included. `preparation_cpu_s` is what the trial's decisions caused but others can reuse
@@ -195,6 +196,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     preparation_cpu_s: Total = 0.0
     fine: FineCounts | None = None
     in_reach: bool | None = None
+    no_plan: NoPlan | None = None
     deadline: bool = False
 
     @property

@@ -23,7 +23,7 @@ from testbed.experiment.record import (
 )
 from testbed.experiment.wording import listed
 from testbed.link.bounds import shortened
-from testbed.link.messages import Decision, Event, Explanation, FineTrace, Trace
+from testbed.link.messages import Decision, Event, Explanation, FineTrace, NoPlan, Trace
 
 
 class Recorder:
@@ -33,6 +33,7 @@ class Recorder:
         self.record = record
         self._believes_goal = False
         self._last_reason: str | None = None
+        self._no_plan: NoPlan | None = None
 
     def minimal(self, least: Minimal) -> None:
         """The least that achieves the goal from the initial state."""
@@ -52,7 +53,7 @@ class Recorder:
         record.preparation_cpu_s += trace.preparation_cpu_s
         record.deadline = record.deadline or trace.deadline
         self._believes_goal = decision.believes_goal
-        self._last_reason = trace.reason or None
+        self._last_reason, self._no_plan = trace.reason or None, trace.no_plan
         self._acted(decision, happened, costs)
         self._mind(decision.step, decision.action, trace)
 
@@ -114,7 +115,7 @@ class Recorder:
         record.finished = ending is not Ending.STEP_LIMIT
         record.outcome = self._outcome(ending)
         if record.outcome == "gave_up":
-            record.reason = record.reason or self._last_reason
+            record.reason, record.no_plan = record.reason or self._last_reason, self._no_plan
         record.correct = (
             record.achieved and record.finished and (self._disturbed() or self._is_minimal())
         )

@@ -58,6 +58,8 @@ class Teller:
         yield f"  intention    {trace.intention or '-'}{self._new_plan(trace)}"
         if trace.reason:
             yield f"  because      {trace.reason}"
+        if trace.no_plan is not None:
+            yield f"  no plan      {trace.no_plan}, as far as the robot believes"
 
     def _belief(self, trace: Trace) -> str:
         if trace.belief:

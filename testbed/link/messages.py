@@ -15,6 +15,11 @@ from testbed.link.errors import LinkError
 
 PROTOCOL_VERSION = 1
 
+NoPlan: TypeAlias = Literal["out of reach", "beyond the limit", "not known"]
+"""Why a robot has no plan: no plan of any length exists, only a longer one, or neither is proved.
+
+It is from what the robot believes, which need not be so.
+"""
 Minimality: TypeAlias = Literal["proved", "unproved"]
 """Whether it is proved that no explanation is smaller than an adopted one."""
 
@@ -166,9 +171,9 @@ class Trace(Part, frozen=True, kw_only=True):
     ``diagnosis_time_s`` by the wall clock, ``planning_cpu_s`` and ``diagnosis_cpu_s`` in
     process time of the robot, its solver included; all four without ``preparation_cpu_s``, the
     process time spent on what other decisions and trials can reuse: encoding, grounding, sets
-    of states. At the first step that of beginning the trial is with it.
-    ``deadline`` says that the decision was cut off by the clock, so that it need not be the same on
-    another machine.
+    of states. At the first step that of beginning the trial is with it. ``no_plan`` is given by
+    a robot that gives up. ``deadline`` says that the decision was cut off by the clock, so that
+    it need not be the same on another machine.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
     one, empty in the steps between the first and the last of an abstract action.
     """
@@ -183,6 +188,7 @@ class Trace(Part, frozen=True, kw_only=True):
     alternatives: Items[Explanation] = []
     more_alternatives: bool = False
     futile_at: Count | None = None
+    no_plan: NoPlan | None = None
     reason: Text = ""
     plans: Count = 0
     planning_time_s: Seconds = 0.0
