@@ -12,7 +12,7 @@ import numpy as np
 
 from testbed.experiment.counting import BASELINE, INTENTIONAL, Apart, pair_apart
 from testbed.experiment.optimum import Needed, Optimum, optimum
-from testbed.experiment.outline import DIVIDED, MEASURES, Outline
+from testbed.experiment.outline import DIVIDED, MEASURES, TIMES, Outline
 from testbed.experiment.statistics import Test, holm, mcnemar, signed_rank
 
 ACCURACY = "accuracy"
@@ -69,8 +69,11 @@ class Group:
             "robot_errors": dict(self.errors),
             "accuracy": dict(self.accuracy),
             "undecided": dict(self.undecided),
-            "ratios": dict(self.ratios),
-            "ratios_of_sums": dict(self.of_sums),
+            "ratios": {name: self.ratios[name] for name in MEASURES},
+            "ratios_of_sums": {name: self.of_sums[name] for name in MEASURES},
+            "times": {
+                name: {"ratio": self.ratios[name], "of_sums": self.of_sums[name]} for name in TIMES
+            },
             "p_values": {name: None if test is None else test.p for name, test in tests},
             "holm": {name: None if test is None else test.holm for name, test in tests},
             "effects": {name: None if test is None else test.effect for name, test in tests},
