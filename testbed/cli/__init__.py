@@ -14,8 +14,9 @@ from typing import Annotated
 import typer
 
 from testbed.cli import check, export, repair, replay, report, robot, run, translate
-from testbed.cli.common import DONE
+from testbed.cli.common import DONE, refuse
 from testbed.experiment.terminal import tolerant
+from testbed.importing import displaced
 
 __all__ = ["app", "main"]
 
@@ -39,12 +40,15 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def common(
-    version: Annotated[
+    version: Annotated[  # noqa: ARG001  # its callback says it
         bool,
         typer.Option("--version", callback=_version, is_eager=True, help="Say it, and exit."),
     ] = False,
 ) -> None:
     """Reasoning robots in a world that others change: run experiments, look into them."""
+    problem = displaced()
+    if problem is not None:
+        refuse([problem])
 
 
 def main() -> None:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from testbed.cli.common import input_errors
+from testbed.importing import search_as_told
 
 EPILOG = (
     "Examples: testbed robot (with a router on this machine: zenohd) | "
@@ -36,5 +37,6 @@ def command(
     """Serve a robot over zenoh until interrupted."""
     from testbed.experiment.serving import serve_robot
 
+    search_as_told()
     with input_errors():
         serve_robot(connect, name, config)

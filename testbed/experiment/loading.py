@@ -7,8 +7,15 @@ from pathlib import Path
 
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.registry import STARTERS, known_robots
+from testbed.importing import search_last
 
 
 def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
-    """The configuration of a file or a packaged name, with overrides. Raises ConfigError."""
-    return load_config(source, overrides, known_robots, starters=STARTERS)
+    """The configuration of a file or a packaged name, with overrides. Raises ConfigError.
+
+    What lies beside the file can be imported from then on, but nothing in the place of ours.
+    """
+    config = load_config(source, overrides, known_robots, starters=STARTERS)
+    if Path(source).is_file():
+        search_last(Path(source).resolve().parent)
+    return config

@@ -1,0 +1,58 @@
+"""Which packages are imported: ours, whatever the working directory holds, and those of users last.
+
+A process that `testbed` starts imports nothing from the working directory (`-P`). The folder of a
+configuration is searched after everything else; its robots find it by the variable `PATH_VARIABLE`.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import testbed
+
+DISTRIBUTION = "intention-testbed"
+PACKAGES = ("asp", "agents")
+PATH_VARIABLE = "TESTBED_PATH"
+_ROOT = Path(testbed.__file__).resolve().parent.parent
+
+
+def displaced() -> str | None:
+    """One line about a package of ours in whose place another one is found; None if there is none.
+
+    That the file lies beside ours is not enough: another distribution may have overwritten it.
+    """
+    for name in PACKAGES:
+        found = find_spec(name)
+        file = Path(found.origin) if found and found.origin else None
+        if file is None or not _is_ours(file, name):
+            where = f"{file or name}: not the package '{name}' of {DISTRIBUTION}{_owner(name)}"
+            return f"{where}; start `testbed` (or `python -P -m testbed`) where that is not found"
+    return None
+
+
+def _is_ours(file: Path, name: str) -> bool:
+    where_it_should_be = _ROOT / name / "__init__.py"
+    return file.resolve() == where_it_should_be and f'"{DISTRIBUTION}"' in file.read_text("utf-8")
+
+
+def _owner(name: str) -> str:
+    owners = importlib.metadata.packages_distributions().get(name, [])
+    others = sorted({owner for owner in owners if owner != DISTRIBUTION})
+    return f", but of {', '.join(others)}" if others else ""
+
+
+def search_last(folder: Path) -> None:
+    """Let this process, and those that it starts, import from a folder after everything else."""
+    os.environ[PATH_VARIABLE] = str(folder)
+    search_as_told()
+
+
+def search_as_told() -> None:
+    """As `search_last`, with the folder that the process that started this one has told it."""
+    folder = os.environ.get(PATH_VARIABLE)
+    if folder and folder not in sys.path:
+        sys.path.append(folder)
