@@ -4,10 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from random import Random
-
-SPOTS = ("glade", "marsh", "cliff", "cove")
-NUTS = ("acorn", "pebble", "reed")
 
 
 @dataclass(frozen=True)
@@ -16,7 +12,8 @@ class Domain:
 
     `paths` lead both ways. Beasts and things are `rests` at spots, or where they are `apart` beasts
     `stands` and things `lies`; `low` spots can be flooded; things may be tied to a raft, which
-    is one of them.
+    is one of them. At `dusk` nobody goes anywhere. That a beast has to be where a thing is can be
+    said in three `manners`.
     """
 
     spots: tuple[str, ...]
@@ -28,6 +25,8 @@ class Domain:
     grips: bool
     pushes: bool
     single: bool
+    dusk: bool = False
+    manner: str = "apart"
 
     @property
     def nuts(self) -> tuple[str, ...]:
@@ -92,6 +91,10 @@ class Domain:
             yield "inertial tied(nut, raft)."
         if self.low:
             yield "inertial flooded(low)."
+        if self.dusk:
+            yield "inertial dusk."
+        if self.manner == "near":
+            yield "defined near(beast, thing)."
 
     def _actions(self) -> Iterator[str]:
         yield "agent go(beast, spot)."
@@ -106,6 +109,9 @@ class Domain:
         if self.low:
             yield "agent drain(beast, low)."
             yield "exogenous rain(low)."
+        if self.dusk:
+            yield "agent kindle(beast)."
+            yield "exogenous nightfall."
         yield "exogenous drift(thing, spot)."
 
     def _effects(self) -> Iterator[str]:
@@ -124,6 +130,9 @@ class Domain:
         if self.low:
             yield "drain(B, P) causes -flooded(P)."
             yield "rain(P) causes flooded(P)."
+        if self.dusk:
+            yield "kindle(B) causes -dusk."
+            yield "nightfall causes dusk."
         yield f"drift(T, P) causes {there}(T, P)."
 
     def _constraints(self) -> Iterator[str]:
@@ -137,13 +146,21 @@ class Domain:
                 yield "-grips(B, T1) if grips(B, T2), T1 != T2."
         if self.raft:
             yield f"{there}(N, P) if {there}(R, P), tied(N, R)."
+        if self.manner == "near":
+            yield f"near(B, T) if {here}(B, P), {there}(T, P)."
 
     def _conditions(self) -> Iterator[str]:
         here, there = self.of_beast, self.of_thing
-        apart = f"{here}(B, P1), {there}(T, P2), P1 != P2"
+        apart = {
+            "apart": f"{here}(B, P1), {there}(T, P2), P1 != P2",
+            "near": "-near(B, T)",
+            "denied": f"{here}(B, P), -{there}(T, P)",
+        }[self.manner]
         for action in ("go(B, P)", *(["push(B, T, P)"] if self.pushes else [])):
             yield f"impossible {action} if {here}(B, P)."
             yield f"impossible {action} if {here}(B, A), -path(A, P)."
+            if self.dusk:
+                yield f"impossible {action} if dusk."
             if self.low:
                 yield f"impossible {action} if flooded(P)."
                 yield f"impossible {action} if {here}(B, A), flooded(A)."
@@ -158,7 +175,7 @@ class Domain:
             yield "impossible drop(B, T) if -grips(B, T)."
             yield "impossible drift(T, P) if grips(B, T)."
         if self.pushes:
-            yield f"impossible push(B, T, P) if {apart}."
+            yield f"impossible push(B, T, Q) if {apart}."
             if self.grips:
                 yield "impossible push(B, T, P) if grips(B, T2)."
             if self.raft:
@@ -173,6 +190,9 @@ class Domain:
             yield "impossible drain(B, P) if -flooded(P)."
             yield f"impossible drain(B, P) if {here}(B, A), -path(A, P), A != P."
             yield "impossible rain(P) if flooded(P)."
+        if self.dusk:
+            yield "impossible kindle(B) if -dusk."
+            yield "impossible nightfall if dusk."
         yield f"impossible drift(T, P) if {there}(T, P)."
 
     def _initially(self) -> Iterator[str]:
@@ -190,32 +210,5 @@ class Domain:
         if self.low:
             yield f"B sees flooded(P) if {here}(B, P)."
             yield f"B sees flooded(P) if {here}(B, A), path(A, P)."
-
-
-def random_domain(random: Random) -> Domain:
-    """A domain of two to four spots and one to three things."""
-    spots = SPOTS[: random.randint(2, 4)]
-    things = NUTS[: random.randint(1, 3)]
-    raft = things[-1] if len(things) > 1 and random.random() < 0.5 else None
-    grips = random.random() < 0.7
-    return Domain(
-        spots=spots,
-        paths=tuple(_paths(spots, random)),
-        things=things,
-        raft=raft,
-        low=tuple(spot for spot in spots if random.random() < 0.2),
-        apart=random.random() < 0.5,
-        grips=grips,
-        pushes=(not grips and random.random() < 0.6) or random.random() < 0.2,
-        single=random.random() < 0.6,
-    )
-
-
-def _paths(spots: Sequence[str], random: Random) -> Iterator[tuple[str, str]]:
-    """A tree, and now and then a path more."""
-    found: set[tuple[str, str]] = set()
-    for number, spot in enumerate(spots[1:], start=1):
-        found.add((spots[random.randrange(number)], spot))
-    for number, spot in enumerate(spots):
-        found.update((other, spot) for other in spots[:number] if random.random() < 0.15)
-    yield from sorted(found)
+        if self.dusk:
+            yield "B sees dusk if beast(B)."

@@ -9,7 +9,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 
 from benchmarks.own import Own
-from benchmarks.own_refinements import OwnTrial, random_trial
+from benchmarks.own_trials import OwnTrial, random_trial
 from benchmarks.sheets import Row, Sheet
 from testbed.config import ConfigError
 
@@ -60,7 +60,7 @@ def verdict(trial: OwnTrial, folder: Path) -> str:
 def _played(own: Own, trial: OwnTrial, initial: tuple[str, ...]) -> str:
     keys = {"goal": list(trial.goal), "initial": list(initial), "robots": ["intentional"]}
     try:
-        ((record, _),) = own.play(**keys, limits={"steps": 200})
+        ((record, _),) = own.play(**keys, limits={"steps": 100})
     except ConfigError as error:
         placed = all(map(_PLACED.search, str(error).splitlines()))
         return REFUSED if placed else f"refused without a place: {error}"

@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from benchmarks.own_refinements import random_trial
+from benchmarks.own_trials import random_trial
 from benchmarks.refinements import FINE, REFUSED, verdict
 
 

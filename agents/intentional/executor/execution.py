@@ -144,20 +144,30 @@ class Execution:
         )
 
     def _candidates(self) -> tuple[tuple[str, ...], ...]:
-        """Where the things that the action is about may be, by the coarse belief.
+        """Where the things that the action is about, or tied to, may be by the coarse belief.
 
         A fluent that is known to be false by now stands in the way of an action that depends on it,
         and of no other: to go to a room a robot need not find there what it expected.
         """
-        about = frozenset(arguments(self.action))
+        about = self._about()
         needed = self._mind.means.conditions.get(self.action, frozenset())
+        inertial = self._before.intersection(self._mind.coarse.inertial)
         return tuple(
             group
-            for fluent in sorted(self._before)
+            for fluent in sorted(inertial)
             if self._mind.is_magnified(fluent) and not about.isdisjoint(arguments(fluent))
             for group in self._mind.belief.candidates(fluent)
             if group or fluent in needed
         )
+
+    def _about(self) -> frozenset[str]:
+        """The constants of the action, and those related to them otherwise than by place."""
+        about = set(arguments(self.action))
+        inertial = self._before.intersection(self._mind.coarse.inertial)
+        ties = [set(arguments(f)) for f in inertial if not self._mind.is_value(f)]
+        while further := [tie for tie in ties if not about.isdisjoint(tie) and not tie <= about]:
+            about.update(*further)
+        return frozenset(about)
 
     def _is_settled(self) -> bool:
         """Whether the action is done; then what nobody can see of its effects is believed, too."""

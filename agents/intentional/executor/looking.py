@@ -56,7 +56,7 @@ class Looking:
     def _open(self, tested: Collection[str]) -> list[str]:
         """What can be tested here and is not known, apart from what has been tested."""
         mind = self._mind
-        possible = mind.tests.possible(mind.belief.known.true, self._things)
+        possible = mind.testable(self._things)
         return [f for f in possible if f not in tested and mind.belief.is_open(f)]
 
     def doubt(self, action: str) -> Asking[None]:
@@ -66,7 +66,7 @@ class Looking:
         things = mind.looked_for(about)
         with mind.tally.inferring():
             doubtful = mind.belief.known.true - mind.certain().known.true
-        for fluent in [*mind.tests.possible(mind.belief.known.true, things)]:
+        for fluent in [*mind.testable(things)]:
             if fluent in doubtful and fluent in mind.belief.known.true:
                 yield from self._test(fluent)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 
 from agents.intentional.executor.belief import FineBelief
 from agents.intentional.executor.coarse import CoarseDiagram
@@ -66,6 +66,14 @@ class Mind:
     def is_magnified(self, literal: str) -> bool:
         """Whether a coarse literal has a counterpart."""
         return name(literal) in self.refinement.counterparts
+
+    def testable(self, things: Collection[str]) -> Iterator[str]:
+        """The fluents about these things that can be tested now, by what is known and believed."""
+        return self.tests.possible(self.belief.known.true | self.plain, things)
+
+    def is_value(self, fluent: str) -> bool:
+        """Whether a coarse fluent is one of several of which one always holds, as of places."""
+        return self.means.is_value(self.refinement.counterpart(fluent)[0][0])
 
     def hear(self, percept: Percept) -> frozenset[str]:
         """Takes in what is told beside the outcome of a test; the constants it is about.
@@ -164,8 +172,9 @@ class Mind:
     def _whereabouts(self) -> frozenset[str]:
         """The coarse constants of what is known of the robot itself."""
         robot, wholes = self.coarse.robot, self.refinement.wholes
-        own = (f for f in self.belief.known.true if robot in arguments(f))
-        return frozenset(wholes[part] for fluent in own for part in arguments(fluent))
+        true = self.belief.known.true | self._inertial()
+        own = (arguments(fluent) for fluent in true if robot in arguments(fluent))
+        return frozenset(wholes.get(constant, constant) for named in own for constant in named)
 
     def looked_for(self, wholes: Iterable[str]) -> frozenset[str]:
         """What is tested for of some coarse constants: one component, where they share a place."""
