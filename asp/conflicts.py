@@ -16,7 +16,7 @@ def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...
     `program` is a domain's translation; `facts` are the history up to `step`, the goal, and what an
     initial state must have. None of the observations can be left out; late ones are preferred. An
     element is `obs(LITERAL) at STEP`, or `hpd(ACTION) at STEP` for the result of an attempt, with
-    `-` before an action that did not take effect. Raises TimeLimitError.
+    `-` before an action that did not take effect. Raises LimitError.
     """
     control = ground([program, theory("conflict")], {"n": step}, facts)
     atoms = control.symbolic_atoms.by_signature("stated", 1)
@@ -30,7 +30,7 @@ def never_together(program: str, literals: Iterable[str]) -> tuple[str, ...] | N
     """A smallest part of some literals that no state has; None: there is a state that has them all.
 
     `program` is a domain's translation. None of the literals named can be left out. Raises
-    TimeLimitError.
+    LimitError.
     """
     wanted = {
         fact("obs", atom(literal), "true" if is_positive(literal) else "false", 0): literal

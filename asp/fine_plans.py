@@ -79,7 +79,7 @@ class PlainProblem:
         )
 
     def plan(self, length: int) -> FinePlan | None:
-        """The first plan of exactly so many actions and tests, or None. Raises TimeLimitError."""
+        """The first plan of exactly so many actions and tests, or None. Raises LimitError."""
         model = first_model(ground(self._texts, {"n": length}, self._facts))
         if model is None:
             return None
@@ -94,7 +94,7 @@ def plain_plan(
     goal: Sequence[str],
     limit: int,
 ) -> FinePlan | NoPlan:
-    """The first shortest plan of at most `limit` actions and tests. Raises TimeLimitError."""
+    """The first shortest plan of at most `limit` actions and tests. Raises LimitError."""
     if not all(start.candidates):
         return NoPlan.OUT_OF_REACH
     problem = PlainProblem(source, signature, start, goal)

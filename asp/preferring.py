@@ -16,7 +16,7 @@ def preferring(
 ) -> Iterator[clingo.Model | None]:
     """The preferred model under assumptions, to be read while this is open; None: there is none.
 
-    Raises TimeLimitError.
+    Raises LimitError.
     """
     if control.is_conflicting:  # grounding alone found that there is none
         yield None

@@ -1,13 +1,10 @@
-"""Solving programs with clingo: grounding, one model, many, a core; all within a time limit."""
+"""Solving programs with clingo: grounding, one model, many, a core; all within a budget."""
 
 from __future__ import annotations
 
-import signal
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from contextvars import ContextVar
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -15,36 +12,25 @@ from typing import Any
 import clingo
 from clingo import Symbol
 
+from asp.budget import OUT_OF_BUDGET, BudgetError, current
+from asp.signals import Deliver, undisturbed
+from asp.sizes import Statement, count_rules
+
 Assumption = tuple[Symbol, bool]
 
 # A call of the solver that blocks answers in microseconds where one in the background takes a
 # millisecond, but it keeps signals from Python: it may only take some milliseconds.
-_BURST_CONFLICTS = "2000"
+_BURST_CONFLICTS = 2000
 _NO_LIMIT = "umax"
-_OPTIONS = ("--heuristic=Domain", "--warn=none", f"--solve-limit={_BURST_CONFLICTS}")
+# Nothing that was learned is kept from one call to the next: how many conflicts a call takes, and
+# whether a budget suffices, hardly depends on what a kept control was asked before.
+_OPTIONS = (
+    "--heuristic=Domain",
+    "--warn=none",
+    "--forget-on-step=varScores,signs,lemmaScores,lemmas",
+    f"--solve-limit={_BURST_CONFLICTS}",
+)
 _POLL_S = 0.2
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-
-OUT_OF_TIME = "the time for a decision ran out"
-
-_deadline: ContextVar[float | None] = ContextVar("deadline", default=None)
-
-
-class TimeLimitError(RuntimeError):
-    """The time of a `time_limit` ran out; every control stays usable."""
-
-
-@contextmanager
-def time_limit(seconds: float | None) -> Iterator[None]:
-    """Whatever is solved inside ends in a TimeLimitError after so many seconds; None: never.
-
-    Grounding is not interrupted; what it took counts at the next call of the solver.
-    """
-    token = _deadline.set(None if seconds is None else time.monotonic() + seconds)
-    try:
-        yield
-    finally:
-        _deadline.reset(token)
 
 
 @cache
@@ -77,16 +63,18 @@ def _argument(value: Symbol | int | str) -> Symbol:
 
 
 def ground(
-    texts: Iterable[str], constants: Mapping[str, int], facts: Iterable[Symbol]
+    texts: Iterable[str], constants: Mapping[str, int], facts: Iterable[Statement]
 ) -> clingo.Control:
     """A control with the ground program of the texts and facts.
 
     Solving is single-threaded and without randomness: the same texts, constants and facts in the
     same order give the same models. Where a program has `#heuristic` directives, its first model
-    is the preferred one.
+    is the preferred one. Raises LimitError where it is too large for the decision under way.
     """
+    texts = tuple(texts)
     arguments = [part for name, value in constants.items() for part in ("-c", f"{name}={value}")]
     control = clingo.Control([*arguments, *_OPTIONS])
+    count_rules(control, texts, constants)
     for text in texts:
         control.add("base", [], text)
     control.add("base", [], "\n".join(f"{atom}." for atom in facts))
@@ -100,22 +88,26 @@ def solving(
 ) -> Iterator[clingo.Model | None]:
     """The first model of a control made by `ground`, to be read while this is open; None: none.
 
-    Raises TimeLimitError. An interrupt from the keyboard reaches Python, whatever the solver does.
+    Raises LimitError. An interrupt from the keyboard reaches Python, whatever the solver does.
     """
-    check_time()
-    with _undisturbed(), control.solve(assumptions=assumptions, yield_=True) as handle:
-        model = handle.model()
-        if model is not None or not handle.get().unknown:
+    current().check_time()
+    with undisturbed() as deliver:
+        with control.solve(assumptions=assumptions, yield_=True) as handle:
+            model = handle.model()
+            if model is not None or not handle.get().unknown:
+                yield model
+                return
+        with _in_background(control, assumptions, deliver) as handle:
+            model = handle.model()
+            if model is None and handle.get().unknown:
+                raise BudgetError(OUT_OF_BUDGET)
             yield model
-            return
-    with _in_background(control, assumptions) as handle:
-        yield handle.model()
 
 
 def is_satisfiable(
     control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int] = ()
 ) -> bool:
-    """Whether there is an answer set. Raises TimeLimitError."""
+    """Whether there is an answer set. Raises LimitError."""
     with solving(control, assumptions) as model:
         return model is not None
 
@@ -127,21 +119,25 @@ def answer_sets(
 ) -> tuple[list[tuple[Symbol, ...]], bool]:
     """The shown symbols of the answer sets, each once, and whether there are more than `most`.
 
-    Raises TimeLimitError.
+    Raises LimitError.
     """
-    check_time()
+    current().check_time()
     settings: Any = control.configuration.solve
     before = settings.models, settings.project
-    settings.models, settings.project = "0", "show"
-    try:
-        with _undisturbed(), control.solve(assumptions=assumptions, yield_=True) as handle:
-            found, more = _collect(handle, most, lambda: None)
-            if more or not handle.get().unknown:
+    with undisturbed() as deliver:
+        settings.models, settings.project = "0", "show"
+        try:
+            with control.solve(assumptions=assumptions, yield_=True) as handle:
+                found, more = _collect(handle, most, lambda: None)
+                if more or handle.get().exhausted:
+                    return found, more
+            with _in_background(control, assumptions, deliver) as handle:
+                found, more = _collect(handle, most, lambda: _wait(handle, deliver))
+                if not (more or handle.get().exhausted):
+                    raise BudgetError(OUT_OF_BUDGET)
                 return found, more
-        with _in_background(control, assumptions) as handle:
-            return _collect(handle, most, lambda: _wait(handle))
-    finally:
-        settings.models, settings.project = before
+        finally:
+            settings.models, settings.project = before
 
 
 def _collect(
@@ -163,7 +159,7 @@ def core(
     """A smallest part of `optional` that has no answer set beside `assumptions`; None: all have.
 
     None of its members can be left out; where there is a choice it has the later ones of
-    `optional`. Raises TimeLimitError.
+    `optional`. Raises LimitError.
     """
     found: list[int] = []
     left = list(optional)
@@ -186,56 +182,38 @@ def core(
 
 
 @contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Puts off the handling of signals, which must not raise inside a call that clingo makes."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    came: list[int] = []
-    handlers = {number: signal.getsignal(number) for number in _SIGNALS}
-    put_off = {number: own for number, own in handlers.items() if callable(own)}
-    for number in put_off:
-        signal.signal(number, lambda received, _: came.append(received))
-    try:
-        yield
-    finally:
-        for number, own in put_off.items():
-            signal.signal(number, own)
-        if came:
-            signal.raise_signal(came[0])
-
-
-@contextmanager
 def _in_background(
-    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int]
+    control: clingo.Control,
+    assumptions: Sequence[Assumption] | Sequence[int],
+    deliver: Deliver,
 ) -> Iterator[clingo.SolveHandle]:
+    """A search with what is left of the decision's conflicts, inside `undisturbed`."""
     settings: Any = control.configuration.solve
-    settings.solve_limit = _NO_LIMIT
+    budget = current()
+    budget.take_conflicts(_BURST_CONFLICTS)
+    budget.check_conflicts()
+    left = budget.conflicts
+    settings.solve_limit = _NO_LIMIT if left is None else str(left)
     try:
         with control.solve(assumptions=assumptions, yield_=True, async_=True) as handle:
-            _wait(handle)
+            _wait(handle, deliver)
             yield handle
     finally:
-        settings.solve_limit = _BURST_CONFLICTS
+        settings.solve_limit = str(_BURST_CONFLICTS)
+        budget.take_conflicts(int(control.statistics["solving"]["solvers"]["conflicts"]))
 
 
-def _wait(handle: clingo.SolveHandle) -> None:
+def _wait(handle: clingo.SolveHandle, deliver: Deliver) -> None:
     """Polls, so that signals reach Python meanwhile."""
-    deadline = _deadline.get()
+    deadline = current().deadline
     while True:
         left = _POLL_S if deadline is None else min(_POLL_S, deadline - time.monotonic())
         if handle.wait(max(0.0, left)):
             return
+        deliver()
         if left <= 0.0:
             handle.cancel()
-            raise TimeLimitError(OUT_OF_TIME)
-
-
-def check_time() -> None:
-    """Raises TimeLimitError where the time of a `time_limit` has run out."""
-    deadline = _deadline.get()
-    if deadline is not None and time.monotonic() > deadline:
-        raise TimeLimitError(OUT_OF_TIME)
+            raise current().out_of_time()
 
 
 def first_model(
@@ -243,7 +221,7 @@ def first_model(
 ) -> tuple[Symbol, ...] | None:
     """The shown symbols of the first answer set, or None if there is none.
 
-    Raises TimeLimitError.
+    Raises LimitError.
     """
     if any(not _is_known(control, atom) for atom, truth in assumptions if truth):
         return None
@@ -251,20 +229,24 @@ def first_model(
         return None if model is None else tuple(model.symbols(shown=True))
 
 
-def optimal_model(control: clingo.Control) -> tuple[Symbol, ...] | None:
+def optimal_model(control: clingo.Control) -> tuple[tuple[Symbol, ...] | None, bool]:
     """The shown symbols of the first answer set that is best by `#minimize`; None: there is none.
 
-    The program is solved in one call, in which clasp betters one answer set after another. Raises
-    TimeLimitError.
+    With it, whether that is proved. The program is solved in one call, in which clasp betters one
+    answer set after another; where the budget is used up the best one found is given. Raises
+    LimitError where none was found.
     """
-    check_time()
+    current().check_time()
     best = None
-    with _in_background(control, ()) as handle:
+    with undisturbed() as deliver, _in_background(control, (), deliver) as handle:
         while (model := handle.model()) is not None:
             best = tuple(model.symbols(shown=True))
             handle.resume()
-            _wait(handle)
-    return best
+            _wait(handle, deliver)
+        proved = handle.get().exhausted
+        if best is None and not proved:
+            raise BudgetError(OUT_OF_BUDGET)
+    return best, proved
 
 
 def _is_known(control: clingo.Control, atom: Symbol) -> bool:

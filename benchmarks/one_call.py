@@ -20,6 +20,6 @@ class OneCallLogician(Logician):
         facts = [*self._facts(history), *adopted.facts("explained")]
         facts.append(fact("explanation", len(adopted.unobserved), history.step))
         texts = [*self._base, *map(theory, ("planning", "joint", "undivided"))]
-        model = optimal_model(ground(texts, constants, facts))
+        model, _ = optimal_model(ground(texts, constants, facts))
         assert model is not None
         return read_intention(model)

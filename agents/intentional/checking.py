@@ -16,6 +16,7 @@ import msgspec
 
 from agents.intentional.controller import IntentionalRobot
 from agents.shared.knowledge import knowledge
+from asp.budget import deciding
 from asp.description import Description, Literals
 from asp.literals import atom, complement
 from testbed.link.messages import Decision, Percept, Task
@@ -30,8 +31,9 @@ class CheckingRobot:
 
     def begin(self, task: Task) -> None:
         """Takes the task on, with what the robot has to be sure of added to its goal."""
-        self._fluents = frozenset(knowledge(task.domain, task.source).description.fluents)
-        self._robot.begin(to_be_sure(task))
+        with deciding():
+            self._fluents = frozenset(knowledge(task.domain, task.source).description.fluents)
+            self._robot.begin(to_be_sure(task))
 
     def act(self, percept: Percept) -> Decision:
         """One round of the loop. Raises InconsistentHistoryError."""

@@ -14,11 +14,12 @@ from agents.intentional.reasons import Reasons
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
+from agents.shared.limits import limits_of
 from agents.shared.phases import Phases
 from agents.shared.relevance import goal_fluents, relevant_literals
+from asp.budget import LimitError, deciding
 from asp.kept.clock import preparation, reasoning_clock
 from asp.literals import is_positive
-from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Decision, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
@@ -47,7 +48,7 @@ class IntentionalRobot:
     def begin(self, task: Task) -> None:
         """Selects the task's goal at step 0, where it knows `task.initial`."""
         began = reasoning_clock()
-        with preparation():
+        with deciding(), preparation():
             self._begin(task)
         self._prepared = reasoning_clock().since(began).preparation_cpu
 
@@ -56,7 +57,8 @@ class IntentionalRobot:
         self._domain = domain = knowledge(task.domain, task.source)
         self._description = domain.description
         self._goal_fluents = goal_fluents(domain.description, task.goal)
-        self._logician = self._reasoner(domain, tuple(task.goal), task.plan_limit)
+        self._limits = limits_of(task)
+        self._logician: Reasoner | None = None
         self._diagnosis = Diagnosis()
         self._history = History()
         self._history.observe(task.initial, 0)
@@ -64,21 +66,23 @@ class IntentionalRobot:
         self._attempted: str | None = None
         start = frozenset(filter(is_positive, task.initial))
         self._believed: tuple[int, frozenset[str]] = (0, start)
-        self._reasons = Reasons(domain, tuple(task.goal), task.plan_limit, task.decision_s)
 
     def act(self, percept: Percept) -> Decision:
-        """One round of the loop; where the time for a decision runs out, the robot waits a step.
+        """One round of the loop; where it reaches a limit of decisions, the robot waits a step.
 
         Raises InconsistentHistoryError.
         """
-        self._observe(percept)
-        thought = _Thought(self._diagnosis)
-        try:
-            with time_limit(self._task.decision_s):
-                self._think(thought)
-        except TimeLimitError:
-            thought.phases.end()
-        trace = thought.phases.timed(self._trace(thought), self._prepared)
+        with deciding() as decision:
+            self._observe(percept)
+            thought = _Thought(self._diagnosis)
+            try:
+                with deciding(self._limits):
+                    self._think(thought)
+            except LimitError as limit:
+                thought.phases.end()
+                thought.limit = str(limit)
+            trace = thought.phases.timed(self._trace(thought), self._prepared)
+        trace = structs.replace(trace, deadline=decision.late)
         self._prepared = 0.0
         intention = thought.intention
         self._attempt(intention)
@@ -93,12 +97,21 @@ class IntentionalRobot:
             trace=trace,
         )
 
+    def _prepare(self) -> Reasoner:
+        """What the domain is reasoned with, made in a decision so that its limits hold for it."""
+        goal, plan_limit = tuple(self._task.goal), self._task.plan_limit
+        with preparation():
+            self._reasons = Reasons(self._domain, goal, plan_limit, self._limits)
+            self._logician = self._reasoner(self._domain, goal, plan_limit)
+        return self._logician
+
     def _think(self, thought: _Thought) -> None:
-        """Both phases. Raises TimeLimitError, after which what was found so far is kept."""
-        explained = self._logician.diagnose(self._history, self._diagnosis)
+        """Both phases. Raises LimitError, after which what was found so far is kept."""
+        logician = self._logician or self._prepare()
+        explained = logician.diagnose(self._history, self._diagnosis)
         thought.phases.diagnosis_is_over()
         thought.explained, self._diagnosis = explained, explained.diagnosis
-        intention = self._logician.intend(self._history, explained)
+        intention = logician.intend(self._history, explained)
         thought.phases.end()
         thought.intention = intention
         if intention.under is not None:
@@ -141,7 +154,7 @@ class IntentionalRobot:
         intention, explained = thought.intention, thought.explained
         trace = Trace(
             belief=sorted(self._believed[1] - {GOAL}),
-            reason=OUT_OF_TIME,
+            reason=thought.limit,
             activity=None if explained is None else max(explained.indices, default=None),
             plans=len(self._history.activities),
         )
@@ -196,3 +209,4 @@ class _Thought:
     phases: Phases = field(default_factory=Phases)
     explained: Explained | None = None
     intention: Intention | None = None
+    limit: str = ""

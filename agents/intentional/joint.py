@@ -24,9 +24,9 @@ class JointLogician(Logician):
     one program with every explanation that takes no more of them.
     """
 
-    def diagnose(self, history: History, _adopted: Diagnosis, /) -> Explained:
+    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
         """The first of all smallest explanations; none is kept. Raises InconsistentHistoryError."""
-        return super().diagnose(history, Diagnosis())
+        return self._explained(history, adopted, keeps=False)
 
     def intend(self, history: History, explained: Explained) -> Intention:
         """The intention that is best under any smallest explanation; its `under` says which.
@@ -75,7 +75,9 @@ class JointLogician(Logician):
         for kind in kinds:
             model = first_model(control, [*smallest, (fact(kind), True)])
             if model is not None:
-                return replace(read_intention(model), under=explained_by(model, kept=False))
+                return replace(
+                    read_intention(model), under=explained_by(model, False, diagnosis.proved)
+                )
         return None
 
 

@@ -15,6 +15,7 @@ from msgspec import structs
 
 from agents.intentional.renamed import renamed_decision, renamed_event
 from asp import syntax
+from asp.budget import deciding
 from asp.description import Description
 from asp.kept.clock import preparation
 from asp.kept.independence import Independence
@@ -104,8 +105,9 @@ class LeanRobot:
 
     def begin(self, task: Task) -> None:
         """Takes on what is left of the task."""
-        self.leaned = Leaned(task)
-        self._robot.begin(self.leaned.task)
+        with deciding():
+            self.leaned = Leaned(task)
+            self._robot.begin(self.leaned.task)
 
     def act(self, percept: Percept) -> Decision:
         """The other robot's decision. Raises InconsistentHistoryError."""

@@ -25,8 +25,12 @@ class Logician:
 
     def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
         """Phase one. Raises InconsistentHistoryError."""
+        return self._explained(history, adopted, keeps=True)
+
+    def _explained(self, history: History, adopted: Diagnosis, keeps: bool) -> Explained:
         constants = self._constants(history, history.step, history.longest)
-        return diagnose(self._base, constants, self._facts(history), history, adopted)
+        facts = self._facts(history)
+        return diagnose(self._base, constants, facts, history, adopted, keeps)
 
     def intend(self, history: History, explained: Explained) -> Intention:
         """Phase two, over a horizon that grows from the end of the activity in progress on.

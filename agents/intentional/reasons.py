@@ -16,10 +16,10 @@ from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import past_of
 from agents.shared.tools import tools_of
+from asp.budget import UNLIMITED, LimitError, Limits, deciding
 from asp.kept.control import State
 from asp.kept.pasts import Assumed
 from asp.literals import complement
-from asp.solving import TimeLimitError, time_limit
 from testbed.link.messages import Contradiction, Event, Explanation, NoPlan
 
 MOST_ALTERNATIVES = 20
@@ -47,13 +47,13 @@ class Reasons:
         knowledge: Knowledge,
         goal: tuple[str, ...],
         plan_limit: int,
-        decision_s: float | None = None,
+        limits: Limits = UNLIMITED,
     ) -> None:
         self._knowledge = knowledge
         self._tools = tools_of(knowledge)
         self._goal = goal
-        self._giving_up = GivingUp(knowledge, goal, plan_limit, decision_s)
-        self._decision_s = decision_s
+        self._giving_up = GivingUp(knowledge, goal, plan_limit, limits)
+        self._limits = limits
         self._contradicting = Contradicting(knowledge, goal)
 
     def why(self, history: History, intention: Intention, explained: Explained) -> Why:
@@ -84,15 +84,20 @@ class Reasons:
     ) -> tuple[list[Explanation], bool]:
         """The other explanations that are as small, and whether there are more than are given.
 
-        None are given where the time for a decision does not suffice to find them.
+        None are given where the limits of a decision do not suffice to find them.
         """
         diagnosis = explained.diagnosis
         try:
-            with time_limit(self._decision_s):
+            with deciding(self._limits):
                 found, more = self._found(history, explained)
-        except TimeLimitError:
+        except LimitError:
             return [], True
-        others = (Diagnosis(_events(a.events), _events(a.distrusted), a.exceptions) for a in found)
+        others = (
+            Diagnosis(
+                _events(a.events), _events(a.distrusted), a.exceptions, proved=diagnosis.proved
+            )
+            for a in found
+        )
         own = replace(diagnosis, initial=())
         return [self.explanation(other, history.step) for other in others if other != own], more
 
@@ -111,6 +116,7 @@ class Reasons:
             unobserved=list(diagnosis.unobserved),
             distrusted=list(diagnosis.distrusted),
             exceptions=self._knowledge.against(diagnosis.exceptions),
+            minimal="proved" if diagnosis.proved else "unproved",
         )
 
     def _futile(self, step: int, state: State, left: tuple[str, ...]) -> Why:

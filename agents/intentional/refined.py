@@ -13,6 +13,7 @@ from agents.intentional.executor.execution import Execution, Steps
 from agents.intentional.executor.mind import Mind
 from agents.intentional.executor.report import Outcome, Reporter
 from agents.intentional.lean import LeanRobot
+from asp.budget import deciding
 from asp.kept.clock import preparation, reasoning_clock
 from asp.literals import is_positive
 from asp.refinement import load
@@ -38,6 +39,10 @@ class RefinedRobot:
 
         Raises SourceError for the task's texts.
         """
+        with deciding():
+            self._take_on(task)
+
+    def _take_on(self, task: Task) -> None:
         began = reasoning_clock()
         with preparation():
             file = f"{task.domain}.al"
@@ -59,11 +64,12 @@ class RefinedRobot:
 
     def act(self, percept: Percept) -> Decision:
         """The next concrete action. Raises InconsistentHistoryError."""
-        began, prepared = reasoning_clock(), self._prepared
-        decision = self._next(percept)
-        self._prepared = 0.0
-        spent = prepared + reasoning_clock().since(began).preparation_cpu
-        trace = structs.replace(decision.trace, preparation_cpu_s=spent)
+        with deciding() as limited:
+            began, prepared = reasoning_clock(), self._prepared
+            decision = self._next(percept)
+            self._prepared = 0.0
+            spent = prepared + reasoning_clock().since(began).preparation_cpu
+        trace = structs.replace(decision.trace, preparation_cpu_s=spent, deadline=limited.late)
         return structs.replace(decision, trace=trace)
 
     def _next(self, percept: Percept) -> Decision:

@@ -33,10 +33,11 @@ class UndividedLogician(Logician):
         constants["plan_limit"] = self._plan_limit
 
         def best(most: int) -> Intention | None:
-            model = optimal_model(ground(texts, {**constants, "max_unobserved": most}, facts))
+            control = ground(texts, {**constants, "max_unobserved": most}, facts)
+            model, proved = optimal_model(control)
             if model is None:
                 return None
-            return replace(read_intention(model), under=explained_by(model, kept=False))
+            return replace(read_intention(model), under=explained_by(model, False, proved))
 
         limits = event_limits(self._base[0], facts, history.step, explained.diagnosis.size)
         return next(filter(None, map(best, limits)))

@@ -12,8 +12,10 @@ from agents.shared.assuming import assumed_in, events_of, without_reported
 from agents.shared.following import Belief, Follower
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge
+from agents.shared.limits import SEARCH
 from agents.shared.memory import PACE, Memory, record_of
 from agents.shared.tools import tools_of
+from asp.budget import BudgetError, current, up_to
 from asp.kept.control import State
 from asp.kept.folding import Pace
 from asp.kept.pasts import Account, Assumed, Past, Record
@@ -24,7 +26,7 @@ class Believer:
     """Explains one history after another step of it, as `diagnose` does, for one trial.
 
     `since` is the first step at which an exogenous action may have occurred. `plain` explains the
-    history where that takes more events than the kept control counts.
+    history where that takes more events than the kept control counts, or more than the budget.
     """
 
     def __init__(
@@ -113,9 +115,7 @@ class Believer:
             account = explanations.keeping(past, assumed_in(adopted))
             if account is not None:
                 return self._adopt(account, history, unknown)
-        folding = self._memory.folding
-        account = folding.smallest(past, self._fewest[0]) if folding else None
-        account = account or explanations.smallest(past, self._fewest)
+        account = self._smallest(past)
         if account is None:
             diagnosis = self._plain(history, adopted)
             start = self._first(history, diagnosis)
@@ -123,9 +123,20 @@ class Believer:
             self._belief = self._follower.replayed(start, history, diagnosis)
         else:
             diagnosis = self._adopt(account, history, unknown)
-        if assumed_in(diagnosis) != assumed_in(adopted):
+        if diagnosis.proved and assumed_in(diagnosis) != assumed_in(adopted):
             self._fewest = (diagnosis.size, len(diagnosis.exceptions))
         return diagnosis
+
+    def _smallest(self, past: Past) -> Account | None:
+        """The smallest explanation; None where that takes another way, or more than the budget."""
+        folding = self._memory.folding
+        try:
+            with up_to(SEARCH):
+                current().check_conflicts()
+                account = folding.smallest(past, self._fewest[0]) if folding else None
+                return account or self._tools.explanations.smallest(past, self._fewest)
+        except BudgetError:
+            return None
 
     def _adopt(self, account: Account, history: History, unknown: Iterable[str]) -> Diagnosis:
         """The account as an explanation; the belief becomes what it leads to."""

@@ -8,7 +8,10 @@ from dataclasses import dataclass, field
 import clingo
 from clingo import Symbol
 
+from agents.shared.anytime import Search
 from agents.shared.history import Diagnosis, History
+from agents.shared.limits import SEARCH
+from asp.budget import BudgetError, current, up_to
 from asp.conflicts import cannot_hold, conflict
 from asp.kept.pasts import Assumed
 from asp.preferring import preferring
@@ -19,6 +22,7 @@ from testbed.link.messages import Event
 _KEEP = clingo.Function("keep")
 _KEEP_INITIAL = clingo.Function("keep_initial")
 _FIRST_TRY = 4
+_ROOM = 16
 
 
 class InconsistentHistoryError(RobotStops):
@@ -47,42 +51,68 @@ def diagnose(
     facts: Iterable[Symbol],
     history: History,
     adopted: Diagnosis,
+    keeps: bool = True,
 ) -> Explained:
     """Explains the history up to its step; `texts` are the domain, and theories besides diagnosis.
 
-    The adopted diagnosis is kept if it still explains everything, at least its events and
-    exceptions; else the first one, in the stated order, with the fewest unobserved events and then
-    the fewest exceptions to defaults. Raises InconsistentHistoryError.
+    The adopted diagnosis is kept, where `keeps`, if it still explains everything, at least its
+    events and exceptions; else the first one, in the stated order, with the fewest unobserved
+    events and then the fewest exceptions to defaults. Where the budget of the decision does not
+    suffice for that it is the best one found, which is not `proved`. Raises
+    InconsistentHistoryError and LimitError.
     """
     given = [*facts, fact("explaining", history.step), *adopted.facts("adopted")]
     programs = [*texts, theory("defaults"), theory("order"), theory("diagnosis")]
+    step, size = history.step, adopted.size
 
-    def explained(most: int) -> Explained | None:
-        control = ground(programs, {**constants, "max_unobserved": most}, given)
-        return _kept(control) or _smallest(control)
+    def counting(most: int) -> clingo.Control:
+        return ground(programs, {**constants, "max_unobserved": most}, given)
 
-    limits = event_limits(programs[0], given, history.step, adopted.size)
-    return next(filter(None, map(explained, limits)))
+    def smallest(most: int) -> Explained | None:
+        control = counting(most)
+        return (_kept(control) if keeps else None) or _smallest(control)
+
+    try:
+        with up_to(SEARCH):
+            current().check_conflicts()
+            limits = event_limits(programs[0], given, step, size)
+            return next(filter(None, map(smallest, limits)))
+    except BudgetError:
+        pass
+    for most in room_for_events(given, step, size + _ROOM):
+        found = Search(counting(most), adopted, step).best()
+        if found is not None:
+            return explained_by(found, kept=False, proved=False)
+    raise _nothing_explains(step)
+
+
+def room_for_events(facts: Iterable[Symbol], step: int, first: int) -> Iterator[int]:
+    """Ever larger numbers of events, up to all that can have occurred before the step."""
+    possible = step * sum(symbol.match("rank", 2) for symbol in facts)
+    while first < possible:
+        yield first
+        first *= 4
+    yield possible
 
 
 def event_limits(program: str, facts: Sequence[Symbol], step: int, adopted: int) -> Iterator[int]:
-    """Ever larger numbers of unobserved events to try on a history up to `step`, without an end.
+    """Ever larger numbers of unobserved events to try on a history up to `step`.
 
     `program` is the domain; an explanation of `adopted` events is within the first limit.
 
     Raises:
         InconsistentHistoryError: instead of the next number, if no number suffices.
     """
-    possible = step * sum(symbol.match("rank", 2) for symbol in facts)
-    most = max(_FIRST_TRY, adopted)
-    while True:
+    for most in room_for_events(facts, step, max(_FIRST_TRY, adopted)):
         yield most
         found = conflict(program, facts, step)
         if found is not None:
             raise InconsistentHistoryError(f"inconsistent history: {cannot_hold(found)}")
-        if most >= possible:
-            raise InconsistentHistoryError(f"nothing explains the observations up to step {step}")
-        most *= 4
+    raise _nothing_explains(step)
+
+
+def _nothing_explains(step: int) -> InconsistentHistoryError:
+    return InconsistentHistoryError(f"nothing explains the observations up to step {step}")
 
 
 def _kept(control: clingo.Control) -> Explained | None:
@@ -121,8 +151,8 @@ def _preferred(
         return None if model is None else explained_by(model.symbols(shown=True), kept)
 
 
-def explained_by(model: Sequence[Symbol], kept: bool) -> Explained:
-    """What an answer set of the theory of diagnosis says."""
+def explained_by(model: Sequence[Symbol], kept: bool, proved: bool = True) -> Explained:
+    """What an answer set of the theory of diagnosis says, and whether nothing smaller does."""
     diagnosis = Diagnosis(
         unobserved=_events(model, "unobserved"),
         distrusted=_events(model, "distrusted"),
@@ -133,6 +163,7 @@ def explained_by(model: Sequence[Symbol], kept: bool) -> Explained:
                 for fluent, truth in select(model, "initial", 2)
             )
         ),
+        proved=proved,
     )
     indices = {name.number: index.number for name, index in select(model, "index", 2)}
     return Explained(diagnosis, kept, indices)

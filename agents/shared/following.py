@@ -42,7 +42,7 @@ class Follower:
     def carried(self, belief: Belief, history: History, adopted: Diagnosis) -> Belief | None:
         """The belief at the history's step; None where the explanation does not agree with it.
 
-        Raises TimeLimitError.
+        Raises LimitError.
         """
         later: Belief | None = belief
         while later is not None and self._agrees(history.at(later.step), later.state):

@@ -10,7 +10,7 @@ from collections.abc import Collection
 
 from agents.shared.knowledge import Knowledge
 from agents.shared.tools import tools_of
-from asp.solving import TimeLimitError, time_limit
+from asp.budget import UNLIMITED, LimitError, Limits, deciding
 from testbed.link.messages import NoPlan
 
 
@@ -22,12 +22,12 @@ class GivingUp:
         knowledge: Knowledge,
         goal: tuple[str, ...],
         plan_limit: int,
-        decision_s: float | None = None,
+        limits: Limits = UNLIMITED,
     ) -> None:
         self._reach = tools_of(knowledge).reach
         self._goal = goal
         self._plan_limit = plan_limit
-        self._decision_s = decision_s
+        self._limits = limits
 
     def why(self, believed: Collection[str]) -> tuple[NoPlan, str]:
         """Of a state for which no plan within the limit was found, as a key and in words."""
@@ -43,7 +43,7 @@ class GivingUp:
 
     def _is_reachable(self, state: frozenset[str]) -> bool | None:
         try:
-            with time_limit(self._decision_s):
+            with deciding(self._limits):
                 return self._reach.reachable(state, self._goal)
-        except TimeLimitError:
+        except LimitError:
             return None

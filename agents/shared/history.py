@@ -102,13 +102,15 @@ class Diagnosis:
 
     `distrusted` are reports of events that did not happen, and attempts that were not executed;
     `exceptions` are names of the domain's defaults, `initial` literals of the inertial fluents of
-    which nothing was observed at step 0; both are sorted.
+    which nothing was observed at step 0; both are sorted. `proved` says whether it is known that no
+    explanation is smaller.
     """
 
     unobserved: tuple[Event, ...] = ()
     distrusted: tuple[Event, ...] = ()
     exceptions: tuple[str, ...] = ()
     initial: tuple[str, ...] = ()
+    proved: bool = field(default=True, compare=False)
 
     def facts(self, predicate: str) -> Iterator[Symbol]:
         """predicate(PEA,I) for each event, and predicate_distrusted(A,I) for what is distrusted.

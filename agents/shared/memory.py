@@ -7,10 +7,10 @@ from collections.abc import Callable
 from agents.shared.history import GOAL, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.tools import tools_of
+from asp.budget import LimitError
 from asp.kept.control import State
 from asp.kept.folding import Folding, Pace
 from asp.kept.pasts import Past, Record
-from asp.solving import TimeLimitError
 
 PACE = Pace()
 
@@ -58,7 +58,7 @@ class Memory:
     def fold(self, history: History) -> None:
         """Folds a little more of the past, where its start is known.
 
-        Where the time for the decision runs out, this is left for later: it only saves time.
+        Where the decision reaches one of its limits, this is left for later: it only saves time.
         """
         if history.step <= self._pace.after or self.unknown(history):
             return
@@ -67,7 +67,7 @@ class Memory:
                 self._folding = self._begun()
             if self._folding is not None:
                 self._folding.follow(self._records, history.step)
-        except TimeLimitError:
+        except LimitError:
             pass
 
     def past(self, history: History) -> Past:

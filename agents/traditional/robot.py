@@ -13,14 +13,15 @@ from agents.shared.diagnosis import Explained
 from agents.shared.giving_up import GivingUp
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
+from agents.shared.limits import limits_of
 from agents.shared.phases import Phases
 from agents.shared.relevance import outcome_literals
 from agents.traditional.kept import KeptPlanner
 from agents.traditional.planner import Plan
+from asp.budget import LimitError, deciding
 from asp.kept.clock import preparation, reasoning_clock
 from asp.kept.control import State
 from asp.literals import is_positive
-from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
 
 
@@ -50,39 +51,42 @@ class TraditionalRobot:
     def begin(self, task: Task) -> None:
         """Takes the task on; the first plan is made with the first percept."""
         began = reasoning_clock()
-        with preparation():
+        with deciding(), preparation():
             self._begin(task)
         self._prepared = reasoning_clock().since(began).preparation_cpu
 
     def _begin(self, task: Task) -> None:
         self._domain = domain = knowledge(task.domain, task.source)
         self._description = domain.description
-        self._reasoner = self._make_reasoner(domain, tuple(task.goal), task.plan_limit)
+        self._goal = tuple(task.goal)
+        self._reasoner: Reasoner | None = None
         self._history = History()
         self._history.observe(task.initial, 0)
         self._diagnosis = Diagnosis()
-        self._decision_s = task.decision_s
+        self._limits = limits_of(task)
         self._plan: Plan | None = None
         self._plans = 0
         self._told = self._diagnosis
         self._believed: tuple[int, State] = (0, frozenset(filter(is_positive, task.initial)))
-        self._contradicting = Contradicting(domain, tuple(task.goal))
-        self._giving_up = GivingUp(domain, tuple(task.goal), task.plan_limit, task.decision_s)
+        self._plan_limit = task.plan_limit
 
     def act(self, percept: Percept) -> Decision:
-        """The next action of the plan; where the time for a decision runs out, it waits a step.
+        """The next action of the plan; where it reaches a limit of decisions, it waits a step.
 
         Raises InconsistentHistoryError.
         """
-        self._observe(percept)
-        thought = _Thought()
-        try:
-            with time_limit(self._decision_s):
-                self._think(thought)
-        except TimeLimitError:
-            thought.phases.end()
+        with deciding() as decision:
+            self._observe(percept)
+            thought = _Thought()
+            try:
+                with deciding(self._limits):
+                    self._think(thought)
+            except LimitError as limit:
+                thought.phases.end()
+                thought.limit = str(limit)
+            trace = thought.phases.timed(self._trace(thought, percept.step), self._prepared)
         plan = thought.plan
-        trace = thought.phases.timed(self._trace(thought, percept.step), self._prepared)
+        trace = structs.replace(trace, deadline=decision.late)
         self._prepared = 0.0
         if plan is not None:
             self._attempt(plan)
@@ -94,15 +98,24 @@ class TraditionalRobot:
             trace=trace,
         )
 
+    def _prepare(self) -> Reasoner:
+        """What the domain is reasoned with, made in a decision so that its limits hold for it."""
+        with preparation():
+            self._contradicting = Contradicting(self._domain, self._goal)
+            self._giving_up = GivingUp(self._domain, self._goal, self._plan_limit, self._limits)
+            self._reasoner = self._make_reasoner(self._domain, self._goal, self._plan_limit)
+        return self._reasoner
+
     def _think(self, thought: _Thought) -> None:
-        """Diagnosis, and a plan if there is none. What was found remains if the time runs out."""
-        explained = self._reasoner.diagnose(self._history, self._diagnosis)
+        """Diagnosis, and a plan if there is none. What was found remains at a limit."""
+        reasoner = self._reasoner or self._prepare()
+        explained = reasoner.diagnose(self._history, self._diagnosis)
         thought.phases.diagnosis_is_over()
         self._diagnosis = explained.diagnosis
         if not explained.kept:
             self._plan = None
         thought.made = self._plan is None
-        plan = self._plan or self._reasoner.plan(self._history, self._diagnosis)
+        plan = self._plan or reasoner.plan(self._history, self._diagnosis)
         thought.phases.end()
         thought.plan = plan
 
@@ -126,7 +139,7 @@ class TraditionalRobot:
 
     def _trace(self, thought: _Thought, step: int) -> Trace:
         """The mind behind the decision, before anything of it is recorded."""
-        trace = self._with_explanation(Trace(reason=OUT_OF_TIME, plans=self._plans), step)
+        trace = self._with_explanation(Trace(reason=thought.limit, plans=self._plans), step)
         plan = thought.plan
         if plan is None:
             return trace
@@ -158,6 +171,7 @@ class TraditionalRobot:
                 unobserved=list(diagnosis.unobserved),
                 exceptions=self._domain.against(diagnosis.exceptions),
                 distrusted=list(diagnosis.distrusted),
+                minimal="proved" if diagnosis.proved else "unproved",
             ),
             contradictions=self._contradicting.contradictions(
                 self._history, before, believed, since
@@ -172,6 +186,7 @@ class _Thought:
     phases: Phases = field(default_factory=Phases)
     plan: Plan | None = None
     made: bool = False
+    limit: str = ""
 
 
 def _why(made: bool, plan: Plan) -> str:

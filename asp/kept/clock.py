@@ -45,7 +45,7 @@ def reasoning_clock() -> Reading:
 
     Controls are grounded, problems encoded, and spaces for searches made, once per process, by
     whichever trial needs them first; counted as reasoning, they would make the cost of a trial
-    depend on what was played before. The limit on a decision (`asp.solving.time_limit`) counts
+    depend on what was played before. The limit on a decision (`asp.budget`) counts
     them: a robot may take no longer.
     """
     wall, cpu = time.perf_counter(), time.process_time()

@@ -9,6 +9,7 @@ import clingo
 from clingo import Symbol
 
 from asp.kept.clock import preparation
+from asp.signals import undisturbed
 from asp.solving import fact, ground, theory
 
 State = frozenset[str]
@@ -29,7 +30,8 @@ class KeptControl:
         with preparation():
             self.control = ground([program, theory(theory_name)], constants, ranks)
             # The first call prepares the solver, whatever it is asked.
-            self.control.solve()
+            with undisturbed():
+                self.control.solve()
         self._fluents = tuple(fluents)
         self._externals: set[Symbol] = set()
         self._literals: dict[tuple[int | str, ...], int | None] = {}
@@ -68,13 +70,13 @@ class KeptControl:
     def switch_on(self, *atoms: Symbol) -> None:
         """Makes exactly these externals true; those of the call before become false again."""
         wanted = set(atoms)
-        for atom in self._externals - wanted:
-            self.control.assign_external(atom, False)
         for atom in wanted - self._externals:
             if self.control.symbolic_atoms[atom] is None:
                 raise ValueError(f"{atom} is no external of this program")
-            self.control.assign_external(atom, True)
-        self._externals = wanted
+        with undisturbed():
+            for atom in self._externals ^ wanted:
+                self.control.assign_external(atom, atom in wanted)
+            self._externals = wanted
 
 
 @lru_cache(maxsize=1_000)

@@ -18,15 +18,17 @@ from asp.kept.pasts import (
     externals,
     observations,
 )
+from asp.kept.recent import Recent
 from asp.preferring import preferring
 from asp.solving import answer_sets, is_satisfiable, theory
 
 _FIRST_HORIZON = 16
 _FEW, _MANY = 4, 16
+_MOST_CONTROLS = 4
 
 
 class Explanations:
-    """The smallest explanations in one domain; the horizon doubles when a history outgrows it.
+    """The smallest explanations in one domain; the horizon doubles where a history outgrows it.
 
     A control counts events up to a number. Most explanations are of a few, for which a small
     control is kept; one that counts further is grounded when they do not suffice.
@@ -46,8 +48,7 @@ class Explanations:
         self._events = events
         self._defaults = defaults
         self._ranks = tuple(ranks)
-        self._controls: dict[int, KeptControl] = {}
-        self._horizon = _FIRST_HORIZON
+        self._controls: Recent[tuple[int, int], KeptControl] = Recent(_MOST_CONTROLS)
 
     def smallest(self, past: Past, fewest: tuple[int, int] = (0, 0)) -> Account | None:
         """The first of the smallest explanations of the past.
@@ -115,19 +116,16 @@ class Explanations:
             return account(kept, model, question.past, self._events, self._defaults)
 
     def _reaching(self, step: int, most: int) -> KeptControl:
-        while self._horizon < step:
-            self._horizon *= 2
-            self._controls.clear()
-        if most not in self._controls:
-            self._controls[most] = KeptControl(
-                self._program,
-                "kept_diagnosis",
-                self._fluents,
-                self._ranks,
-                n=self._horizon,
-                most=most,
-            )
-        return self._controls[most]
+        # It depends on the history alone, so that budgets do not depend on earlier histories.
+        horizon = _FIRST_HORIZON
+        while horizon < step:
+            horizon *= 2
+        return self._controls.get((horizon, most), lambda: self._made(horizon, most))
+
+    def _made(self, horizon: int, most: int) -> KeptControl:
+        return KeptControl(
+            self._program, "kept_diagnosis", self._fluents, self._ranks, n=horizon, most=most
+        )
 
 
 @dataclass(frozen=True)

@@ -33,16 +33,14 @@ def fitted_plan(
     problem: Problem,
     confined: Sequence[Mapping[str, Sequence[str]]],
 ) -> tuple[str, ...] | None:
-    """The first plan of exactly so many steps, or None. Raises TimeLimitError.
+    """The first plan of exactly so many steps, or None. Raises LimitError.
 
     `program` has its rules worded for being confined, `actions` their places in the order of
     declaration; `confined` are for each step the functions confined, with the fluents left.
     """
     length = len(confined) - 1
-    facts = "\n".join(f"{fact}." for fact in (*_given(problem, confined[0]), *_within(confined)))
-    control = ground(
-        [program, theory("kept_fine"), theory("kept_fitted"), facts], {"n": length}, ()
-    )
+    facts = (*_given(problem, confined[0]), *_within(confined))
+    control = ground([program, theory("kept_fine"), theory("kept_fitted")], {"n": length}, facts)
     first, *others = parts(length)
     control.ground([first, ("open", []), *others, ("goal", [Number(length)])])
     _prefer(control, actions)

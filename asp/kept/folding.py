@@ -73,7 +73,7 @@ class Folding:
         return self._front.size + (self._wider.size if self._wider else 0)
 
     def follow(self, records: Mapping[int, Record], step: int) -> None:
-        """Folds a little more of a history that has reached a step. Raises TimeLimitError."""
+        """Folds a little more of a history that has reached a step. Raises LimitError."""
         if step <= self._pace.after:
             return
         left = self._advance(self._front, records, step, self._pace.work)
@@ -82,7 +82,7 @@ class Folding:
     def smallest(self, past: Past, fewest: int) -> Account | None:
         """The first of the smallest explanations, not smaller than `fewest`; None: cannot tell.
 
-        Raises TimeLimitError.
+        Raises LimitError.
         """
         found = self._windows.smallest(self._front, past, fewest) if self.step else None
         self._smallest = None if found is None else (past.step, found.assumed.size)
@@ -93,7 +93,7 @@ class Folding:
     def alternatives(self, past: Past, size: int, most: int) -> tuple[list[Assumed], bool] | None:
         """At most so many explanations of the smallest size, and whether there are more of them.
 
-        None where it did not find that size for this step. Raises TimeLimitError.
+        None where it did not find that size for this step. Raises LimitError.
         """
         if not self.step or self._smallest != (past.step, size):
             return None

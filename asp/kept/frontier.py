@@ -76,7 +76,7 @@ class Frontier:
     def advance(self, record: Record, following: Record, work: int) -> int:
         """Goes on with the next step; what is left of `work`, counted in transitions.
 
-        It goes on next time with what it has not done. Raises TimeLimitError.
+        It goes on next time with what it has not done. Raises LimitError.
         """
         advancing, self._advancing = self._advancing, None
         if advancing is None:

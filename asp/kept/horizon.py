@@ -54,7 +54,7 @@ class Horizon:
         return [*assumed, *(self._placed[function] for function in candidates)]
 
     def plan(self, start: Sequence[int], goal: Iterable[str]) -> tuple[str, ...] | None:
-        """The first plan of exactly this length, or None. Raises TimeLimitError."""
+        """The first plan of exactly this length, or None. Raises LimitError."""
         assumptions = [*start]
         for literal in goal:
             number = self._wanted(atom(literal))

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from asp.description import Description
-from asp.kept.outcomes import Laws
+from asp.kept.outcomes import Laws, NotEncodableError
 from asp.kept.values import Law
 from asp.literals import atom, complement, is_positive
 
@@ -20,10 +20,6 @@ NONE, FALSE, TRUE = "none", "false", "true"
 
 Values = tuple[tuple[int, int], ...]
 """Variables, each with a value, both by number."""
-
-
-class NotEncodableError(ValueError):
-    """A description with defined fluents, or with a transition that may have several outcomes."""
 
 
 @dataclass(frozen=True)

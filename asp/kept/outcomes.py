@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from asp.budget import current
 from asp.kept.values import (
     UNDECIDED,
     Body,
@@ -23,8 +24,15 @@ from asp.kept.values import (
     unknown_in,
 )
 
+MOST_BRANCHES = 50_000
+"""How many combinations of values are looked at, all actions of a description together."""
+
 Case = tuple[tuple[tuple[int, int], ...], tuple[tuple[int, int], ...] | None]
 """What is true before and what is changed; None where there may be several outcomes."""
+
+
+class NotEncodableError(ValueError):
+    """A description with defined fluents, with several outcomes of an action, or too many cases."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +57,7 @@ class Laws:
         """`sizes` are the numbers of values of each variable."""
         self._constraints = tuple(constraints)
         self._sizes = sizes
+        self._branches = 0
         self._claiming: dict[tuple[int, int], list[Law]] = {}
         self._denying: dict[int, list[Law]] = {}
         self._concluding: dict[int, list[Law]] = {}
@@ -68,9 +77,16 @@ class Laws:
         )
 
     def cases(self, effects: Sequence[Law], hindrances: Sequence[Body]) -> Iterator[Case]:
-        """The cases in which an action has a successor state."""
+        """The cases in which an action has a successor state.
+
+        Raises NotEncodableError where these are too many, and TimeLimitError.
+        """
         branches = [_Branch([UNDECIDED] * len(self._sizes), hindrances)]
         while branches:
+            current().check_time()
+            self._branches += 1
+            if self._branches > MOST_BRANCHES:
+                raise NotEncodableError(f"actions have more than {MOST_BRANCHES} cases")
             branch = branches.pop()
             if () in branch.hindrances:
                 continue

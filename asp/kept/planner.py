@@ -13,14 +13,16 @@ from itertools import pairwise
 
 from clingo import Symbol
 
+from asp.budget import LimitError, current
 from asp.description import Description
 from asp.kept.control import State
 from asp.kept.narrow import MOST_LEVELS, NarrowPrograms
-from asp.kept.operators import Encoding, NotEncodableError
+from asp.kept.operators import Encoding
+from asp.kept.outcomes import NotEncodableError
 from asp.kept.search import Bounds, Spaces
 from asp.kept.shared import SharedPrograms, horizon_of
 from asp.literals import arguments
-from asp.solving import check_time, fact
+from asp.solving import fact
 
 MOST_STATES = 2**24
 """The largest number of states of which sets are made: bits of memory for each set."""
@@ -76,14 +78,17 @@ class Planner:
         """The first of the shortest plans of at most `limit` actions, or None.
 
         Of each symmetric pair the first constant is used first: a plan that does otherwise comes
-        later in the order than the one with the two exchanged. Raises TimeLimitError; asked again,
+        later in the order than the one with the two exchanged. Raises LimitError; asked again,
         it goes on where it was.
         """
-        if self._open is None or self._open.asked != (state, goal):
-            self._open = _Question((state, goal), self._bounds(state, goal))
-        plan = self._answer(self._open, limit, symmetric)
-        self._open = None
-        return plan
+        question, self._open = self._open, None
+        if question is None or question.asked != (state, goal):
+            question = _Question((state, goal), self._bounds(state, goal))
+        try:
+            return self._answer(question, limit, symmetric)
+        except LimitError:
+            self._open = question
+            raise
 
     def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
@@ -93,12 +98,12 @@ class Planner:
     def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
         """Whether some state that can be reached satisfies the goal; None where nothing is said.
 
-        Raises TimeLimitError.
+        Raises LimitError.
         """
         bounds = self._bounds(state, goal)
         if bounds is None or self._spaces is None or not self._spaces.exact:
             return None
-        return bounds.least(None, check_time) is not None
+        return bounds.least(None, current().take_expansions) is not None
 
     def _bounds(self, state: State, goal: tuple[str, ...]) -> Bounds | None:
         return None if self._spaces is None else self._spaces.bounds(state, goal)
@@ -106,7 +111,7 @@ class Planner:
     def _answer(self, question: _Question, limit: int, pairs: Pairs) -> tuple[str, ...] | None:
         state, goal = question.asked
         if question.bounds is not None:
-            least = question.bounds.least(limit, check_time)
+            least = question.bounds.least(limit, current().take_expansions)
             if least is None:
                 return None
             question.length = max(question.length, least)
@@ -135,7 +140,7 @@ class Planner:
         actions = self._description.agent_actions
         if question.bounds is None:
             return [actions] * question.length
-        allowed = question.bounds.steps(question.length, check_time)
+        allowed = question.bounds.steps(question.length, current().take_expansions)
         return [[action for action in actions if action in some] for some in allowed]
 
 

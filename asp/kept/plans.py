@@ -39,7 +39,7 @@ class Plans:
     def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
-        Raises TimeLimitError; asked the same again, it goes on where it was.
+        Raises LimitError; asked the same again, it goes on where it was.
         """
         view = _View(self._independence, state, goal)
         planner = self._planner(view.dropped)
@@ -56,7 +56,7 @@ class Plans:
     def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
         """Whether a plan of any length succeeds; None where there is too much to look at.
 
-        Raises TimeLimitError.
+        Raises LimitError.
         """
         view = _View(self._independence, state, goal)
         return self._planner(view.dropped).reachable(view.state, view.goal)

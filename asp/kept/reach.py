@@ -41,14 +41,14 @@ class Reach:
     def out_of_reach(self, state: State, goal: tuple[str, ...]) -> bool:
         """Whether it is proved that no plan leads from the state to the goal.
 
-        Raises TimeLimitError.
+        Raises LimitError.
         """
         return self.reachable(state, goal) is False
 
     def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
         """Whether some plan, of any length, leads from the state to the goal; None: not known.
 
-        Raises TimeLimitError.
+        Raises LimitError.
         """
         return self._answers.get((state, goal), lambda: self._decide(state, goal))
 

@@ -72,7 +72,7 @@ class FinePlanner:
         the description that is planned in (None: the whole). A goal is out of reach if it is even
         where nothing becomes false again, or if no state satisfies it; others of which no plan is
         found are beyond the limit, though there may be none of any length.
-        Raises TimeLimitError, NotCandidatesError, ValueError for a goal about other constants.
+        Raises LimitError, NotCandidatesError, ValueError for a goal about other constants.
         """
         if not all(start.candidates):
             return NoPlan.OUT_OF_REACH

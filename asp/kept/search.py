@@ -21,6 +21,9 @@ MOST_SPACES = 16
 
 Condition = tuple[int, int, bool]
 
+Spend = Callable[[int], None]
+"""Called before so many applications of an operator to a set of states; it may raise."""
+
 Steps = tuple[frozenset[str], ...]
 """Of each step of a plan, the actions that may be taken there."""
 
@@ -39,7 +42,7 @@ class Search:
         self._new: StateSet = start
         self._distance: int | None = None
 
-    def distance(self, limit: int | None, check: Callable[[], None]) -> int | None:
+    def distance(self, limit: int | None, spend: Spend) -> int | None:
         """No plan is shorter; None if there is no plan of at most `limit`.
 
         Once it is found it stays, however far `steps` has looked since.
@@ -51,7 +54,7 @@ class Search:
             elif not self._new or layer == limit:
                 return None
             else:
-                check()
+                spend(self._moves(self._new))
                 self.advance()
         return self._distance
 
@@ -70,21 +73,25 @@ class Search:
         more = {place: reached.get(place, 0) | states for place, states in self._new.items()}
         self._reached.append({**reached, **more})
 
-    def steps(self, length: int, check: Callable[[], None]) -> list[set[str]]:
+    def steps(self, length: int, spend: Spend) -> list[set[str]]:
         """Of each step of a plan of this length, the actions that the space knows and allows there.
 
         Standing still counts as no action: it is what actions do that the space knows nothing of.
         """
         while len(self._reached) <= length:
-            check()
+            spend(self._moves(self._new))
             self.advance()
         left: StateSet = _common(self._reached[length], self._goal)
         found: list[set[str]] = []
         for step in reversed(range(length)):
-            check()
+            spend(self._moves(self._reached[step]))
             actions, left = self._before(self._reached[step], left)
             found.append({self._space.actions[action] for action in actions})
         return found[::-1]
+
+    def _moves(self, states: StateSet) -> int:
+        """How many applications of operators a step from these states takes."""
+        return sum(len(self._space.moves.get(place, ())) for place in states)
 
     def _before(self, reached: StateSet, after: StateSet) -> tuple[set[int], StateSet]:
         """The actions from reached states to others, and the reached states of these or others."""
@@ -111,23 +118,23 @@ class Bounds:
     ) -> None:
         self._searches = [(space, Search(space, state, goal)) for space in spaces]
 
-    def least(self, limit: int | None, check: Callable[[], None]) -> int | None:
+    def least(self, limit: int | None, spend: Spend) -> int | None:
         """A length that no plan is shorter than; None if there is no plan of at most `limit`.
 
-        `check` is called now and then and may raise; the next call goes on from there.
+        Where `spend` raises, the next call goes on from there.
         """
         least = 0
         for _, search in self._searches:
-            distance = search.distance(limit, check)
+            distance = search.distance(limit, spend)
             if distance is None:
                 return None
             least = max(least, distance)
         return least
 
-    def steps(self, length: int, check: Callable[[], None]) -> Steps:
+    def steps(self, length: int, spend: Spend) -> Steps:
         """Of each step the actions that a shortest plan may take there if it has this length."""
         allowed = [
-            [known | space.elsewhere for known in search.steps(length, check)]
+            [known | space.elsewhere for known in search.steps(length, spend)]
             for space, search in self._searches
         ]
         return tuple(

@@ -22,6 +22,7 @@ from asp.kept.pasts import (
 )
 from asp.kept.prefixes import steps
 from asp.preferring import preferring
+from asp.signals import undisturbed
 from asp.solving import answer_sets, fact, theory
 
 LENGTH = 24
@@ -126,11 +127,10 @@ class Windows:
     def _offer(self, question: Question, entries: Iterable[int]) -> None:
         """Makes exactly these entries available."""
         on = question.offering(entries)
-        for literal in self._on - on:
-            question.kept.control.assign_external(literal, False)
-        for literal in on - self._on:
-            question.kept.control.assign_external(literal, True)
-        self._on = on
+        with undisturbed():
+            for literal in self._on ^ on:
+                question.kept.control.assign_external(literal, literal in on)
+            self._on = on
 
     def _read(self, question: Question, model: clingo.Model) -> Account:
         """An account of the whole history, but for how it began and its exceptions."""

@@ -108,7 +108,9 @@ class ScriptEntry(Section):
 class Limits(Section):
     """Bounds of a trial: environment steps, length of a plan, seconds for an answer.
 
-    `decision_s` are seconds of reasoning, after which a robot waits for a step; None: no limit.
+    A decision may take so many `conflicts` of the solver, ground programs of at most so many
+    `ground_rules`, and so many `expansions` of sets of states; None: any number. `decision_s` are
+    the seconds that it may take with everything, a guard. At any of them a robot waits for a step.
     `judge_states` are the states that are looked at, after the trial, for the fewest actions that
     achieve its goal; where they do not suffice these are not known.
     """
@@ -116,7 +118,10 @@ class Limits(Section):
     steps: Count = 100
     plan: Count = 30
     answer_s: Seconds = 60.0
-    decision_s: Seconds | None = None
+    conflicts: Count | None = 50_000
+    ground_rules: Count | None = 1_000_000
+    expansions: Count | None = 1_000_000
+    decision_s: Seconds | None = 30.0
     judge_states: Count = JUDGE_STATES
 
 

@@ -55,6 +55,9 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     step_limit: int
     plan_limit: int
     decision_s: float | None
+    conflicts: int | None
+    ground_rules: int | None
+    expansions: int | None
     fine: FineSetting | None = None
     random_events: bool = False
     judge_states: int = JUDGE_STATES
@@ -92,6 +95,9 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         step_limit=config.limits.steps,
         plan_limit=config.limits.plan,
         decision_s=config.limits.decision_s,
+        conflicts=config.limits.conflicts,
+        ground_rules=config.limits.ground_rules,
+        expansions=config.limits.expansions,
         random_events=config.has_random_events,
         judge_states=config.limits.judge_states,
         script_at_actions=_numbered(own.script or (), "at_action"),

@@ -72,6 +72,9 @@ class CoarseStage:
             plan_limit=spec.setting.plan_limit,
             seed=seed,
             decision_s=spec.setting.decision_s,
+            conflicts=spec.setting.conflicts,
+            ground_rules=spec.setting.ground_rules,
+            expansions=spec.setting.expansions,
         )
 
 

@@ -51,7 +51,8 @@ class Teller:
             against = f"{contrary.observed} at step {contrary.step} against {contrary.believed}"
             yield f"  unexpected   {against}"
         if trace.explanation is not None:
-            yield f"  explanation  {explanation(trace.explanation)}"
+            unproved = "; minimal: unproved" * (trace.explanation.minimal == "unproved")
+            yield f"  explanation  {explanation(trace.explanation)}{unproved}"
         yield from (f"    or         {explanation(other)}" for other in trace.alternatives)
         if trace.more_alternatives:
             yield "    or         others, not all of which are listed"

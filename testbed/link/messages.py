@@ -39,8 +39,10 @@ class Task(Part, frozen=True, kw_only=True):
 
     ``domain`` and ``source`` are the name and the AL_d text of the domain, ``goal`` a list of
     literals, ``initial`` what the robot knows to hold at step 0, perhaps not everything,
-    ``plan_limit`` the greatest number of actions in a plan, ``decision_s`` the seconds that a
-    decision may take, None if it may take any time. Where the robot acts at the fine resolution,
+    ``plan_limit`` the greatest number of actions in a plan. A decision may take ``decision_s``
+    seconds, so many ``conflicts`` of the solver, ground programs of so many ``ground_rules`` and so
+    many ``expansions`` of sets of states; None: any number. Where the robot acts at the fine
+    resolution,
     ``refinement`` is the text that refines ``source``, and ``initial_fine`` what it knows there at
     step 0; ``goal`` and ``initial`` are coarse all the same.
     """
@@ -54,6 +56,9 @@ class Task(Part, frozen=True, kw_only=True):
     plan_limit: int
     seed: int
     decision_s: float | None = None
+    conflicts: int | None = None
+    ground_rules: int | None = None
+    expansions: int | None = None
     refinement: str = ""
     initial_fine: list[str] = []
 

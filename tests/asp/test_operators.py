@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from asp import SourceError
 from asp.description import Description
-from asp.kept.operators import Encoding, NotEncodableError
+from asp.kept.operators import Encoding
+from asp.kept.outcomes import NotEncodableError
 from asp.loading import parse_description
 from benchmarks.offices import office
 from benchmarks.search import Search

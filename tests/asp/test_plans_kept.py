@@ -8,14 +8,15 @@ from contextlib import suppress
 
 import pytest
 
+from asp.budget import Limits, TimeLimitError, deciding
 from asp.description import Description
 from asp.kept.independence import Independence, symmetric_pairs
 from asp.kept.narrow import MOST_LEVELS, NarrowPrograms, candidates
-from asp.kept.operators import Encoding, NotEncodableError
+from asp.kept.operators import Encoding
+from asp.kept.outcomes import NotEncodableError
 from asp.kept.plans import Plans
 from asp.kept.search import Spaces
 from asp.loading import analyse, parse_description, read_domain
-from asp.solving import TimeLimitError, time_limit
 from benchmarks.offices import office
 from testbed.environment.world import World
 
@@ -234,7 +235,7 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
     plans = Plans(OFFICE, "office.al")
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
     goal = ("loc(book1,library)", "loc(book2,library)")
-    with pytest.raises(TimeLimitError), time_limit(0):
+    with pytest.raises(TimeLimitError), deciding(Limits(0)):
         plans.shortest(state, goal, 20)
     plan = plans.shortest(state, goal, 20)
     assert plan is not None

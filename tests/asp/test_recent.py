@@ -82,9 +82,9 @@ def test_with_one_space_kept_bounds_are_the_same(monkeypatch: pytest.MonkeyPatch
         expected, found = ample.bounds(state, goal), scarce.bounds(state, goal)
         assert expected is not None
         assert found is not None
-        length = expected.least(60, lambda: None)
-        assert found.least(60, lambda: None) == length
+        length = expected.least(60, lambda _: None)
+        assert found.least(60, lambda _: None) == length
         assert length is not None
-        assert found.steps(length, lambda: None) == expected.steps(length, lambda: None)
+        assert found.steps(length, lambda _: None) == expected.steps(length, lambda _: None)
         assert len(scarce._kept) == 1
     assert len(ample._kept) > 1

@@ -15,15 +15,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from asp.budget import Limits, TimeLimitError, deciding
 from asp.solving import (
-    TimeLimitError,
     answer_sets,
     core,
     first_model,
     ground,
     is_satisfiable,
     optimal_model,
-    time_limit,
 )
 
 pytestmark = pytest.mark.versions
@@ -41,16 +40,16 @@ CROWD = clingo.Function("crowd")
 def test_an_interrupted_control_stays_usable() -> None:
     control = ground([PIGEONS], {}, [])
     for _ in range(2):
-        with time_limit(0.2), pytest.raises(TimeLimitError):
+        with deciding(Limits(0.2)), pytest.raises(TimeLimitError):
             first_model(control, [(CROWD, True)])
         assert first_model(control, [(CROWD, False)]) == ()
-        with time_limit(60.0):
+        with deciding(Limits(60.0)):
             assert is_satisfiable(control)
 
 
 def test_a_limit_that_has_run_out_stops_the_next_call() -> None:
     control = ground(["a."], {}, [])
-    with time_limit(0.0), pytest.raises(TimeLimitError):
+    with deciding(Limits(0.0)), pytest.raises(TimeLimitError):
         is_satisfiable(control)
     assert is_satisfiable(control)
 
@@ -142,13 +141,14 @@ def test_the_optimum_is_the_least_by_priority_and_then_by_weight(
         for n, (high, low) in enumerate(costs)
     ]
     control = ground([f"1 {{ pick(0..{len(costs) - 1}) }} 1.", *rules], {}, ())
-    model = optimal_model(control)
+    model, proved = optimal_model(control)
     assert model is not None
+    assert proved
     assert costs[model[0].arguments[0].number] == min(costs)
 
 
 def test_a_program_without_answer_sets_has_no_optimum() -> None:
-    assert optimal_model(ground(["a. :- a. #minimize { 1 : a }."], {}, ())) is None
+    assert optimal_model(ground(["a. :- a. #minimize { 1 : a }."], {}, ())) == (None, True)
 
 
 def test_a_search_for_an_optimum_ends_with_the_time() -> None:
@@ -157,7 +157,7 @@ def test_a_search_for_an_optimum_ends_with_the_time() -> None:
         "1 { in(P,H) : H = 1..11 } 1 :- P = 1..14. #minimize { 1,P,Q : in(P,H), in(Q,H), P<Q }."
     )
     control = ground([pigeons], {}, ())
-    with time_limit(0.2), pytest.raises(TimeLimitError):
+    with deciding(Limits(0.2)), pytest.raises(TimeLimitError):
         optimal_model(control)
-    with time_limit(60.0):
+    with deciding(Limits(60.0)):
         assert is_satisfiable(control)

@@ -6,9 +6,9 @@ from collections.abc import Generator, Iterable, Sequence
 
 from agents.intentional.executor.looking import Looking
 from agents.intentional.executor.mind import Mind
+from asp.budget import LimitError, deciding
 from asp.literals import arguments, atom, complement, is_positive
 from asp.refinement.zooming import Transition, fine_goal, relevant
-from asp.solving import OUT_OF_TIME, TimeLimitError, time_limit
 from testbed.link.messages import Percept
 
 Steps = Generator[str, Percept, bool]
@@ -102,13 +102,13 @@ class Execution:
         return False
 
     def _planned(self) -> Generator[str, Percept, tuple[str, ...] | None]:
-        """A plan; where the time for a decision runs out the robot waits, and goes on after."""
+        """A plan; where a decision reaches one of its limits the robot waits, and goes on after."""
         while True:
             try:
-                with time_limit(self._mind.decision_s):
+                with deciding(self._mind.limits):
                     return self._plan()
-            except TimeLimitError:
-                self._mind.tally.failed(OUT_OF_TIME)
+            except LimitError as limit:
+                self._mind.tally.failed(str(limit))
                 self._looking.hear((yield _WAIT))
 
     def _plan(self) -> tuple[str, ...] | None:

@@ -8,6 +8,7 @@ from agents.intentional.executor.belief import FineBelief
 from agents.intentional.executor.coarse import CoarseDiagram
 from agents.intentional.executor.means import means_of
 from agents.intentional.executor.tally import Tally
+from agents.shared.limits import limits_of
 from asp.fine_plans import FineStart, NoPlan
 from asp.literals import arguments, atom, is_positive, name
 from asp.refinement import Refinement
@@ -31,7 +32,7 @@ class Mind:
         self.refinement = refinement
         self.coarse = coarse
         self.goal = tuple(task.goal)
-        self.decision_s = task.decision_s
+        self.limits = limits_of(task)
         self.zooms = zooms
         self.tally = Tally()
         self.means = means_of(refinement)
@@ -149,7 +150,7 @@ class Mind:
     def plan(
         self, goal: tuple[str, ...], candidates: tuple[tuple[str, ...], ...], zoom: Collection[str]
     ) -> tuple[str, ...] | None:
-        """A shortest plan of concrete actions; None if there is none. Raises TimeLimitError.
+        """A shortest plan of concrete actions; None if there is none. Raises LimitError.
 
         By Definition 1 the place of the robot need not be relevant to what it does there; a state
         has to say where it is all the same.

@@ -59,6 +59,9 @@ class FineStage:
             plan_limit=spec.setting.plan_limit,
             seed=seed,
             decision_s=spec.setting.decision_s,
+            conflicts=spec.setting.conflicts,
+            ground_rules=spec.setting.ground_rules,
+            expansions=spec.setting.expansions,
             refinement=self._text,
             initial_fine=self._own(state),
         )

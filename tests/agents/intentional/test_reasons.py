@@ -17,6 +17,7 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from agents.shared.tools import tools_of
+from asp.budget import Limits
 from asp.kept.plans import Plans
 from asp.kept.reach import Reach
 from asp.solving import ground, select, theory
@@ -170,7 +171,7 @@ def test_no_more_time_than_for_a_decision_is_spent_on_alternatives(
     history.observe(["-loc(book2,kitchen)"], 3)
     explained = reasoner(OFFICE, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Diagnosis())
     assert Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, explained)[0]
-    hurried = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20, decision_s=0)
+    hurried = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20, limits=Limits(0))
     assert hurried.alternatives(history, explained) == ([], True)
 
 
@@ -265,7 +266,7 @@ def test_where_the_time_runs_out_the_robot_waits_and_goes_on() -> None:
     waiting = _first_decision(robot, list(BOTH_IN_THE_LIBRARY), 20, decision_s=1e-9)
     assert (waiting.action, waiting.trace.intention) == ("wait", "")
     assert waiting.trace.reason == "the time for a decision ran out"
-    robot._task = _task(list(BOTH_IN_THE_LIBRARY), 20, None)
+    robot._limits = Limits()
     decision = robot.act(_percept(2))
     assert decision.trace.mental == "start(1)"
     assert len(decision.trace.plan) == 7

@@ -12,7 +12,7 @@ from agents.intentional.kept import KeptLogician
 from agents.intentional.logician import Logician
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
-from asp.solving import TimeLimitError, time_limit
+from asp.budget import Limits, TimeLimitError, deciding
 
 SOURCE = (Path(__file__).parents[2] / "asp" / "cart.al").read_text(encoding="utf-8")
 CART = knowledge("cart", SOURCE)
@@ -153,7 +153,7 @@ def test_late_news_is_not_forgotten_where_the_time_for_it_ran_out(reasoner: Make
     mind.next()
     mind.next(seen=["shut"])
     mind.next(seen=["at(right)"])
-    with pytest.raises(TimeLimitError), time_limit(0):
+    with pytest.raises(TimeLimitError), deciding(Limits(0)):
         mind.next(news=[(1, "shut_gate")])
     mind.next()
     assert mind.assumed == ([(2, "push(right)")], [])

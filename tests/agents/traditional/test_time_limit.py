@@ -14,7 +14,7 @@ from agents.shared.knowledge import Knowledge
 from agents.traditional import TraditionalRobot
 from agents.traditional.kept import KeptPlanner
 from agents.traditional.planner import Plan
-from asp.solving import OUT_OF_TIME, TimeLimitError
+from asp.budget import OUT_OF_TIME, TimeLimitError
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.registry import make_robot

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from agents.intentional.executor.mind import Mind
 from agents.intentional.refined import RefinedRobot
+from asp.budget import OUT_OF_TIME, TimeLimitError
 from asp.levels import level_text
 from asp.loading import read_domain
 from asp.refinement import Refinement, load
-from asp.solving import OUT_OF_TIME, TimeLimitError
 from testbed.link.messages import Task
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
 

@@ -1,0 +1,133 @@
+"""What a decision may take: conflicts, sizes and expansions, which are the same everywhere.
+
+Beside them the clock is a guard. Whatever is solved, ground or searched inside `deciding` keeps to
+the limits; one decision is made at a time in a process, for robots share controls, and a control
+serves one caller at a time.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+
+OUT_OF_TIME = "the time for a decision ran out"
+OUT_OF_BUDGET = "the budget of a decision was used up"
+
+
+class LimitError(RuntimeError):
+    """A decision has reached one of its limits; every control stays usable."""
+
+
+class TimeLimitError(LimitError):
+    """The time for a decision ran out."""
+
+
+class BudgetError(LimitError):
+    """The conflicts, ground rules or expansions of a decision were used up."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Bounds of a decision; None: no bound.
+
+    `seconds` are wall-clock time, `conflicts` those of the solver in calls that take more than
+    some thousand, `ground_rules` the rules of one ground program, `expansions` the applications
+    of an operator to a set of states in searches.
+    """
+
+    seconds: float | None = None
+    conflicts: int | None = None
+    ground_rules: int | None = None
+    expansions: int | None = None
+
+
+class Budget:
+    """What is left of the limits of a decision; `late` if its time ran out."""
+
+    def __init__(self, limits: Limits, outer: Budget | None) -> None:
+        """Inside `outer` the time began with it; everything else is counted anew."""
+        self.limits = limits
+        self.part = 1.0
+        self.late = False
+        self._outer = outer
+        self._began: float = time.monotonic() if outer is None else outer._began
+        self._conflicts = self._expansions = 0
+
+    @property
+    def deadline(self) -> float | None:
+        """When the time runs out, by `time.monotonic`."""
+        seconds = self.limits.seconds
+        return None if seconds is None else self._began + seconds
+
+    @property
+    def conflicts(self) -> int | None:
+        """How many conflicts may still be spent."""
+        most = self.limits.conflicts
+        return None if most is None else max(0, int(most * self.part) - self._conflicts)
+
+    def check_conflicts(self) -> None:
+        """Raises BudgetError where no conflicts may be spent any more."""
+        if self.conflicts == 0:
+            raise BudgetError(OUT_OF_BUDGET)
+
+    def take_conflicts(self, number: int) -> None:
+        """So many conflicts were spent; where that is more than there were, all are."""
+        left = self.conflicts
+        self._conflicts += number if left is None else min(number, left)
+
+    def take_expansions(self, number: int) -> None:
+        """So many expansions are spent. Raises LimitError."""
+        self._expansions += number
+        most = self.limits.expansions
+        if most is not None and self._expansions > most:
+            raise BudgetError(OUT_OF_BUDGET)
+        self.check_time()
+
+    def check_time(self) -> None:
+        """Raises TimeLimitError where the time has run out."""
+        if self.deadline is not None and time.monotonic() > self.deadline:
+            raise self.out_of_time()
+
+    def out_of_time(self) -> TimeLimitError:
+        """What to raise where the time has run out."""
+        budget: Budget | None = self
+        while budget is not None:
+            budget.late, budget = True, budget._outer
+        return TimeLimitError(OUT_OF_TIME)
+
+
+_current: ContextVar[Budget | None] = ContextVar("budget", default=None)
+UNLIMITED = Limits()
+_alone = threading.RLock()
+
+
+@contextmanager
+def deciding(limits: Limits = UNLIMITED) -> Iterator[Budget]:
+    """What is done inside is one decision, or a part of the one around it, within its limits."""
+    with _alone:
+        budget = Budget(limits, _current.get())
+        token = _current.set(budget)
+        try:
+            yield budget
+        finally:
+            _current.reset(token)
+
+
+@contextmanager
+def up_to(part: float) -> Iterator[None]:
+    """Inside, conflicts are spent up to this part of all those of the decision."""
+    budget = current()
+    before, budget.part = budget.part, min(budget.part, part)
+    try:
+        yield
+    finally:
+        budget.part = before
+
+
+def current() -> Budget:
+    """The budget of the decision under way; outside of any, one without limits."""
+    return _current.get() or Budget(UNLIMITED, None)
