@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from clingo import Symbol
 
 from asp.literals import atom, is_positive
-from asp.solving import core, fact, ground, theory
+from asp.solving import core, fact, ground, optimal_model, select, theory
 
 
 def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...] | None:
@@ -24,6 +24,19 @@ def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...
     in_order = sorted(statements, key=lambda literal: _place(statements[literal]))
     found = core(control, [], in_order)
     return None if found is None else tuple(_text(statements[literal]) for literal in found)
+
+
+def misreadings(program: str, facts: Iterable[Symbol], step: int) -> list[tuple[int, str]] | None:
+    """The fewest doubtful observations that have to be wrong, whatever events occurred.
+
+    `program` and `facts` are as for `conflict`, with doubtful(F,I) for observations that rest on
+    tests. They are given as steps and fluents; None where the rest is inconsistent all the same.
+    Raises LimitError.
+    """
+    texts = [program, theory("conflict"), theory("misreadings")]
+    model, _ = optimal_model(ground(texts, {"n": step}, facts))
+    found = None if model is None else select(model, "wrong", 2)
+    return None if found is None else sorted((time.number, str(fluent)) for fluent, time in found)
 
 
 def never_together(program: str, literals: Iterable[str]) -> tuple[str, ...] | None:

@@ -11,7 +11,8 @@ from msgspec import structs
 from agents.intentional.intention import Intention
 from agents.intentional.kept import KeptLogician
 from agents.intentional.reasons import Reasons
-from agents.shared.diagnosis import Explained
+from agents.shared.diagnosis import Explained, InconsistentHistoryError
+from agents.shared.doubting import distrust
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.limits import limits_of
@@ -20,7 +21,7 @@ from agents.shared.relevance import goal_fluents, relevant_literals
 from asp.budget import LimitError, deciding
 from asp.kept.clock import preparation, reasoning_clock
 from asp.literals import is_positive
-from testbed.link.messages import Decision, Percept, Task, Trace
+from testbed.link.messages import Decision, Event, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
 
@@ -63,6 +64,7 @@ class IntentionalRobot:
         self._history = History()
         self._history.observe(task.initial, 0)
         self._history.happened(f"select({GOAL})", True, 0)
+        self._misread: tuple[Event, ...] = ()
         self._attempted: str | None = None
         start = frozenset(filter(is_positive, task.initial))
         self._believed: tuple[int, frozenset[str]] = (0, start)
@@ -108,7 +110,7 @@ class IntentionalRobot:
     def _think(self, thought: _Thought) -> None:
         """Both phases. Raises LimitError, after which what was found so far is kept."""
         logician = self._logician or self._prepare()
-        explained = logician.diagnose(self._history, self._diagnosis)
+        explained = self._explained(logician)
         thought.phases.diagnosis_is_over()
         thought.explained, self._diagnosis = explained, explained.diagnosis
         intention = logician.intend(self._history, explained)
@@ -118,6 +120,15 @@ class IntentionalRobot:
             self._diagnosis = intention.under.diagnosis
             kept = self._diagnosis == thought.before
             thought.explained = replace(intention.under, kept=kept)
+
+    def _explained(self, logician: Reasoner) -> Explained:
+        """Phase one; where no events explain the history, tests were wrong."""
+        try:
+            return logician.diagnose(self._history, self._diagnosis)
+        except InconsistentHistoryError:
+            if not distrust(self._domain, tuple(self._task.goal), self._history):
+                raise
+            return logician.diagnose(self._history, self._diagnosis)
 
     def _observe(self, percept: Percept) -> None:
         """Steps 4 and 1 of the loop: the result of the last attempt, then what is relevant."""
@@ -138,6 +149,7 @@ class IntentionalRobot:
             self._description, self._goal_fluents, actions, percept.visible
         )
         history.observe(relevant, percept.step)
+        history.doubt(percept.doubtful, percept.step)
 
     def _attempt(self, intention: Intention | None) -> None:
         """Step 3 of the loop: the attempt is recorded, and a new activity with it."""
@@ -185,14 +197,18 @@ class IntentionalRobot:
 
     def _with_explanation(self, trace: Trace, explained: Explained, before: Diagnosis) -> Trace:
         """The trace with what is newly adopted, if anything is."""
-        diagnosis = explained.diagnosis
-        if diagnosis == before:
+        diagnosis, misread = explained.diagnosis, self._history.misread
+        if diagnosis == before and misread == self._misread:
             return trace
+        self._misread = misread
+        explanation = self._reasons.explanation(diagnosis, self._history.step)
         step, believed = self._believed
         alternatives, more = self._reasons.alternatives(self._history, explained)
         return structs.replace(
             trace,
-            explanation=self._reasons.explanation(diagnosis, self._history.step),
+            explanation=structs.replace(
+                explanation, distrusted=[*explanation.distrusted, *misread]
+            ),
             contradictions=self._reasons.contradictions(
                 self._history, before, believed - {GOAL}, step
             ),

@@ -92,7 +92,9 @@ class KeptLogician:
             elif kind == "stop":
                 self._active = None
             elif self._active and action in self._actions and last.happened.get(action):
-                self._active.executed.append((history.step - 1, action))
+                done = (history.step - 1, action)
+                if done not in self._active.executed:  # a step may be diagnosed twice
+                    self._active.executed.append(done)
 
     def _indices(self, history: History) -> dict[int, int]:
         """The index of the active activity (3), which stood still where the goal held (7)-(9)."""

@@ -82,6 +82,7 @@ class Leaned:
         return structs.replace(
             percept,
             visible=self.seen(percept.visible),
+            doubtful=self.seen(percept.doubtful),
             attempted=None if attempted is None else renamed(attempted, self._there),
             events=[
                 renamed_event(event, self._there)

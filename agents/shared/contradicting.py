@@ -43,7 +43,7 @@ class Contradicting:
 
     def _unexpected(self, moment: Moment, state: State, step: int) -> list[Contradiction]:
         found = []
-        for fluent, truth in moment.observed.items():
+        for fluent, truth in moment.trusted.items():
             if fluent == GOAL:
                 believed = all(holds(literal, state) for literal in self._goal)
             else:

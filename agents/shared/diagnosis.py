@@ -75,6 +75,8 @@ def diagnose(
     try:
         with up_to(SEARCH):
             current().check_conflicts()
+            if history.has_doubts:  # where some are wrong no number of events need be tried
+                _check(programs[0], given, step)
             limits = event_limits(programs[0], given, step, size)
             return next(filter(None, map(smallest, limits)))
     except BudgetError:
@@ -105,14 +107,19 @@ def event_limits(program: str, facts: Sequence[Symbol], step: int, adopted: int)
     """
     for most in room_for_events(facts, step, max(_FIRST_TRY, adopted)):
         yield most
-        found = conflict(program, facts, step)
-        if found is not None:
-            raise InconsistentHistoryError(f"inconsistent history: {cannot_hold(found)}")
+        _check(program, facts, step)
     raise _nothing_explains(step)
 
 
 def _nothing_explains(step: int) -> InconsistentHistoryError:
     return InconsistentHistoryError(f"nothing explains the observations up to step {step}")
+
+
+def _check(program: str, facts: Sequence[Symbol], step: int) -> None:
+    """Raises InconsistentHistoryError if no number of events explains a history."""
+    found = conflict(program, facts, step)
+    if found is not None:
+        raise InconsistentHistoryError(f"inconsistent history: {cannot_hold(found)}")
 
 
 def _kept(control: clingo.Control) -> Explained | None:

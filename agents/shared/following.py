@@ -80,5 +80,5 @@ class Follower:
         """Whether what was observed at a moment is so in the state."""
         return all(
             truth == (self.holds(state) if fluent == GOAL else fluent in state)
-            for fluent, truth in moment.observed.items()
+            for fluent, truth in moment.trusted.items()
         )

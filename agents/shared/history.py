@@ -28,18 +28,26 @@ class Moment:
 
     `observed` has the truth of fluents, `attempted` the agent's actions of any kind, `happened`
     whether an action, the agent's own or another's, took effect; `failing` are attempts whose
-    execution failed though they may have been possible.
+    execution failed though they may have been possible. Of the observed fluents the `doubtful` ones
+    rest on tests, and the `misread` ones are taken for wrong.
     """
 
     observed: dict[str, bool] = field(default_factory=dict)
     attempted: list[str] = field(default_factory=list)
     happened: dict[str, bool] = field(default_factory=dict)
     failing: list[str] = field(default_factory=list)
+    doubtful: frozenset[str] = frozenset()
+    misread: frozenset[str] = frozenset()
+
+    @property
+    def trusted(self) -> dict[str, bool]:
+        """What was observed and is not taken for wrong."""
+        return {f: truth for f, truth in self.observed.items() if f not in self.misread}
 
 
 @dataclass
 class History:
-    """Statements obs, hpd, attempt and failing of all steps up to `step`."""
+    """Statements obs, hpd, attempt, failing, doubtful and misread of all steps up to `step`."""
 
     step: int = 0
     activities: list[Activity] = field(default_factory=list)
@@ -55,6 +63,29 @@ class History:
         moment = self.at(step)
         for literal in literals:
             moment.observed[atom(literal)] = is_positive(literal)
+
+    def doubt(self, literals: Iterable[str], step: int) -> None:
+        """doubtful(F,I) for those of the literals that were observed."""
+        moment = self.at(step)
+        moment.doubtful |= moment.observed.keys() & set(map(atom, literals))
+
+    def distrust(self, wrong: Iterable[tuple[int, str]]) -> None:
+        """misread(F,I) for exactly these steps and fluents; it is news of the past."""
+        self.late_news += 1
+        pairs = frozenset(wrong)
+        for step, moment in self.moments.items():
+            moment.misread = frozenset(fluent for time, fluent in pairs if time == step)
+
+    @property
+    def misread(self) -> tuple[Event, ...]:
+        """The observations that are taken for wrong, by fluent."""
+        steps = sorted(self.moments.items())
+        return tuple(Event(step=s, action=f) for s, m in steps for f in sorted(m.misread))
+
+    @property
+    def has_doubts(self) -> bool:
+        """Whether any observation rests on tests."""
+        return any(moment.doubtful for moment in self.moments.values())
 
     def happened(self, action: str, truth: bool, step: int) -> None:
         """hpd(A,B,I). News of a step before the last one is counted in `late_news`."""
@@ -78,6 +109,10 @@ class History:
                 yield fact("attempt", action, step)
             for action, truth in moment.happened.items():
                 yield fact("hpd", action, _boolean(truth), step)
+            for fluent in sorted(moment.doubtful):
+                yield fact("doubtful", fluent, step)
+            for fluent in sorted(moment.misread):
+                yield fact("misread", fluent, step)
             for action in moment.failing:
                 yield fact("failing", action, step)
         yield fact("current_step", self.step)

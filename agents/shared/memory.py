@@ -109,11 +109,11 @@ def record_of(knowledge: Knowledge, moment: Moment) -> Record:
     return Record(
         observed=tuple(
             fluent if truth else f"-{fluent}"
-            for fluent, truth in moment.observed.items()
+            for fluent, truth in moment.trusted.items()
             if fluent != GOAL
         ),
         attempt=None if physical is None else (physical, moment.happened[physical]),
         failing=physical in moment.failing,
         reported=tuple(a for a, truth in moment.happened.items() if truth and a in others),
-        goal=moment.observed.get(GOAL),
+        goal=moment.trusted.get(GOAL),
     )

@@ -46,7 +46,7 @@ def exception(literal: str) -> str:
 
 
 def explanation(told: Explanation | Explained) -> str:
-    """An explanation as text: how it began, what others did, what was told and did not happen."""
+    """An explanation as text: how it began, what others did, what is distrusted."""
     events = [f"{event.action} at step {event.step}" for event in told.unobserved]
-    false = [f"{event.action} did not happen at step {event.step}" for event in told.distrusted]
+    false = [f"distrusted {event.action} at step {event.step}" for event in told.distrusted]
     return ", ".join([*map(exception, told.exceptions), *events, *false]) or "nothing unobserved"

@@ -73,17 +73,18 @@ class Event(Part, frozen=True, kw_only=True):
 class Percept(Part, frozen=True, kw_only=True):
     """What the robot is told at ``step``, before it decides what to attempt there.
 
-    ``visible`` are the literals it sees now; ``attempted`` and ``happened`` its attempt at the
-    previous step and whether it took effect (both None at step 1), ``failing`` whether the attempt
-    was carried out in vain: it need not have been impossible; ``events`` the exogenous
-    actions that it is told of now, each with the earlier step at which it is said to have happened;
-    ``goal_holds`` is False after a ``finish`` that the goal did not bear out, None when nothing is
-    said about the goal.
+    ``visible`` are the literals it sees now, ``doubtful`` those of them that rest on tests which
+    may have been wrong; ``attempted`` and ``happened`` its attempt at the previous step and whether
+    it took effect (both None at step 1), ``failing`` whether the attempt was carried out in vain:
+    it need not have been impossible; ``events`` the exogenous actions that it is told of now, each
+    with the earlier step at which it is said to have happened; ``goal_holds`` is False after a
+    ``finish`` that the goal did not bear out, None when nothing is said about the goal.
     """
 
     trial: str
     step: int
     visible: list[str]
+    doubtful: list[str] = []
     attempted: str | None = None
     happened: bool | None = None
     failing: bool = False
@@ -102,8 +103,8 @@ class Explanation(Part, frozen=True, kw_only=True):
     """What makes a history consistent (D 2.4), found at ``step``.
 
     ``unobserved`` are exogenous actions, ``exceptions`` the literals that hold at step 0 against
-    a default, ``distrusted`` reports of what did not happen, and attempts of the robot's own that
-    were not executed. ``minimal`` is ``"unproved"`` where
+    a default, ``distrusted`` reports of what did not happen, attempts of the robot's own that were
+    not executed, and fluents that a test was wrong about. ``minimal`` is ``"unproved"`` where
     the budget of the decision was used up before a smaller explanation was ruled out.
     """
 

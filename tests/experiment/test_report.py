@@ -79,7 +79,7 @@ def test_a_timeline_has_every_step_with_who_did_what() -> None:
             "mental",
             "wait",
             "",
-            "exception -home, shift at step 2, shift did not happen at step 3",
+            "exception -home, shift at step 2, distrusted shift at step 3",
         ),
         (5, "mental", "finish", "", ""),
     ]

@@ -183,6 +183,10 @@ class Mind:
         shares = self.means.shares_places
         return frozenset(part for parts in components for part in (parts[:1] if shares else parts))
 
+    def is_doubtful(self, literal: str) -> bool:
+        """Whether a coarse literal rests on tests that may be wrong."""
+        return self.is_magnified(literal) and not self._is_own(literal)
+
     def _is_own(self, literal: str) -> bool:
         """Whether a literal is about the robot itself."""
         return self.coarse.robot in arguments(literal)

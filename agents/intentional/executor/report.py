@@ -52,6 +52,7 @@ class Reporter:
             trial=percept.trial,
             step=self._calendar.step + 1,
             visible=told,
+            doubtful=[literal for literal in told if self._mind.is_doubtful(literal)],
             attempted=None if outcome is None else outcome.action,
             happened=None if outcome is None else outcome.happened,
             failing=outcome is not None and not outcome.happened,

@@ -70,7 +70,7 @@ def _assumed(explained: Explained) -> str:
 def _parts(explained: Explained) -> Iterator[str]:
     yield from map(exception, explained.exceptions)
     yield from (event.action for event in explained.unobserved)
-    yield from (f"{report.action} did not happen" for report in explained.distrusted)
+    yield from (f"distrusted {report.action}" for report in explained.distrusted)
 
 
 def _listed(names: Iterable[str]) -> str:

@@ -33,7 +33,7 @@ def test_the_same_actions_are_right_whatever_their_order_and_steps() -> None:
     assert (own.total, own.right) == (2, 1)
     assert {a.right: a.explained for a in own.common} == {
         True: f"{LOCKED} {MOVED}",
-        False: f"{LOCKED} {MOVED} did not happen",
+        False: f"{LOCKED} distrusted {MOVED}",
     }
 
 
