@@ -90,9 +90,9 @@ class Contradicted(msgspec.Struct):
 class Explained(msgspec.Struct):
     """An explanation that the robot adopted at `step`, and why it needed one.
 
-    `distrusted` are reports that it takes for false, attempts of its own that were not executed, and
-    fluents that a test was wrong about; `alternatives` the number of other
-    explanations that are as small; there are more of them if `more_alternatives`. `minimal` is
+    `distrusted` are reports that it takes for false, own attempts that were not executed, and
+    fluents that a test was wrong about; `alternatives` is the number of other explanations that are
+    as small; there are more of them if `more_alternatives`. `minimal` is
     `unproved` where the budget of the decision did not suffice to rule out a smaller one.
     """
 
