@@ -16,9 +16,9 @@ from testbed.experiment.store import read_records
 from testbed.experiment.table1 import optimum, times
 from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import MEETINGS, pairs_of
-from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, MEASURES, PUBLISHED
 from testbed.experiment.table1.runs import PROTOCOL, minds_of
-from testbed.experiment.table1.table import HALF_CENT, HALF_PERCENT, HEADINGS, tests_of
+from testbed.experiment.table1.table import HEADINGS, tests_of
 from testbed.experiment.wording import counted
 
 ACCURACIES = ("TP correct", "ATI correct")

@@ -16,13 +16,13 @@ from testbed.experiment.table1.analysis import Row, Table
 from testbed.experiment.table1.pairing import Pair
 from testbed.experiment.table1.published import (
     ALL,
+    HALF_CENT,
     MEASURES,
     NO_FAILURES,
     PUBLISHED,
     SCENARIOS,
     Published,
 )
-from testbed.experiment.table1.table import HALF_CENT
 
 WITHOUT_SECONDS = ("plans", "execution_units", "actions")
 """The measures that do not depend on how fast a machine or a solver is."""

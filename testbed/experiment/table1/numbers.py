@@ -6,9 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
 from testbed.experiment.statistics import Estimate, Test
-from testbed.experiment.table1.published import PUBLISHED
+from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, PUBLISHED
 from testbed.experiment.table1.results import Analysis, Ratio, Row, Seconds, Table
-from testbed.experiment.table1.table import HALF_CENT, HALF_PERCENT
 
 Numbers: TypeAlias = dict[str, object]
 

@@ -7,15 +7,13 @@ from collections.abc import Iterator
 from testbed.experiment.grid import Grid
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.analysis import Row, Table
-from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, MEASURES, PUBLISHED
 from testbed.experiment.wording import chance
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
 
 COLUMNS = ("scenario", "pairs", *HEADINGS, "TP acc.", "ATI acc.")
-HALF_CENT, HALF_PERCENT = 0.005, 0.005
-"""Published ratios have two decimals, accuracies whole percents."""
 Cells = tuple[str, ...]
 
 

@@ -7,8 +7,9 @@ from math import exp, log
 from statistics import fmean
 
 from testbed.experiment.markdown import markdown, paragraph
+from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1.pairing import Pair, Side
-from testbed.experiment.table1.published import PLANNING, PUBLISHED, SCENARIOS
+from testbed.experiment.table1.published import HALF_CENT, PLANNING, PUBLISHED, SCENARIOS
 from testbed.experiment.table1.results import Analysis, Ratio, Row, Seconds, Table
 from testbed.experiment.wording import in_words
 
@@ -73,8 +74,7 @@ def rows_of(table: Table) -> Iterator[tuple[str, ...]]:
 
 
 def _line(row: Row, name: str, own: Seconds) -> tuple[str, ...]:
-    mean, paper = own.ratio.mean, PUBLISHED.get(row.name)
-    published = f"{paper.ratios[PLANNING]:.2f}" if paper and name in READINGS else ""
+    mean = own.ratio.mean
     return (
         row.name,
         in_words(name),
@@ -82,8 +82,16 @@ def _line(row: Row, name: str, own: Seconds) -> tuple[str, ...]:
         _milliseconds(own.intentional),
         "-" if mean is None else f"{mean.value:.2f} [{mean.low:.2f}, {mean.high:.2f}]",
         "-" if own.ratio.of_sums is None else f"{own.ratio.of_sums:.2f}",
-        published,
+        _published(row.name, mean) if name in READINGS else "",
     )
+
+
+def _published(row: str, ours: Estimate | None) -> str:
+    if row not in PUBLISHED:
+        return ""
+    value = PUBLISHED[row].ratios[PLANNING]
+    inside = ours is not None and ours.covers(value, HALF_CENT)
+    return f"{value:.2f}{'' if inside else ' *'}"
 
 
 def _milliseconds(value: float | None) -> str:
@@ -105,8 +113,25 @@ def _reading(analysis: Analysis) -> str:
         "is therefore part of the published planning time, which then is our reasoning time; if it "
         "was left out of the total, too, the column is our planning time. It cannot be diagnosis "
         "alone: in scenario 1 there is nothing to explain. Our means of ratios differ from it, on "
-        f"the geometric average over scenarios 1 to 5: {said or 'there are none'}."
+        f"the geometric average over scenarios 1 to 5: {said or 'there are none'}. Which robot "
+        f"needs less depends on the reading in {_reversed(analysis) or 'none of the rows'}."
     )
+
+
+def _reversed(analysis: Analysis) -> str:
+    """The rows in which one mean of ratios is below 1 and the other above it."""
+    both = (("triggered", analysis.triggered), ("random", analysis.random))
+    return "; ".join(
+        f"{way}, {row.name}"
+        for way, table in both
+        if table is not None
+        for row in table.rows
+        if row.pairs and _disagree(*(row.times[name].ratio.mean for name in READINGS))
+    )
+
+
+def _disagree(one: Estimate | None, other: Estimate | None) -> bool:
+    return one is not None and other is not None and (one.value - 1) * (other.value - 1) < 0
 
 
 def _distance(rows: Sequence[Row], name: str) -> float | None:
