@@ -35,7 +35,7 @@ def _quotient(above: Values, below: Values, statistic: Callable[..., Any]) -> Es
 
     value = float(divided(above, below))
     if np.ptp(above) == np.ptp(below) == 0:
-        return Estimate(value, value, value)
+        return Estimate(value, value, value, single=len(above) == len(below) == 1)
     interval = stats.bootstrap(
         [values if len(values) > 1 else np.repeat(values, 2) for values in (above, below)],
         divided,

@@ -147,6 +147,9 @@ def _show_tables(say: Say, tables: Tables) -> None:
     for row in tables.rows:
         for note in row.notes():
             say(note)
+    if tables.left_out is not None:
+        say(tables.left_out)
+    say(f"condition: {tables.condition}")
 
 
 def _show_table1(say: Say, analysis: Analysis) -> None:
@@ -157,7 +160,7 @@ def _show_table1(say: Say, analysis: Analysis) -> None:
     for kind, table in both:
         if table is not None:
             say("")
-            _show_grid(say, table1_grid(table, f"{whom}: {kind} (*: outside of our interval)"))
+            _show_grid(say, table1_grid(table, f"{whom}: {kind}"))
 
 
 def _show_grid(say: Say, shown: Grid) -> None:

@@ -41,14 +41,21 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Estimate:
-    """A value, and the interval in which it lies with 95% confidence."""
+    """A value, and the interval in which it lies with 95% confidence.
+
+    One that is `single` is of one independent observation alone, and has no interval: its ends are
+    the value.
+    """
 
     value: float
     low: float
     high: float
+    single: bool = False
 
-    def covers(self, other: float, half_digit: float) -> bool:
-        """Whether a value, rounded to twice `half_digit`, may lie in the interval."""
+    def covers(self, other: float, half_digit: float) -> bool | None:
+        """Whether a value, rounded to twice `half_digit`, may lie in the interval, if any."""
+        if self.single:
+            return None
         return self.low - half_digit <= other <= self.high + half_digit
 
 
@@ -69,7 +76,7 @@ def proportion(strata: Strata, clusters: Clusters | None = None) -> Estimate | N
     """
     sample = sample_of(strata, clusters)
     estimate = _estimate(sample, means)
-    if estimate is None or estimate.low < estimate.high:
+    if estimate is None or estimate.single or estimate.low < estimate.high:
         return estimate
     exact = stats.binomtest(round(estimate.value * sample.clusters), sample.clusters)
     interval = exact.proportion_ci(CONFIDENCE, method="exact")
@@ -77,7 +84,9 @@ def proportion(strata: Strata, clusters: Clusters | None = None) -> Estimate | N
 
 
 def _estimate(sample: Sample, statistic: Statistic) -> Estimate | None:
-    return Estimate(*bootstrap(sample, statistic)) if len(sample.values) else None
+    if not len(sample.values):
+        return None
+    return Estimate(*bootstrap(sample, statistic), single=sample.clusters == 1)
 
 
 @dataclass(frozen=True)

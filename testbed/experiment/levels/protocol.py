@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from testbed.config.models import ExperimentConfig
+from testbed.experiment.condition import deviations
 from testbed.experiment.levels.published import OWN, PAPER, Paper
 
 PROTOCOL = "levels"
@@ -10,5 +11,5 @@ PROTOCOL = "levels"
 
 
 def paper_of(config: ExperimentConfig) -> Paper:
-    """What a run is to be compared with: the published figures, if it is of the protocol."""
-    return PAPER if config.protocol == PROTOCOL else OWN
+    """What a run is to be compared with: the published figures, if it is played as these were."""
+    return PAPER if config.protocol == PROTOCOL and not deviations(config, PROTOCOL) else OWN

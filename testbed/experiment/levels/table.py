@@ -136,14 +136,15 @@ def share(estimate: Estimate | None) -> str:
     if estimate is None:
         return "-"
     value, low, high = (100 * end for end in (estimate.value, estimate.low, estimate.high))
-    return f"{value:.1f}% [{low:.1f}, {high:.1f}]"
+    return f"{value:.1f}%" if estimate.single else f"{value:.1f}% [{low:.1f}, {high:.1f}]"
 
 
 def times(estimate: Estimate | None) -> str:
     """A ratio with its interval."""
     if estimate is None:
         return "-"
-    return f"{estimate.value:.2f} [{estimate.low:.2f}, {estimate.high:.2f}]"
+    interval = "" if estimate.single else f" [{estimate.low:.2f}, {estimate.high:.2f}]"
+    return f"{estimate.value:.2f}{interval}"
 
 
 def _number(value: float | None) -> str:
@@ -159,7 +160,7 @@ def _times(cell: Cell) -> str:
 
 
 def _mark(cell: Cell) -> str:
-    return "" if cell.inside else OUTSIDE
+    return OUTSIDE if cell.inside is False else ""
 
 
 def level_grid(shown: LevelTable) -> Grid:

@@ -9,7 +9,7 @@ import numpy as np
 from testbed.experiment.counting import BASELINE, INTENTIONAL
 from testbed.experiment.outline import MEASURES, Outline
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.report.figures import Panel, Point, Series, forest
+from testbed.experiment.report.figures import Panel, Point, Series, estimated, forest
 from testbed.experiment.report.svg import FIRST, SECOND
 from testbed.experiment.statistics import Estimate, mean, proportion
 from testbed.experiment.wording import in_words, place
@@ -91,4 +91,4 @@ def _points(
     for name, pairs in groups.items():
         known = estimate(pairs)
         if known is not None:
-            yield Point(name, known.value, known.low, known.high)
+            yield estimated(name, known)

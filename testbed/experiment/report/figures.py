@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 from testbed.experiment.report.svg import CARD, LINE, SETTINGS, SOFT, blank, inline
+from testbed.experiment.statistics import Estimate
 from testbed.experiment.terminal import plain
 
 WIDTH = 3.2
@@ -30,6 +31,11 @@ class Point:
     value: float
     low: float | None = None
     high: float | None = None
+
+
+def estimated(place: str, own: Estimate) -> Point:
+    """The point of an estimate; one that is single has no interval."""
+    return Point(place, own.value) if own.single else Point(place, own.value, own.low, own.high)
 
 
 @dataclass(frozen=True)

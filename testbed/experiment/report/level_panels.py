@@ -9,7 +9,7 @@ from testbed.experiment.levels.comparing import CONDITIONS, RATIO, Levels
 from testbed.experiment.levels.published import NO_ZOOM, PARTS, ZOOM, Paper
 from testbed.experiment.levels.results import Spread
 from testbed.experiment.report import svg
-from testbed.experiment.report.figures import Panel, Point, Series, curves, forest
+from testbed.experiment.report.figures import Panel, Point, Series, curves, estimated, forest
 
 TITLES = {
     "total": "all reasoning of a trial",
@@ -45,7 +45,7 @@ def ratio_panels(levels: Levels, paper: Paper) -> list[Panel]:
 
 def _compared(lines: Iterable[comparing.Line], part: str) -> list[Series]:
     cells = [(line.level, line.cells[PARTS.index(part)]) for line in lines]
-    ours = tuple(Point(n, c.ours.value, c.ours.low, c.ours.high) for n, c in cells if c.ours)
+    ours = tuple(estimated(name, cell.ours) for name, cell in cells if cell.ours)
     theirs = tuple(Point(n, c.published.value) for n, c in cells if c.published)
     return [
         Series(RATIO, svg.SECOND, ours, "s"),

@@ -110,7 +110,8 @@ def _value(cell: Cell, form: str, theirs: str) -> Value:
     if cell.ours is None:
         return Value("-", published=published)
     median = "" if cell.median is None else form.format(cell.median.value)
-    interval = f"{form.format(cell.ours.low)} to {form.format(cell.ours.high)}"
+    ends = f"{form.format(cell.ours.low)} to {form.format(cell.ours.high)}"
+    interval = "" if cell.ours.single else ends
     return Value(form.format(cell.ours.value), interval, median, published, cell.inside)
 
 

@@ -14,6 +14,7 @@ from asp.commentary import scenario_notes
 from asp.loading import read_domain
 from testbed.config import ExperimentConfig
 from testbed.experiment.comparison import OPTIMUM, comparisons, optima
+from testbed.experiment.condition import condition, left_out
 from testbed.experiment.counting import Apart, eventful, pairs_apart
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.levels.protocol import paper_of
@@ -38,7 +39,8 @@ class Tables:
     """What a run comes to: a row a scenario (or level) and robot, and the published tables.
 
     `digest` is the one number for all of its results, `notice` what is to be known of a run that is
-    not complete.
+    not complete; `condition` is that of its trials in words, `left_out` says why published figures
+    do not stand beside them, where they might.
     """
 
     digest: str
@@ -46,6 +48,8 @@ class Tables:
     rows: list[Row]
     levels: list[LevelTable]
     table1: list[Analysis] = field(default_factory=list)
+    condition: str = ""
+    left_out: str | None = None
 
 
 def write_report(folder: Path, config: ExperimentConfig) -> Tables:
@@ -56,7 +60,15 @@ def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     apart = pairs_apart(read_records(folder), sure)
     rows = rows_of(read_records(folder), apart)
     levels = level_tables(levels_of(summary), paper)
-    tables = Tables(str(summary["digest"]), covered.notice(), rows, levels, table1)
+    tables = Tables(
+        str(summary["digest"]),
+        covered.notice(),
+        rows,
+        levels,
+        table1,
+        condition(config),
+        left_out(config),
+    )
     parts = {
         **_heading(config, tables),
         **_tables(config, tables, summary),
@@ -95,6 +107,8 @@ def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
         "lost": sum(row.lost for row in tables.rows),
         "digest": tables.digest,
         "notice": tables.notice,
+        "condition": tables.condition,
+        "left_out": tables.left_out,
     }
 
 
@@ -147,6 +161,7 @@ def _published(analysis: Analysis) -> dict[str, Any]:
 
     return {
         "robot": analysis.mind,
+        "paper": bool(table1.published_in(analysis)),
         "columns": table1.COLUMNS,
         "tests": table1.TESTS,
         "optimum": table1.OPTIMUM,

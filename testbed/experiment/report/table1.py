@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.counting import BASELINE, eventful
+from testbed.experiment.condition import deviations
+from testbed.experiment.counting import BASELINE, INTENTIONAL, eventful
 from testbed.experiment.domains import load_world
-from testbed.experiment.report.figures import Panel, Point, Series, forest
+from testbed.experiment.report.figures import Panel, Point, Series, estimated, forest
 from testbed.experiment.report.svg import FIRST, PAPER, SECOND
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.store import read_records
 from testbed.experiment.table1 import optimum, times
 from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
 from testbed.experiment.table1.pairing import MEETINGS, pairs_of
-from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, MEASURES, PUBLISHED
+from testbed.experiment.table1.published import (
+    ALL,
+    HALF_CENT,
+    HALF_PERCENT,
+    MEASURES,
+    PUBLISHED,
+    SCENARIOS,
+    Published,
+)
 from testbed.experiment.table1.runs import PROTOCOL, minds_of
 from testbed.experiment.table1.table import HEADINGS, tests_of
 from testbed.experiment.wording import counted
@@ -65,10 +74,27 @@ def analyses(folder: Path, config: ExperimentConfig) -> list[Analysis]:
     if config.protocol != PROTOCOL:
         return []
     world, sure = load_world(config.domain), eventful(config)
-    return [
+    found = [
         analyse(pairs_of(read_records(folder), world, mind, BASELINE), mind, BASELINE, sure)
         for mind in minds_of(config)
     ]
+    return [_beside_the_paper(own, config) for own in found]
+
+
+def _beside_the_paper(analysis: Analysis, config: ExperimentConfig) -> Analysis:
+    """The same with the published figures of what was played as it was for them.
+
+    The figures of all scenarios together are those of five of them.
+    """
+    theirs = {} if deviations(config, PROTOCOL) or analysis.mind != INTENTIONAL else PUBLISHED
+    whole = set(SCENARIOS) <= set(config.scenarios)
+    parts = {name: row for name, row in theirs.items() if whole or not name.startswith(ALL)}
+    triggered, random = analysis.triggered, analysis.random
+    return replace(
+        analysis,
+        triggered=triggered and replace(triggered, published=parts),
+        random=random and replace(random, published=theirs),
+    )
 
 
 def views(analysis: Analysis) -> list[View]:
@@ -91,11 +117,10 @@ def views(analysis: Analysis) -> list[View]:
 def _lines(table: Table) -> Iterator[Line]:
     for row in table.rows:
         if row.pairs:
-            yield Line(row.name, row.pairs, tuple(_values(row)))
+            yield Line(row.name, row.pairs, tuple(_values(row, table.published.get(row.name))))
 
 
-def _values(row: Row) -> Iterator[Value]:
-    paper = PUBLISHED.get(row.name)
+def _values(row: Row, paper: Published | None) -> Iterator[Value]:
     for measure in MEASURES:
         published = None if paper is None else paper.ratios[measure]
         yield _value(row.ratios[measure].mean, published, "{:.2f}", HALF_CENT)
@@ -113,9 +138,9 @@ def _value(
     form = finer or form
     if ours is None:
         return Value("-", "", theirs)
-    low, high = form.format(ours.low), form.format(ours.high)
+    interval = "" if ours.single else f"{form.format(ours.low)} to {form.format(ours.high)}"
     inside = None if published is None else ours.covers(published, half_digit)
-    return Value(form.format(ours.value), f"{low} to {high}", theirs, inside)
+    return Value(form.format(ours.value), interval, theirs, inside)
 
 
 def _notes(table: Table) -> Iterator[str]:
@@ -156,6 +181,11 @@ def _tables(analysis: Analysis) -> list[Table]:
     return [table for table in (analysis.triggered, analysis.random) if table is not None]
 
 
+def published_in(analysis: Analysis) -> Mapping[str, Published]:
+    """The rows of the paper that an analysis is to be compared with, by name."""
+    return {name: row for table in _tables(analysis) for name, row in table.published.items()}
+
+
 def _row(table: Table | None, name: str) -> Row | None:
     rows = () if table is None else table.rows
     return next((row for row in rows if row.name == name and row.pairs), None)
@@ -165,7 +195,8 @@ def _ratio_series(analysis: Analysis, rows: Sequence[str], measure: str) -> list
     def ours(row: Row) -> Estimate | None:
         return row.ratios[measure].mean
 
-    paper = tuple(Point(name, PUBLISHED[name].ratios[measure]) for name in rows)
+    known = published_in(analysis)
+    paper = tuple(Point(name, known[name].ratios[measure]) for name in rows if name in known)
     return _series(analysis, rows, ours, paper)
 
 
@@ -174,7 +205,8 @@ def _share_series(analysis: Analysis, rows: Sequence[str], who: str) -> list[Ser
         share: Estimate | None = getattr(row, who)
         return share
 
-    paper = tuple(Point(name, getattr(PUBLISHED[name], who)) for name in rows)
+    known = published_in(analysis)
+    paper = tuple(Point(name, getattr(known[name], who)) for name in rows if name in known)
     return _series(analysis, rows, ours, paper)
 
 
@@ -189,7 +221,7 @@ def _series(
     return [
         Series(TRIGGERED, FIRST, triggered),
         Series(RANDOM, SECOND, random, marker="s"),
-        Series("published", PAPER, paper, marker="D", published=True),
+        *[Series("published", PAPER, paper, marker="D", published=True)] * bool(paper),
     ]
 
 
@@ -198,4 +230,4 @@ def _points(
 ) -> tuple[Point, ...]:
     known = ((name, _row(table, name)) for name in rows)
     estimates = ((name, ours(row)) for name, row in known if row is not None)
-    return tuple(Point(name, e.value, e.low, e.high) for name, e in estimates if e is not None)
+    return tuple(estimated(name, own) for name, own in estimates if own is not None)

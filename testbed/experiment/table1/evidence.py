@@ -124,7 +124,7 @@ def closeness(table: Table, rows: Iterable[str] = SCENARIOS) -> Closeness:
         for _, column, ours, theirs in known
         if column != ACCURACY and ours.value
     ]
-    inside = [ours.covers(theirs, HALF_CENT) for *_, ours, theirs in known]
+    inside = [bool(ours.covers(theirs, HALF_CENT)) for *_, ours, theirs in known]
     return Closeness(sum(inside), len(inside), fmean(distances) if distances else 0.0)
 
 

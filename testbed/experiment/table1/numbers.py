@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TypeAlias
 
 from testbed.experiment.statistics import Estimate, Test
-from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, PUBLISHED
+from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, Published
 from testbed.experiment.table1.results import Analysis, Ratio, Row, Seconds, Table
 
 Numbers: TypeAlias = dict[str, object]
@@ -27,12 +27,11 @@ def numbers(analyses: Iterable[Analysis]) -> dict[str, Numbers]:
 def _table(table: Table | None, of: Analysis) -> Numbers | None:
     if table is None:
         return None
-    rows: Numbers = {row.name: _row(row, of) for row in table.rows}
+    rows: Numbers = {row.name: _row(row, table.published.get(row.name), of) for row in table.rows}
     return {"rows": rows, "apart": dict(table.apart)}
 
 
-def _row(row: Row, of: Analysis) -> Numbers:
-    paper = PUBLISHED.get(row.name)
+def _row(row: Row, paper: Published | None, of: Analysis) -> Numbers:
     theirs = (None, None) if paper is None else (paper.baseline, paper.intentional)
     shares = zip((of.base, of.mind), (row.baseline, row.intentional), theirs, strict=True)
     ratios: Mapping[str, float] = {} if paper is None else paper.ratios
@@ -78,8 +77,9 @@ def _seconds(own: Seconds, of: Analysis) -> Numbers:
 
 def _interval(own: Estimate | None, name: str, prefix: str = "") -> Numbers:
     """A value under its name, and the ends of its interval."""
-    value, low, high = (None,) * 3 if own is None else (own.value, own.low, own.high)
-    return {name: value, f"{prefix}low": low, f"{prefix}high": high}
+    ends = (None, None) if own is None or own.single else (own.low, own.high)
+    value = None if own is None else own.value
+    return {name: value, f"{prefix}low": ends[0], f"{prefix}high": ends[1]}
 
 
 def _test(test: Test | None) -> Numbers:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from testbed.experiment.optimum import Optimum
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.pairing import Meeting
+from testbed.experiment.table1.published import PUBLISHED, Published
 
 
 @dataclass(frozen=True)
@@ -66,10 +67,14 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """One way of assigning pairs to scenarios; `apart` counts the pairs that are in no row."""
+    """One way of assigning pairs to scenarios; `apart` counts the pairs that are in no row.
+
+    `published` are the rows of the paper that it is to be compared with, by name.
+    """
 
     rows: tuple[Row, ...]
     apart: Mapping[str, int]
+    published: Mapping[str, Published] = field(default_factory=lambda: PUBLISHED)
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from testbed.experiment.grid import Grid
+from testbed.experiment.levels.table import MARKED, OUTSIDE
 from testbed.experiment.statistics import Estimate, Test
 from testbed.experiment.table1.analysis import Row, Table
-from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, MEASURES, PUBLISHED
+from testbed.experiment.table1.published import HALF_CENT, HALF_PERCENT, MEASURES, Published
 from testbed.experiment.wording import chance
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
@@ -29,8 +30,8 @@ def rows_of(table: Table) -> Iterator[Cells]:
             *_shares(row),
         )
         yield ("  median", "", *(_ratio(row.ratios[m].median) for m in MEASURES), "", "")
-        if row.name in PUBLISHED:
-            yield ("  published", "", *_published(row))
+        if row.name in table.published:
+            yield ("  published", "", *_published(row, table.published[row.name]))
 
 
 def tests_of(table: Table) -> Iterator[Cells]:
@@ -48,8 +49,8 @@ def _advantage(row: Row) -> str:
     difference = row.advantage
     if row.accuracy is None or difference is None:
         return "-"
-    interval = f"[{difference.low:+.2f}, {difference.high:+.2f}]"
-    return f"{difference.value:+.2f} {interval} ({chance(row.accuracy.holm)})"
+    interval = "" if difference.single else f" [{difference.low:+.2f}, {difference.high:+.2f}]"
+    return f"{difference.value:+.2f}{interval} ({chance(row.accuracy.holm)})"
 
 
 def number(value: float | None) -> str:
@@ -60,7 +61,8 @@ def number(value: float | None) -> str:
 def _ratio(estimate: Estimate | None) -> str:
     if estimate is None:
         return "-"
-    return f"{estimate.value:.2f} [{estimate.low:.2f}, {estimate.high:.2f}]"
+    interval = "" if estimate.single else f" [{estimate.low:.2f}, {estimate.high:.2f}]"
+    return f"{estimate.value:.2f}{interval}"
 
 
 def _shares(row: Row) -> Iterator[str]:
@@ -70,11 +72,11 @@ def _shares(row: Row) -> Iterator[str]:
 
 def interval(share: Estimate) -> str:
     """A proportion with its interval."""
-    return f"{100 * share.value:.1f}% [{100 * share.low:.1f}, {100 * share.high:.1f}]"
+    ends = "" if share.single else f" [{100 * share.low:.1f}, {100 * share.high:.1f}]"
+    return f"{100 * share.value:.1f}%{ends}"
 
 
-def _published(row: Row) -> Iterator[str]:
-    paper = PUBLISHED[row.name]
+def _published(row: Row, paper: Published) -> Iterator[str]:
     for measure in MEASURES:
         value = paper.ratios[measure]
         yield f"{value:.2f}{_mark(row.ratios[measure].mean, value, HALF_CENT)}"
@@ -83,7 +85,8 @@ def _published(row: Row) -> Iterator[str]:
 
 
 def _mark(ours: Estimate | None, published: float, half_digit: float) -> str:
-    return "" if ours is not None and ours.covers(published, half_digit) else " *"
+    outside = ours is not None and ours.covers(published, half_digit) is False
+    return OUTSIDE if outside else ""
 
 
 def _narrow(table: Table) -> Iterator[Cells]:
@@ -101,5 +104,7 @@ def _parts(cell: str) -> tuple[str, str]:
 
 
 def table1_grid(table: Table, title: str) -> Grid:
-    """The table for a terminal."""
-    return Grid(COLUMNS, list(_narrow(table)), range(1, len(COLUMNS)), title)
+    """The table for a terminal; its title says what a mark means, where there are any."""
+    rows = list(_narrow(table))
+    marked = any(cell.endswith(OUTSIDE) for cells in rows for cell in cells)
+    return Grid(COLUMNS, rows, range(1, len(COLUMNS)), title + (MARKED if marked else ""))

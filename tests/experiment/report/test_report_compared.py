@@ -47,7 +47,7 @@ def test_pairs_from_one_state_make_no_interval() -> None:
     for record in pairs[1]:
         record.initial = ["a"]
     (same,) = compared._ratios(_groups(*pairs), MEASURES["actions"]).points
-    assert (same.value, same.low, same.high) == (1.5, 1.5, 1.5)
+    assert (same.value, same.low, same.high) == (1.5, None, None)
 
 
 def _groups(*pairs: list[TrialRecord]) -> dict[str, list[compared.Pair]]:

@@ -96,8 +96,9 @@ def test_only_the_protocol_has_the_table(small: Path) -> None:
 
 def _views(*times: tuple[str, float]) -> dict[str, levels.View]:
     records = [
-        a_level_record("p", robot, fine=seconds, infer=0.0, planning=0.0, diagnosis=0.0)
+        a_level_record(pair, robot, fine=seconds, infer=0.0, planning=0.0, diagnosis=0.0)
         for robot, seconds in times
+        for pair in "pq"
     ]
     return {view.name: view for view in levels.views(levels_of(summarise(records)), PAPER)}
 
@@ -105,8 +106,8 @@ def _views(*times: tuple[str, float]) -> dict[str, levels.View]:
 def test_a_level_has_both_conditions_and_their_ratio_above_the_published() -> None:
     views = _views((ZOOM, 0.05), (NO_ZOOM, 1.0))
     zoom, without = views["levels-seconds"].lines
-    assert (zoom.level, zoom.reasoning, zoom.number, zoom.first) == ("L3", "zoom", "1", True)
-    assert zoom.values[0] == levels.Value("100.0%", "2.5% to 100.0%", "", "100%", True)
+    assert (zoom.level, zoom.reasoning, zoom.number, zoom.first) == ("L3", "zoom", "2", True)
+    assert zoom.values[0] == levels.Value("100.0%", "15.8% to 100.0%", "", "100%", True)
     assert zoom.values[2] == levels.Value(
         "50.0 ± 0.0 ms", median="50.0 ms", published="4.19 ± 1.48 s"
     )
@@ -114,7 +115,7 @@ def test_a_level_has_both_conditions_and_their_ratio_above_the_published() -> No
     assert (without.values[0].published, without.values[0].inside) == ("65%", True)
     assert without.values[4].published == "45.98 ± 43.05 s"
     (ratio,) = views["levels-ratios"].lines
-    assert (ratio.reasoning, ratio.number) == ("no zoom / zoom", "1")
+    assert (ratio.reasoning, ratio.number) == ("no zoom / zoom", "2")
     assert ratio.values[1] == levels.Value("20.00", "20.00 to 20.00", "20.00", "55.23", False)
     for view in views.values():
         assert {len(line.values) for line in view.lines} == {len(view.columns) - 3}
