@@ -14,7 +14,7 @@ from benchmarks.refinements import FINE, REFUSED, verdict
 
 
 @given(st.randoms(use_true_random=False))
-@settings(max_examples=100, derandomize=True)
+@settings(max_examples=80, derandomize=True)
 def test_a_refinement_is_refused_with_its_place_or_its_trial_achieves_the_goal(
     random: Random,
 ) -> None:
