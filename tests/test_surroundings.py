@@ -12,8 +12,6 @@ from shutil import which
 
 import pytest
 
-pytestmark = pytest.mark.versions
-
 ROOT = Path(__file__).parents[1]
 LIMITED = """
 import os, resource, sys
@@ -108,6 +106,7 @@ def test_a_user_without_rights_whose_home_is_read_only(elsewhere: Path, sealed: 
     assert list(sealed.iterdir()) == []
 
 
+@pytest.mark.versions
 def test_paths_have_blanks_and_umlauts(elsewhere: Path) -> None:
     (elsewhere / "mein Gärtchen.al").write_text(GARDEN, encoding="utf-8")
     (elsewhere / "erster Versuch.yaml").write_text(
