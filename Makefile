@@ -15,6 +15,8 @@ BIN    := $(VENV)/bin
 PIP    := PIP_CONSTRAINT=$(CURDIR)/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1 \
           $(BIN)/python -m pip install --quiet
 
+# The test files with a mark: to collect all the others takes longer than to run these.
+marked  = $$(grep -rl --include='test_*.py' 'mark\.$(1)' tests)
 BESIDE  = $(BIN)/python -m tests.beside $(BUSY)
 
 .PHONY: demo test check bench load lowest clean
@@ -36,12 +38,12 @@ bench: $(VENV)/.bench
 
 load: $(VENV)/.test
 	$(BESIDE) $(BIN)/python -m pytest -n 2 --dist worksteal
-	for round in 1 2 3; do $(BESIDE) $(BIN)/python -m pytest -n 2 --dist worksteal -m load || exit 1; done
+	for round in 1 2 3; do $(BESIDE) $(BIN)/python -m pytest -n 2 --dist worksteal -m load $(call marked,load) || exit 1; done
 
 lowest: $(VENV)/.test
 	$(BIN)/uv venv --quiet --clear --python $(PYTHON) $(LOWEST)
 	$(BIN)/uv pip install --quiet --python $(LOWEST) --resolution lowest-direct --editable '.[test,cluster]'
-	$(LOWEST)/bin/python -m pytest -n 2 --dist worksteal -m versions
+	$(LOWEST)/bin/python -m pytest -n 2 --dist worksteal -m versions $(call marked,versions)
 
 clean:
 	rm -rf $(VENV) $(LOWEST)
