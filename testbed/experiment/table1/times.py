@@ -9,7 +9,7 @@ from statistics import fmean
 from testbed.experiment.markdown import markdown, paragraph
 from testbed.experiment.statistics import Estimate
 from testbed.experiment.table1.pairing import Pair, Side
-from testbed.experiment.table1.published import HALF_CENT, PLANNING, PUBLISHED, SCENARIOS
+from testbed.experiment.table1.published import HALF_CENT, PLANNING, PUBLISHED, SCENARIOS, Published
 from testbed.experiment.table1.results import Analysis, Ratio, Row, Seconds, Table
 from testbed.experiment.wording import in_words
 
@@ -70,28 +70,32 @@ def rows_of(table: Table) -> Iterator[tuple[str, ...]]:
     """Under COLUMNS: for each row with pairs a line per time."""
     for row in table.rows:
         if row.pairs:
-            yield from (_line(row, name, own) for name, own in row.times.items())
+            paper = table.published.get(row.name)
+            yield from (_line(row, name, own, paper) for name, own in row.times.items())
 
 
-def _line(row: Row, name: str, own: Seconds) -> tuple[str, ...]:
+def _line(row: Row, name: str, own: Seconds, paper: Published | None) -> tuple[str, ...]:
     mean = own.ratio.mean
     return (
         row.name,
         in_words(name),
         _milliseconds(own.baseline),
         _milliseconds(own.intentional),
-        "-" if mean is None else f"{mean.value:.2f} [{mean.low:.2f}, {mean.high:.2f}]",
+        "-" if mean is None else _with_interval(mean),
         "-" if own.ratio.of_sums is None else f"{own.ratio.of_sums:.2f}",
-        _published(row.name, mean) if name in READINGS else "",
+        _published(paper, mean) if paper is not None and name in READINGS else "",
     )
 
 
-def _published(row: str, ours: Estimate | None) -> str:
-    if row not in PUBLISHED:
-        return ""
-    value = PUBLISHED[row].ratios[PLANNING]
-    inside = ours is not None and ours.covers(value, HALF_CENT)
-    return f"{value:.2f}{'' if inside else ' *'}"
+def _with_interval(mean: Estimate) -> str:
+    interval = "" if mean.single else f" [{mean.low:.2f}, {mean.high:.2f}]"
+    return f"{mean.value:.2f}{interval}"
+
+
+def _published(paper: Published, ours: Estimate | None) -> str:
+    value = paper.ratios[PLANNING]
+    outside = ours is not None and ours.covers(value, HALF_CENT) is False
+    return f"{value:.2f}{' *' if outside else ''}"
 
 
 def _milliseconds(value: float | None) -> str:

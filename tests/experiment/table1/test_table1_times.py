@@ -1,5 +1,7 @@
 """Planning, diagnosis and both, from pairs made by hand; a wall clock changes none of it."""
 
+from dataclasses import replace
+
 import pytest
 
 from testbed.experiment.outline import Outline
@@ -52,6 +54,13 @@ def test_the_published_column_stands_beside_the_readings_that_it_can_have() -> N
     section = times.section(_analysis())
     lines = [line for line in section.splitlines() if line.startswith("| random, 2")]
     assert [line.count("1.08") for line in lines] == [1, 0, 1]
+
+
+def test_without_published_figures_the_column_is_empty() -> None:
+    table = _analysis().random
+    assert table is not None
+    cells = [row for row in times.rows_of(replace(table, published={})) if row[0] == "2"]
+    assert [row[-1] for row in cells] == ["", "", ""]
 
 
 def _trial(robot: str, cpu: float, wall: float) -> TrialRecord:
