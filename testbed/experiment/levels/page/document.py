@@ -44,7 +44,9 @@ READING = """\
 What can be compared across machines and solvers are shares, ratios and growth. In their tables: our
 value with its 95% interval, for times the mean and below it the median, and the published value,
 with `*` where it does not lie in the interval of ours. *Fine* is reasoning in cells and parts,
-*coarse* in rooms and objects, *all* both in a trial; *a refined plan* is the mean time of one."""
+*coarse* in rooms and objects, *all* both in a trial; *a refined plan* is the mean time of one.
+Times are process time of the robot, its solver included, without what is prepared once and reused.
+Beside the mean of ratios stands the ratio of sums (*of sums*), in which long trials weigh more."""
 
 TESTING = """\
 Effect sizes (of times rank-biserial, above 0 where zooming saves time; of trials that achieved
