@@ -10,6 +10,7 @@ from asp import syntax
 from asp.checker import check
 from asp.cycles import check_cycles
 from asp.description import Description
+from asp.extents import check_sizes
 from asp.grounding import ground_description
 from asp.parser import parse
 from asp.signature import Problems, Signature, signature_of
@@ -28,6 +29,8 @@ def analyse(text: str, file: str = "<text>") -> tuple[syntax.Source, Signature]:
     problems = Problems(file)
     signature = signature_of(source, problems)
     check(source, signature, problems)
+    problems.raise_first()
+    check_sizes(source, signature, problems)
     problems.raise_first()
     check_cycles(source, signature, problems)
     problems.raise_first()

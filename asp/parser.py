@@ -82,8 +82,9 @@ class ToSyntax(Transformer[Token, Any]):
         return tuple(constants)
 
     def range(self, meta: Meta, bounds: list[Token]) -> tuple[syntax.Term, ...]:
-        low, high = map(int, bounds)
-        return tuple(syntax.Term(str(n), place_of(meta)) for n in range(low, high + 1))
+        low, high = (int(bound) if len(bound) < 10 else syntax.LARGEST for bound in bounds)
+        last = min(high, low + syntax.MOST_MEMBERS)  # one too many is told where sorts are checked
+        return tuple(syntax.Term(str(n), place_of(meta)) for n in range(low, last + 1))
 
     def signature(self, meta: Meta, children: list[Any]) -> tuple[str, tuple[syntax.Term, ...]]:
         return str(children[0]), tuple(c for c in children[1:] if c is not None)

@@ -106,6 +106,12 @@ def _check_constants(
 ) -> None:
     if not constants:
         problems.report(definition.place, f"the range of sort '{definition.name}' is empty")
+    if len(constants) > syntax.MOST_MEMBERS:
+        message = (
+            f"sort '{definition.name}' is too large; {syntax.MOST_MEMBERS} members are the most"
+        )
+        problems.report(definition.place, message)
+        return
     seen = set()
     for constant in constants:
         if constant.name in seen:

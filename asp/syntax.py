@@ -9,6 +9,11 @@ from typing import TypeVar
 
 S = TypeVar("S", bound="Statement")
 
+MOST_MEMBERS = 100_000
+"""Of a sort."""
+LARGEST = 10**9
+"""Bound of a range; a larger one is taken for it."""
+
 FluentKind = Choice["inertial", "defined"]
 ActionKind = Choice["agent", "exogenous"]
 SymbolKind = Choice["static", "inertial", "defined", "agent", "exogenous"]

@@ -21,6 +21,8 @@ from testbed.environment.errors import StateError
 from testbed.environment.sparse import SparseWorld
 from testbed.environment.world import World
 
+MOST_CELLS = 20_000
+"""Of a level, and parts of its objects."""
 FLUENTS = ("inertial", "defined")
 SCENARIO_KEYS = ("scenarios", "scenario_settings")
 """What goes with no levels."""
@@ -45,6 +47,7 @@ def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:
     if config.adversary.strategy == "triggers":
         yield ("adversary", "strategy"), "triggers belong to scenarios; at levels events are random"
     yield from _names(config)
+    yield from _sizes(config)
 
 
 def _names(config: ExperimentConfig) -> Iterator[Finding]:
@@ -57,6 +60,16 @@ def _names(config: ExperimentConfig) -> Iterator[Finding]:
     for name in config.level_sizes:
         if name in LEVELS:
             yield ("level_sizes", name), "is a published level; give your own another name"
+
+
+def _sizes(config: ExperimentConfig) -> Iterator[Finding]:
+    for name, size in config.level_sizes.items():
+        cells = size.rooms * size.rows * size.columns
+        parts = sum(number * of_each for number, of_each in size.objects)
+        for what, number in (("cells", cells), ("parts of objects", parts)):
+            if number > MOST_CELLS:
+                message = f"has {number} {what}; {MOST_CELLS} are the most"
+                yield ("level_sizes", name), message
 
 
 def map_findings(config: ExperimentConfig) -> Iterator[Finding]:
