@@ -10,6 +10,7 @@ from asp import syntax
 from asp.checker import check
 from asp.cycles import check_cycles
 from asp.description import Description
+from asp.errors import SourceError
 from asp.extents import check_sizes
 from asp.grounding import ground_description
 from asp.parser import parse
@@ -65,7 +66,18 @@ def read_domain(name_or_path: str) -> tuple[str, str]:
             f"{name_or_path}: no such domain; give the path of an .al file or one of "
             f"{', '.join(packaged_domains())}"
         )
-    return str(path), path.read_text(encoding="utf-8")
+    return str(path), text_of(path)
+
+
+def text_of(path: Path) -> str:
+    """The text of a file. Raises SourceError, at its place, for what is not UTF-8, and OSError."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        before = error.object[: error.start]
+        line, column = before.count(b"\n") + 1, error.start - before.rfind(b"\n")
+        message = f"not a text file in UTF-8: {error.reason}"
+        raise SourceError(str(path), line, column, message) from None
 
 
 def packaged_domains() -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from asp.errors import SourceError
-from asp.loading import read_domain
+from asp.loading import read_domain, text_of
 from asp.refinement.language import Refines, parse_fine
 from asp.refinement.refinement import Refinement, load
 
@@ -30,7 +30,7 @@ def read_refinement(name_or_path: str) -> tuple[str, str]:
     if "/" not in name_or_path and packaged.is_file():
         return name_or_path, packaged.read_text(encoding="utf-8")
     path = Path(name_or_path)
-    return str(path), path.read_text(encoding="utf-8")
+    return str(path), text_of(path)
 
 
 def refined_name(name_or_path: str) -> str | None:

@@ -9,13 +9,14 @@ mistyped command is to be refused quickly, and statistics alone take longer to i
 from __future__ import annotations
 
 import importlib.metadata
+import sys
 from typing import Annotated
 
 import typer
 
 from testbed.cli import check, export, repair, replay, report, robot, run, translate
-from testbed.cli.common import DONE, refuse
-from testbed.experiment.terminal import tolerant
+from testbed.cli.common import BAD_INPUT, DONE, refuse
+from testbed.experiment.terminal import mute, tolerant, warn
 from testbed.importing import displaced
 
 __all__ = ["app", "main"]
@@ -54,7 +55,12 @@ def common(
 def main() -> None:
     """Entry point of the distribution."""
     tolerant()
-    app(prog_name="testbed")
+    try:
+        app(prog_name="testbed")
+    except OSError as error:  # of the help, which no command writes
+        mute(sys.stdout.fileno())
+        warn(f"standard output: {error.strerror}")
+        sys.exit(BAD_INPUT)
 
 
 for _module in COMMANDS:

@@ -32,6 +32,7 @@ def command(
     from asp.refinement import load_refinement
     from asp.translation import translate as translated
     from asp.translation import translate_source
+    from testbed.experiment.run_folder import naming
 
     with input_errors():
         if source.endswith(".fine"):
@@ -42,4 +43,5 @@ def command(
         if output is None:
             emit(program)
         else:
-            output.write_text(program, encoding="utf-8")
+            with naming(output):
+                output.write_text(program, encoding="utf-8")

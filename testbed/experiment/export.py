@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from msgspec import inspect
 
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.store import read_config, read_records
+from testbed.experiment.store import naming, read_config, read_records
 
 PARQUET, CSV = "trials.parquet", "trials.csv"
 FORMULA = "^[=+@\t\r\n\u2212\uff1d\uff0b\uff0d\uff20-]"
@@ -39,8 +40,12 @@ def export(folder: Path) -> tuple[Path, Path]:
     if not len(trials):
         raise StoreError(f"{folder}: has no trials to export yet")
     paths = folder / PARQUET, folder / CSV
-    trials.write_parquet(paths[0])
-    flat(trials).write_csv(paths[1])
+    columnar = BytesIO()
+    trials.write_parquet(columnar)
+    with naming(paths[0]):
+        paths[0].write_bytes(columnar.getbuffer())
+    with naming(paths[1]):
+        paths[1].write_text(flat(trials).write_csv(), encoding="utf-8", newline="")
     return paths
 
 

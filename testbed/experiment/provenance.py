@@ -78,7 +78,7 @@ def revision(folder: Path, root: Path = ROOT) -> dict[str, object] | None:
         return None
     difference = _git(root, "diff", "HEAD")
     if difference:
-        (folder / DIFFERENCE).write_text(difference + "\n", encoding="utf-8")
+        replace_text(folder / DIFFERENCE, difference + "\n")
     return {"commit": commit, "changed": changed.splitlines()}
 
 

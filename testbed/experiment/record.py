@@ -238,7 +238,10 @@ def check(record: TrialRecord) -> None:
 
 def decode(line: bytes) -> TrialRecord:
     """The record in a line. Raises msgspec.DecodeError for anything else."""
-    return msgspec.json.decode(line, type=TrialRecord)
+    try:
+        return msgspec.json.decode(line, type=TrialRecord)
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise msgspec.DecodeError(str(error)) from error
 
 
 def logical(record: TrialRecord) -> dict[str, object]:

@@ -10,7 +10,7 @@ from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.levels import SCENARIO_KEYS
 from testbed.config.yaml_core import write_yaml
 from testbed.experiment.errors import StoreError
-from testbed.experiment.run_folder import CONFIG, replace_text
+from testbed.experiment.run_folder import CONFIG, naming, replace_text
 
 ANY_RESULT = ("link", "limits.answer_s")  # keys on which no logical result depends
 MOST_CHANGES = 8
@@ -33,7 +33,8 @@ def write_config(folder: Path, config: ExperimentConfig) -> None:
     files = _own_files(config)
     for source in files.values():
         if source.parent != folder.resolve():
-            shutil.copyfile(source, folder / source.name)
+            with naming(folder / source.name):
+                shutil.copyfile(source, folder / source.name)
     config = config.model_copy(update={key: source.name for key, source in files.items()})
     replace_text(folder / CONFIG, config_text(config))
 

@@ -80,6 +80,17 @@ def locked(folder: Path) -> Iterator[None]:
         yield
 
 
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Let errors of writing say the file, which those of a full disk do not."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename is not None:
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
 def holds_run(folder: Path) -> bool:
     """Whether a run was started in this folder."""
     return (folder / CONFIG).is_file() or (folder / TRIALS).is_file()
@@ -88,14 +99,15 @@ def holds_run(folder: Path) -> bool:
 def replace_text(path: Path, text: str) -> None:
     """Write a file so that a reader finds the old one or the new one, never a part."""
     draft = path.with_name(path.name + ".part")
-    draft.write_text(text, encoding="utf-8")
+    with naming(path):
+        draft.write_text(text, encoding="utf-8")
     os.replace(draft, path)
 
 
 def replace_lines(path: Path, lines: Iterable[bytes]) -> None:
     """As `replace_text`, of lines that reach the disk before the old ones leave it."""
     draft = path.with_name(path.name + ".part")
-    with draft.open("wb") as file:
+    with naming(path), draft.open("wb") as file:
         file.writelines(lines)
         file.flush()
         os.fsync(file.fileno())

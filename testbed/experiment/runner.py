@@ -16,7 +16,7 @@ from testbed.experiment.pool import play_all, workers_for
 from testbed.experiment.record import FAILURES
 from testbed.experiment.registry import make_robot
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import ERRORS, TrialWriter, locked
+from testbed.experiment.store import ERRORS, TrialWriter, locked, naming
 from testbed.experiment.trial import Result, play_trial
 from testbed.experiment.worker import Play
 from testbed.link.inprocess import InProcessRobot
@@ -122,7 +122,8 @@ class _Filing:
         details = self._folder / ERRORS / f"{result.record.trial}.txt"
         if result.details:
             details.parent.mkdir(exist_ok=True)
-            details.write_text(result.details, encoding="utf-8")
+            with naming(details):
+                details.write_text(result.details, encoding="utf-8")
         else:  # those of an earlier attempt
             details.unlink(missing_ok=True)
 

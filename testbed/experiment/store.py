@@ -31,6 +31,7 @@ from testbed.experiment.run_folder import (
     choose_folder,
     holds_run,
     locked,
+    naming,
     refuse_second_run,
     replace_text,
 )
@@ -50,6 +51,7 @@ __all__ = [
     "flat_config",
     "holds_run",
     "locked",
+    "naming",
     "numbered_records",
     "read_config",
     "read_records",
@@ -125,8 +127,9 @@ class TrialWriter:
         """Write one record, visible to readers at once, or in the place of another later."""
         record.retried = [*self.failures.get(record.trial, ()), *record.retried]
         file = self._open(RETRIES if record.trial in self.done else TRIALS)
-        file.write(encode(record))
-        file.flush()
+        with naming(Path(file.name)):
+            file.write(encode(record))
+            file.flush()
         self.done.add(record.trial)
 
     def _open(self, name: str) -> BinaryIO:
@@ -144,8 +147,9 @@ class TrialWriter:
         trace: TracebackType | None,
     ) -> None:
         for file in self._files.values():
-            os.fsync(file.fileno())
-            file.close()
+            with naming(Path(file.name)):
+                os.fsync(file.fileno())
+                file.close()
         settle(self._folder)
 
 
