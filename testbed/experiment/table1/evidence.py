@@ -141,7 +141,7 @@ class Outside:
 def outside(table: Iterable[Row], rows: Iterable[str] = SCENARIOS) -> Iterator[Outside]:
     """The published values that `closeness` does not count as inside."""
     for name, column, ours, theirs in _beside(table, rows):
-        if not ours.covers(theirs, HALF_CENT):
+        if ours.covers(theirs, HALF_CENT) is False:
             yield Outside(name, column, ours.value, theirs)
 
 

@@ -206,7 +206,8 @@ def test_what_became_what_is_counted_and_so_is_what_no_rule_fits() -> None:
 
 
 def test_what_lies_outside_is_named_with_both_values() -> None:
-    row = _analysis([a_pair("1", base=a_side(actions=2))]).random
+    pairs = [a_pair("1", base=a_side(actions=2), state=state) for state in ("a", "b")]
+    row = _analysis(pairs).random
     assert row is not None
     missed = list(evidence.outside(row.rows))
     assert missed == [evidence.Outside("1", "actions", 2.0, PUBLISHED["1"].ratios["actions"])]
