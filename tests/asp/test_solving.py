@@ -43,7 +43,7 @@ def test_an_interrupted_control_stays_usable() -> None:
         with deciding(Limits(0.2)), pytest.raises(TimeLimitError):
             first_model(control, [(CROWD, True)])
         assert first_model(control, [(CROWD, False)]) == ()
-        with deciding(Limits(60.0)):
+        with deciding(Limits(3600.0)):
             assert is_satisfiable(control)
 
 
@@ -64,6 +64,7 @@ def test_a_hard_question_is_answered_where_the_first_burst_does_not_suffice() ->
     assert answer_sets(control) == ([()], False)
 
 
+@pytest.mark.load
 @pytest.mark.parametrize("delay", [0.0, 0.001, 0.003, 0.1, 0.5])
 def test_an_interrupt_reaches_python_whatever_the_solver_does(delay: float) -> None:
     program = (
@@ -87,7 +88,7 @@ def test_an_interrupt_reaches_python_whatever_the_solver_does(delay: float) -> N
     time.sleep(delay)
     os.kill(process.pid, signal.SIGINT)
     try:
-        assert process.communicate(timeout=60)[0] == "interrupted ()\n"
+        assert process.communicate()[0] == "interrupted ()\n"
     finally:
         process.kill()
 
@@ -159,5 +160,5 @@ def test_a_search_for_an_optimum_ends_with_the_time() -> None:
     control = ground([pigeons], {}, ())
     with deciding(Limits(0.2)), pytest.raises(TimeLimitError):
         optimal_model(control)
-    with deciding(Limits(60.0)):
+    with deciding(Limits(3600.0)):
         assert is_satisfiable(control)
