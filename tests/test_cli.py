@@ -57,7 +57,7 @@ def test_a_run_leaves_everything_in_its_folder_and_a_table_on_the_screen() -> No
     done = _testbed("run", "quickstart", "scenarios=[2]", "link=inprocess")
     assert done.returncode == 0, done.stderr
     kept = {path.name for path in Path("runs/quickstart").iterdir()}
-    assert kept - {"difference.patch"} == set(KEPT)
+    assert kept - {"difference.patch", ".lock"} == set(KEPT)
     header, intentional, traditional = done.stdout.splitlines()[:3]
     for word in ("scenario", "robot", "achieved", "plans", "actions", "units", "planning", "expl"):
         assert word in header
