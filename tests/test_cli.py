@@ -28,6 +28,7 @@ def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = str(Path(__file__).parents[1])
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([root, os.environ.get("PYTHONPATH", "")]))
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "150")
 
 
 def _testbed(*arguments: str) -> subprocess.CompletedProcess[str]:
