@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from testbed.experiment.record import Explained, TrialRecord
@@ -60,18 +60,16 @@ def _accounts(robot: str, counts: Counter[tuple[str, str]]) -> Accounts:
 def _happened(record: TrialRecord, step: int) -> str:
     """What others had done before a step, and the robot was not told of."""
     unseen = (e.action for e in record.exogenous if e.step < step and not e.observed)
-    return _listed(unseen)
+    return _said(sorted(unseen))
 
 
 def _assumed(explained: Explained) -> str:
-    return _listed(_parts(explained))
+    """Exceptions first, then what others did, then what is distrusted, whatever they are called."""
+    exceptions = sorted(map(exception, explained.exceptions))
+    events = sorted(event.action for event in explained.unobserved)
+    distrusted = sorted(f"distrusted {report.action}" for report in explained.distrusted)
+    return _said([*exceptions, *events, *distrusted])
 
 
-def _parts(explained: Explained) -> Iterator[str]:
-    yield from map(exception, explained.exceptions)
-    yield from (event.action for event in explained.unobserved)
-    yield from (f"distrusted {report.action}" for report in explained.distrusted)
-
-
-def _listed(names: Iterable[str]) -> str:
-    return " ".join(sorted(names)) or NOTHING
+def _said(names: list[str]) -> str:
+    return " ".join(names) or NOTHING
