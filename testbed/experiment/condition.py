@@ -21,7 +21,7 @@ def condition(config: ExperimentConfig) -> str:
         _of_scenarios(config, _feedback),
         _of_scenarios(config, lambda own: _adversary(config, own)),
         f"{config.knowledge} knowledge of the initial state",
-        "limits: " + ", ".join(f"{in_words(k)} {v}" for k, v in _limits(config).items()),
+        "limits: " + ", ".join(_limit(key, value) for key, value in _limits(config).items()),
         ", ".join(f"{name} comes out with {p}" for name, p in config.statistics.items()),
     ]
     return "; ".join(part for part in parts if part)
@@ -77,6 +77,12 @@ def _events(config: ExperimentConfig) -> object:
 def _limits(config: ExperimentConfig) -> dict[str, object]:
     limits = config.limits.model_dump(exclude=NO_RESULT)
     return {key: value for key, value in limits.items() if value is not None}
+
+
+def _limit(key: str, value: object) -> str:
+    """`steps 100`; a time with its unit: `decision_s` is `decision 30.0 s`."""
+    seconds = key.removesuffix("_s")
+    return f"{in_words(key)} {value}" if seconds == key else f"{in_words(seconds)} {value} s"
 
 
 def _observability(config: ExperimentConfig) -> str:

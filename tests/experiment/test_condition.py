@@ -97,8 +97,10 @@ def _values(part: object, key: str) -> set[object]:
 
 def test_the_condition_names_what_the_robot_is_told_of_and_what_others_do() -> None:
     told = "observability={exo_lock: {mode: always, delay: 2}}"
-    said = condition(load_config("table1", [told, "knowledge=seen", "adversary.rate=0.25"]))
-    assert all(word in said for word in ("exo_lock (always, delay 2)", "seen", "0.25", "steps 100"))
+    rules = [told, "knowledge=seen", "adversary.rate=0.25", "limits.decision_s=7"]
+    said = condition(load_config("table1", rules))
+    words = ("exo_lock (always, delay 2)", "seen", "0.25", "steps 100", "decision 7.0 s")
+    assert all(word in said for word in words)
     script = "scenario_settings.1.script=[]"
     assert "in 1" in condition(load_config("table1", ["scenarios=[1, 2]", script]))
     assert "fine_move" in condition(load_config("levels"))
