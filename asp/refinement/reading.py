@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from importlib.resources import files
 from pathlib import Path
 
@@ -30,6 +32,8 @@ def read_refinement(name_or_path: str) -> tuple[str, str]:
     if "/" not in name_or_path and packaged.is_file():
         return name_or_path, packaged.read_text(encoding="utf-8")
     path = Path(name_or_path)
+    if not path.exists():  # nor can it where the name has a character that no name of a file has
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), name_or_path)
     return str(path), text_of(path)
 
 

@@ -192,6 +192,12 @@ def test_a_map_that_is_not_there_is_one_line(own_map: Path) -> None:
     assert line.startswith("command line: refinement: ")
 
 
+def test_a_map_whose_name_no_file_can_have_is_one_line(own_map: Path) -> None:
+    text = own_map.read_text(encoding="utf-8").replace("flat.fine", r'"flat\0.fine"')
+    (line,) = _refusal(own_map.parent, text)
+    assert line.startswith("tiny.yaml:3: refinement: ")
+
+
 def test_levels_go_with_no_refinement(own_map: Path) -> None:
     (line,) = _refusal(own_map.parent, own_map.read_text(encoding="utf-8"), "levels=[L1]")
     assert line.startswith("command line: levels: goes with no refinement")
