@@ -118,3 +118,26 @@ def test_what_is_no_run_is_not_repaired(tmp_path: Path) -> None:
     refused = _do("repair", tmp_path)
     assert (refused.exit_code, len(refused.stderr.splitlines())) == (2, 1)
     assert str(tmp_path) in refused.stderr
+
+
+@pytest.mark.parametrize(
+    "line", [b'{"trial": "%s"}', b'{"x": %s, "trial": "%%s"}' % (b"[" * 10**5 + b"]" * 10**5)]
+)
+def test_what_is_damaged_of_a_retry_takes_no_place(
+    whole: Path, tmp_path: Path, line: bytes
+) -> None:
+    folder = Path(shutil.copytree(whole, tmp_path / "run"))
+    before = (folder / "trials.jsonl").read_bytes()
+    trial = json.loads(before.splitlines()[0])["trial"]
+    (folder / "retries.jsonl").write_bytes(line % trial.encode() + b"\n")
+    assert _do("repair", folder).exit_code == 0
+    assert (folder / "trials.jsonl").read_bytes() == before
+    assert not (folder / "retries.jsonl").exists()
+
+
+def test_a_retry_whose_records_are_gone_is_repaired(whole: Path, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(whole, tmp_path / "run"))
+    (folder / "trials.jsonl").rename(folder / "retries.jsonl")
+    assert _do("repair", folder).exit_code == 0
+    assert _do(*RUN, folder, "--resume").exit_code == 0
+    assert len((folder / "trials.jsonl").read_bytes().splitlines()) == 4

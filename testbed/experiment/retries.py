@@ -12,6 +12,7 @@ from typing import BinaryIO
 
 import msgspec
 
+from testbed.experiment.record import decode
 from testbed.experiment.run_folder import TRIALS, replace_lines
 
 RETRIES = "retries.jsonl"
@@ -27,17 +28,29 @@ def trial_of(line: bytes) -> str | None:
     """The id of the trial that a line is the record of; None if it is none, or torn."""
     try:
         return msgspec.json.decode(line, type=_Named).trial if line.endswith(b"\n") else None
-    except (msgspec.DecodeError, UnicodeDecodeError):
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        return None
+
+
+def _whole(line: bytes) -> str | None:
+    """The same, of nothing but a whole record."""
+    try:
+        return decode(line).trial if line.endswith(b"\n") else None
+    except msgspec.DecodeError:
         return None
 
 
 def settle(folder: Path) -> None:
-    """Put the results of a retry in the places of the records of the same trials."""
+    """Put the results of a retry in the places of the records of the same trials.
+
+    A line of the retry that is damaged takes nobody's place.
+    """
     retries = folder / RETRIES
     if not retries.is_file():
         return
     with retries.open("rb") as file:
-        again = {trial: line for line in file if (trial := trial_of(line)) is not None}
+        again = {trial: line for line in file if (trial := _whole(line)) is not None}
+    (folder / TRIALS).touch()
     with (folder / TRIALS).open("rb") as file:
         replace_lines(folder / TRIALS, _replaced(file, again))
     retries.unlink()
