@@ -91,14 +91,15 @@ def group(pairs: Sequence[Played], robots: Collection[str], sure: Collection[str
         for pair in counted
         if {BASELINE, INTENTIONAL} <= set(pair.trials)
     ]
+    ended = [(base, mind) for base, mind in both if base.ended and mind.ended]
     return Group(
         pairs=frozenset(pair.pair for pair in counted),
         apart=Counter(reason for reason in reasons if reason is not None),
         errors={robot: sum(not t.ended for t in _trials(counted, robot)) for robot in own},
         accuracy={robot: _accuracy(_trials(counted, robot)) for robot in own},
         undecided={robot: _undecided(_trials(counted, robot)) for robot in own},
-        ratios={name: _ratio(both, measure) for name, measure in DIVIDED.items()},
-        of_sums={name: _of_sums(both, measure) for name, measure in DIVIDED.items()},
+        ratios={name: _ratio(ended, measure) for name, measure in DIVIDED.items()},
+        of_sums={name: _of_sums(ended, measure) for name, measure in DIVIDED.items()},
         tests=dict(_tests(both)),
         optimum={robot: _optimum(_trials(counted, robot)) for robot in own},
     )
@@ -123,8 +124,7 @@ def _undecided(trials: Iterable[Outline]) -> int:
 
 
 def _ratio(pairs: Sequence[Both], measure: Callable[[Outline], float]) -> float | None:
-    ended = [(base, mind) for base, mind in pairs if base.ended and mind.ended]
-    ratios = [measure(base) / measure(mind) for base, mind in ended if measure(mind)]
+    ratios = [measure(base) / measure(mind) for base, mind in pairs if measure(mind)]
     return fmean(ratios) if ratios else None
 
 

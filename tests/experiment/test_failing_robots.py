@@ -97,6 +97,7 @@ def test_a_robots_own_error_is_in_no_ratio(failing: Any) -> None:
     CliRunner().invoke(app, ["report", str(folder)])
     group = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["scenarios"]["1"]
     assert group["ratios"]["actions"] == 1.0
+    assert group["ratios_of_sums"]["actions"] == 1.0
 
 
 def test_table_1_counts_it_as_the_summary_does(failing: Any) -> None:
