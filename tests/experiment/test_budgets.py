@@ -170,6 +170,10 @@ def test_a_trial_that_the_clock_cut_off_is_marked_and_counts_nowhere(
     (scenario,) = summary["scenarios"].values()
     assert (summary["deadline"], scenario["deadline"], scenario["pairs"]) == (2, 1, 0)
     assert summary["digest"] == digest([])
+    page = (out / "report.html").read_text()
+    assert page.count(">deadline</span>") == 2
+    printed = CliRunner().invoke(app, ["report", str(out)]).stdout
+    assert printed.count("script, deadline ") == 2
 
 
 def test_a_replay_says_that_an_explanation_is_unproved(harbour: Harbour, tmp_path: Path) -> None:
