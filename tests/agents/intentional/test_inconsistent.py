@@ -55,6 +55,31 @@ def test_an_attempt_that_cannot_have_succeeded_is_a_conflict_with_the_start() ->
     assert conflict(CART.program, facts, 3) == ("hpd(-open) at 2", "obs(shut) at 2")
 
 
+def test_an_attempt_that_kept_failing_is_in_no_conflict() -> None:
+    history = History()
+    history.observe(["at(left)", "-at(right)", "-shut", "-lit"], 0)
+    history.attempt("go(right)", 0)
+    history.happened("go(right)", False, 0)
+    history.step = 1
+    facts = [*history.facts(), *goal_facts(["lit"])]
+    assert conflict(CART.program, facts, 1) is not None
+    history.failed("go(right)", 0)
+    facts = [*history.facts(), *goal_facts(["lit"])]
+    assert conflict(CART.program, facts, 1) is None
+
+
+def test_a_test_that_is_taken_for_wrong_is_in_no_conflict() -> None:
+    history = History()
+    history.observe(["shut"], 1)
+    history.observe(["-shut"], 2)
+    history.step = 2
+    facts = [*history.facts(), *goal_facts(["lit"])]
+    assert conflict(CART.program, facts, 2) is not None
+    history.distrust([(2, "shut")])
+    facts = [*history.facts(), *goal_facts(["lit"])]
+    assert conflict(CART.program, facts, 2) is None
+
+
 def test_what_is_told_of_the_goal_may_belong_to_the_conflict() -> None:
     history = History()
     history.observe(["my_goal"], 2)
