@@ -172,7 +172,7 @@ def test_a_trial_that_the_clock_cut_off_is_marked_and_counts_nowhere(
     assert summary["digest"] == digest([])
     page = (out / "report.html").read_text()
     assert page.count(">deadline</span>") == 2
-    printed = CliRunner().invoke(app, ["report", str(out)]).stdout
+    printed = CliRunner().invoke(app, ["report", str(out)], env={"COLUMNS": "150"}).stdout
     assert printed.count("script, deadline ") == 2
 
 

@@ -74,7 +74,7 @@ def failing(request: pytest.FixtureRequest, configure: Configure, tmp_path: Path
 
 def test_summary_table_report_and_export_have_one_accuracy(failing: Any) -> None:
     folder, own = failing
-    shown = CliRunner().invoke(app, ["report", str(folder)])
+    shown = CliRunner().invoke(app, ["report", str(folder)], env={"COLUMNS": "150"})
     assert shown.exit_code == 0, shown.output
     counted, right = (PAIRS, PAIRS - 1) if own else (PAIRS - 1, PAIRS - 1)
     group = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["scenarios"]["1"]
