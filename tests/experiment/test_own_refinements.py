@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 from benchmarks.own import Own
 from benchmarks.own_domains import Domain
 from benchmarks.own_refinements import Refined
 from testbed import office_v0
+from testbed.cli import app
 from tests.experiment.gardens import GARDEN, ROWS
 
 RAKED = GARDEN.replace("OTHER", "rake")
@@ -79,3 +81,19 @@ def test_a_thing_without_components_is_drawn_in_its_cell(tmp_path: Path) -> None
     picture = office_v0.env(config=file, render_mode="rgb_array")
     picture.reset(seed=1)
     assert picture.render().std() > 0
+
+
+@pytest.mark.parametrize("command", ["translate", "check", "run"])
+def test_what_nobody_can_test_is_refused_with_its_place(command: str, tmp_path: Path) -> None:
+    untested, _, _ = ROWS.partition("tests\n")
+    config = Own(tmp_path, RAKED, untested).write(goal=GOAL)
+    arguments = [command, str(tmp_path / "own.fine" if command == "translate" else config)]
+    if command == "run":
+        arguments += ["--out", str(tmp_path / "out")]
+    done = CliRunner().invoke(app, arguments)
+    assert done.exit_code == 2
+    (line,) = done.stderr.splitlines()
+    before, _, _ = untested.partition("stands.")
+    column = len(before) - before.rfind("\n")
+    assert f"own.fine:{before.count(chr(10)) + 1}:{column}: " in line
+    assert "fine_stands" in line
