@@ -123,7 +123,7 @@ class _Filing:
         if result.details:
             details.parent.mkdir(exist_ok=True)
             with naming(details):
-                details.write_text(result.details, encoding="utf-8")
+                details.write_text(result.details, "utf-8", "backslashreplace")
         else:  # those of an earlier attempt
             details.unlink(missing_ok=True)
 

@@ -72,7 +72,15 @@ def read_decision(payload: bytes, percept: Percept) -> Decision:
 
 def in_one_line(error: Exception) -> str:
     """Return what an exception says: of a robot's, what travels to the driver."""
-    return shortened(" ".join(f"{type(error).__name__}: {error}".split()))
+    return shortened(" ".join(f"{type(error).__name__}: {_said(error)}".split()))
+
+
+def _said(error: Exception) -> str:
+    """What an exception says, as text that can be written: names of files need not be Unicode."""
+    try:
+        return str(error).encode(errors="backslashreplace").decode()
+    except Exception:  # of the exception's own making
+        return "its text cannot be had"
 
 
 def failed(text: str, details: str = "") -> RobotLost:

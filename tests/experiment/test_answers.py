@@ -97,6 +97,26 @@ def test_an_error_of_any_length_leaves_a_record_of_few_characters(spec: TrialSpe
     assert len(result.record.reason) + len(result.details or "") < MANY
 
 
+class Mute(Exception):  # noqa: N818
+    """One that says nothing, not even when it is asked."""
+
+    def __str__(self) -> str:
+        raise ValueError("nothing to say")
+
+
+@pytest.mark.parametrize("error", [RuntimeError("no \udcff.al"), Mute()])
+def test_an_error_whose_text_cannot_be_written_is_the_robots(
+    spec: TrialSpec, error: Exception
+) -> None:
+    class Failing(Saying):
+        def act(self, percept: Percept) -> Any:
+            raise error from ValueError(percept.step)
+
+    record = _play(spec, Failing({})).record
+    assert (record.outcome, record.cause) == ("robot_lost", "robot")
+    assert type(error).__name__ in (record.reason or "")
+
+
 def test_a_run_with_such_an_answer_can_be_read_and_exported(
     configure: Configure, tmp_path: Path
 ) -> None:
@@ -104,8 +124,9 @@ def test_a_run_with_such_an_answer_can_be_read_and_exported(
     write_config(tmp_path, config)
     (spec,) = plan_trials(config)
     with TrialWriter(tmp_path) as writer:
-        for trace in (*BAD.values(), {}):
-            writer.append(_play(spec, Saying(trace)).record)
+        for number, trace in enumerate((*BAD.values(), {})):
+            own = msgspec.structs.replace(spec, trial=f"{number:016x}")  # a trial has one record
+            writer.append(_play(own, Saying(trace)).record)
     assert len(list(read_records(tmp_path))) == len(BAD) + 1
     export(tmp_path)
 
