@@ -1,6 +1,7 @@
 """What goes wrong outside of a command is one line and an exit code, and costs no results."""
 
 import resource
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable
@@ -61,6 +62,14 @@ def test_output_that_cannot_be_written_is_told_in_a_line(arguments: list[str], c
     (line,) = (line for line in told.splitlines() if "preparing" not in line)
     assert line.startswith("standard output: ")
     assert code or Path("run/report.html").exists()
+
+
+@pytest.mark.parametrize("closed", ["<&- >&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("arguments", ["check lamps.yaml", "translate lamps.al"])
+def test_output_that_was_closed_before_is_no_error(arguments: str, closed: str) -> None:
+    command = f"exec {shlex.quote(sys.executable)} -m testbed {arguments} {closed}"
+    done = subprocess.run(["/bin/sh", "-c", command], check=False, capture_output=True)
+    assert (done.returncode, done.stderr) == (0, b"")
 
 
 def _limited(most: int) -> Callable[[], None]:

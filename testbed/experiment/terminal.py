@@ -7,6 +7,8 @@ import shutil
 import sys
 import unicodedata
 from collections.abc import Callable
+from pathlib import Path
+from typing import TextIO
 
 Say = Callable[[str], None]
 
@@ -35,10 +37,19 @@ def _escape(character: str) -> str:
 
 
 def tolerant() -> None:
-    """Let standard output and error take any text: what they cannot encode becomes `?`."""
+    """Let standard output and error take any text: what they cannot encode becomes `?`.
+
+    One that was closed before the program began takes it, too: it goes nowhere.
+    """
+    sys.stdout = sys.stdout or _nowhere()
+    sys.stderr = sys.stderr or _nowhere()
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+
+
+def _nowhere() -> TextIO:
+    return Path(os.devnull).open("w", encoding="utf-8")
 
 
 def columns() -> int:
