@@ -133,8 +133,14 @@ def _show(say: Say, tables: Tables) -> None:
     if tables.notice is not None:
         say(f"incomplete: {tables.notice}")
     if tables.rows:
-        results = counted(sum(row.trials + row.lost for row in tables.rows), "trial")
-        say(f"digest of {results}: {tables.digest}")
+        say(f"digest of {_digested(tables)}: {tables.digest}")
+
+
+def _digested(tables: Tables) -> str:
+    """Of how many trials the digest is: of those that the clock had no part in."""
+    played = sum(row.trials + row.lost for row in tables.rows)
+    results = counted(played - tables.late, "trial")
+    return f"{results}, without {tables.late} with a deadline" if tables.late else results
 
 
 def _show_tables(say: Say, tables: Tables) -> None:

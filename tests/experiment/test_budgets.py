@@ -174,6 +174,8 @@ def test_a_trial_that_the_clock_cut_off_is_marked_and_counts_nowhere(
     assert page.count(">deadline</span>") == 2
     printed = CliRunner().invoke(app, ["report", str(out)], env={"COLUMNS": "150"}).stdout
     assert printed.count("script, deadline ") == 2
+    (line,) = [line for line in printed.splitlines() if line.startswith("digest of ")]
+    assert [word for word in line.split() if word.isdigit()] == ["0", "2"]
 
 
 def test_a_replay_says_that_an_explanation_is_unproved(harbour: Harbour, tmp_path: Path) -> None:

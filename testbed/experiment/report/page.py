@@ -38,12 +38,14 @@ PROTOCOL = "table1"
 class Tables:
     """What a run comes to: a row a scenario (or level) and robot, and the published tables.
 
-    `digest` is the one number for all of its results, `notice` what is to be known of a run that is
-    not complete; `condition` is that of its trials in words, `left_out` says why published figures
-    do not stand beside them, where they might.
+    `digest` is the one number for all of its results but those of the `late` trials, which have a
+    deadline; `notice` is what is to be known of a run that is not complete; `condition` is that of
+    its trials in words, `left_out` says why published figures do not stand beside them, where they
+    might.
     """
 
     digest: str
+    late: int
     notice: str | None
     rows: list[Row]
     levels: list[LevelTable]
@@ -62,6 +64,7 @@ def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     levels = level_tables(levels_of(summary), paper)
     tables = Tables(
         str(summary["digest"]),
+        sum(record.deadline for record in read_records(folder)),
         covered.notice(),
         rows,
         levels,
