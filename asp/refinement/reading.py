@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import errno
-import os
 from importlib.resources import files
 from pathlib import Path
 
@@ -32,9 +30,18 @@ def read_refinement(name_or_path: str) -> tuple[str, str]:
     if "/" not in name_or_path and packaged.is_file():
         return name_or_path, packaged.read_text(encoding="utf-8")
     path = Path(name_or_path)
-    if not path.exists():  # nor can it where the name has a character that no name of a file has
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), name_or_path)
+    if not path.is_file():  # nor can it be where the name has a character that none of a file has
+        raise FileNotFoundError(
+            f"{name_or_path}: no such refinement; give the path of a {SUFFIX} file or one of "
+            f"{', '.join(packaged_refinements())}"
+        )
     return str(path), text_of(path)
+
+
+def packaged_refinements() -> tuple[str, ...]:
+    """The names of the refinements that come with this package."""
+    entries = files("asp").joinpath("domains").iterdir()
+    return tuple(sorted(e.name for e in entries if e.name.endswith(SUFFIX)))
 
 
 def refined_name(name_or_path: str) -> str | None:

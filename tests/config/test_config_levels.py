@@ -190,6 +190,8 @@ def test_a_domain_in_which_nobody_sees_anything_has_no_robot(own_map: Path) -> N
 def test_a_map_that_is_not_there_is_one_line(own_map: Path) -> None:
     (line,) = _refusal(own_map.parent, own_map.read_text(encoding="utf-8"), "refinement=flt.fine")
     assert line.startswith("command line: refinement: ")
+    assert "flt.fine" in line
+    assert "office.fine" in line
 
 
 def test_a_map_whose_name_no_file_can_have_is_one_line(own_map: Path) -> None:
