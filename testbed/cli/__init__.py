@@ -43,7 +43,9 @@ def _version(wanted: bool) -> None:
 def common(
     version: Annotated[  # noqa: ARG001  # its callback says it
         bool,
-        typer.Option("--version", callback=_version, is_eager=True, help="Say it, and exit."),
+        typer.Option(
+            "--version", callback=_version, is_eager=True, help="Print the version and exit."
+        ),
     ] = False,
 ) -> None:
     """Reasoning robots in a world that others change: run experiments, look into them."""

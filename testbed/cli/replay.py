@@ -9,7 +9,9 @@ import typer
 
 from testbed.cli.common import DONE, FAILED, examples, input_errors, say
 
-EPILOG = examples("testbed replay runs/quickstart", "testbed replay runs/quickstart --trial 107b")
+EPILOG = examples(
+    "testbed replay runs/quickstart", "testbed replay runs/quickstart --trial TRIAL_ID"
+)
 
 
 def command(

@@ -7,13 +7,13 @@ from typing import Annotated
 
 import typer
 
-from testbed.cli.common import input_errors
+from testbed.cli.common import examples, input_errors
 from testbed.importing import search_as_told
 
-EPILOG = (
-    "Examples: testbed robot (with a router on this machine: zenohd) | "
-    "testbed robot --name arm --connect tcp/192.168.0.7:7447 (with a router or driver there) | "
-    "testbed robot --config zenoh.json5"
+EPILOG = examples(
+    "testbed robot",
+    "testbed robot --name arm --connect tcp/192.168.0.7:7447",
+    "testbed robot --config zenoh.json5",
 )
 
 

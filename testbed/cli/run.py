@@ -27,7 +27,7 @@ def command(
         int | None,
         typer.Option(
             min=1,
-            help="Processes that play trials; without it one a core, and one at most for each "
+            help="Processes that play trials; without it one per core, but at most one per "
             "50 trials.",
         ),
     ] = None,
@@ -52,7 +52,7 @@ def command(
     from testbed.experiment.loading import load
 
     if retry_failed and not resume:
-        refuse(["--retry-failed: there is something to retry with --resume only"])
+        refuse(["--retry-failed: needs --resume; it plays trials of a run folder again"])
     with input_errors():
         loaded = load(config, overrides or [])
         if not quiet:
