@@ -123,7 +123,7 @@ def _by_number(entries: Iterable[tuple[int, str]]) -> dict[int, str]:
     actions: dict[int, str] = {}
     for number, action in entries:
         if number in actions:
-            raise ValueError(f"script: step {number} has two actions: one a step is possible")
+            raise ValueError(f"script: step {number} has two actions: one per step is possible")
         actions[number] = action
     return actions
 

@@ -111,10 +111,14 @@ def _strategy(config: ExperimentConfig, own: ScenarioSettings) -> str:
     if own.script is not None:
         return "exogenous actions by script" if own.script else "no exogenous actions"
     if config.is_fine:
-        return f"random exogenous actions at rate {rate or 0.0}"
+        return _random(rate or 0.0)
     if config.has_random_events:
-        return f"random exogenous actions at rate {RANDOM_RATE if rate is None else rate}"
+        return _random(RANDOM_RATE if rate is None else rate)
     return "exogenous actions by triggers" + ("" if rate is None else f" at rate {rate}")
+
+
+def _random(rate: float) -> str:
+    return f"random exogenous actions at rate {rate}" if rate else "no exogenous actions"
 
 
 def _of_scenarios(config: ExperimentConfig, said: Callable[[ScenarioSettings], str]) -> str:
