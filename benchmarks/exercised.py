@@ -38,6 +38,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "kept_successors": (f"{_REASONS}::test_nor_where_some_fluents_are_defined",),
     "kept_transition": ("tests/asp/test_transitions.py",),
     "kept_window": (_FOLDING,),
+    "misreadings": ("tests/asp/test_misreadings.py",),
     "order": (_EXPLANATIONS, "tests/asp/test_order.py"),
     "persistence": ("tests/agents/intentional/test_persistence.py",),
     "planning": (_REPORTS, _PREFERENCES, _PLANS, _LIVES),

@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -14,8 +13,6 @@ import pytest
 
 import asp
 from benchmarks import killing
-from testbed.config import load_config
-from testbed.experiment.plan import plan_trials
 
 COMMAND = [sys.executable, "-m", "testbed"]
 HELD = [sys.executable, "-m", "tests.held"]
@@ -298,23 +295,18 @@ def test_help_shows_an_example_a_line() -> None:
         assert command in overview
 
 
-def test_the_trial_that_the_help_replays_is_one_of_the_quickstart() -> None:
-    (beginning,) = re.findall(r"runs/quickstart --trial (\w+)", _testbed("replay", "--help").stdout)
-    trials = [spec.trial for spec in plan_trials(load_config("quickstart"))]
-    assert sum(trial.startswith(beginning) for trial in trials) == 1
-
-
 def test_the_version_is_that_of_the_distribution() -> None:
     done = _testbed("--version")
     assert (done.returncode, done.stdout) == (0, f"testbed {version('intention-testbed')}\n")
 
 
 @pytest.mark.load
-def test_an_interrupt_while_workers_start_is_as_quiet_as_any() -> None:
+def test_an_interrupt_while_workers_start_leaves_no_traceback() -> None:
     arguments = ["run", "quickstart", "robots=[held]", "link=inprocess", "--workers", "2"]
     process = _held(0, *arguments, "--out", "run")
     while process.poll() is None and not Path("run/trials.jsonl").exists():
         time.sleep(0.01)
     os.killpg(process.pid, signal.SIGINT)
     _, errors = process.communicate()
-    assert (process.returncode, errors) == (130, "")
+    assert process.returncode == 130
+    assert "Traceback" not in errors

@@ -28,11 +28,12 @@ def scenarios_of(config: ExperimentConfig, known: tuple[str, ...]) -> tuple[str,
 def with_scenarios(config: ExperimentConfig, known: tuple[str, ...]) -> ExperimentConfig:
     """The configuration with all scenarios that it plays, `none` with a script without entries."""
     scenarios = scenarios_of(config, known)
-    settings = dict(config.scenario_settings)
+    found: dict[str, object] = {"scenarios": scenarios}
     if NONE in scenarios and not _is_played(NONE, config, known):
-        own = settings.get(NONE, ScenarioSettings())
-        settings[NONE] = own.model_copy(update={"script": ()})
-    return config.model_copy(update={"scenarios": scenarios, "scenario_settings": settings})
+        own = config.scenario_settings.get(NONE, ScenarioSettings())
+        nothing = own.model_copy(update={"script": ()})
+        found["scenario_settings"] = {**config.scenario_settings, NONE: nothing}
+    return config.model_copy(update=found)
 
 
 def scenario_findings(config: ExperimentConfig, known: tuple[str, ...]) -> Iterator[Finding]:

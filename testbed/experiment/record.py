@@ -222,6 +222,11 @@ class TrialRecord(msgspec.Struct, kw_only=True):
         return html_of(self)
 
 
+# Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
+# once end the interpreter.
+_decoder = msgspec.json.Decoder(TrialRecord)
+
+
 def encode(record: TrialRecord) -> bytes:
     """The record as one line of JSON, newline included."""
     return msgspec.json.encode(record) + b"\n"
@@ -239,7 +244,7 @@ def check(record: TrialRecord) -> None:
 def decode(line: bytes) -> TrialRecord:
     """The record in a line. Raises msgspec.DecodeError for anything else."""
     try:
-        return msgspec.json.decode(line, type=TrialRecord)
+        return _decoder.decode(line)
     except (UnicodeDecodeError, RecursionError) as error:
         raise msgspec.DecodeError(str(error)) from error
 

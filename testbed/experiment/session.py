@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from testbed.config import ExperimentConfig
@@ -155,7 +156,8 @@ def _show_tables(say: Say, tables: Tables) -> None:
             say(note)
     if tables.left_out is not None:
         say(tables.left_out)
-    say(f"condition: {tables.condition}")
+    for line in wrap(f"condition: {tables.condition}", columns(), subsequent_indent="    "):
+        say(line)
 
 
 def _show_table1(say: Say, analysis: Analysis) -> None:

@@ -6,7 +6,7 @@ logical is ASP text as in the documents: an atom is ``"loc(book1,kitchen)"``, it
 selection of the goal, the first decision is the one of step 1.
 """
 
-from typing import Literal, TypeAlias, TypeVar
+from typing import Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
@@ -230,6 +230,11 @@ M = TypeVar("M", bound=Message)
 
 _encoder = msgspec.msgpack.Encoder()
 _envelope = msgspec.msgpack.Decoder(_Envelope)
+# Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
+# once end the interpreter.
+_decoders: dict[type[Message], msgspec.msgpack.Decoder[Any]] = {
+    kind: msgspec.msgpack.Decoder(kind) for kind in Message.__subclasses__()
+}
 
 
 def encode(message: Message) -> bytes:
@@ -245,9 +250,10 @@ def decode(payload: bytes, kind: type[M]) -> M:
     """
     try:
         _check_version(_envelope.decode(payload).version)
-        return msgspec.msgpack.decode(payload, type=kind)
+        message: M = _decoders[kind].decode(payload)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise LinkError(f"not a {kind.__name__}: {error}") from error
+    return message
 
 
 def _check_version(version: int) -> None:

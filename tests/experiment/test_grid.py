@@ -13,6 +13,7 @@ from testbed.experiment.grid import Grid
 from testbed.experiment.levels.published import NO_ZOOM, PAPER, ZOOM
 from testbed.experiment.levels.results import levels_of
 from testbed.experiment.levels.table import level_grid, level_tables
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import At, Explained
 from testbed.experiment.store import TrialWriter, write_config
 from testbed.experiment.summary import summarise
@@ -98,8 +99,15 @@ def test_what_is_piped_is_as_wide_as_columns_says(
 ) -> None:
     config = configure("scenarios=[1]", "robots=[intentional]")
     write_config(tmp_path, config)
+    (spec, *_) = plan_trials(config)
+    planned = {
+        "pair": spec.pair,
+        "seed": spec.seed,
+        "initial": list(spec.initial),
+        "goal": list(spec.setting.goal),
+    }
     with TrialWriter(tmp_path) as writer:
-        writer.append(a_record(explanations=SEEN))
+        writer.append(a_record(spec.trial, **planned, explanations=SEEN))
     root = str(Path(__file__).parents[2])
     done = subprocess.run(
         [sys.executable, "-m", "testbed", "report", str(tmp_path)],

@@ -133,7 +133,8 @@ def test_summary_and_report_have_the_columns_of_the_levels(here: Path) -> None:
     page = (here / "report.html").read_text(encoding="utf-8")
     assert "Reasoning at each level" in page
     assert "<h3>Level L1</h3>" in page
-    assert [row[0] for row in tables.levels[0].rows] == ["L1"] * 6 + ["L2"] * 6
+    # The published rows are left out, since here events happen more often.
+    assert [row[0] for row in tables.levels[0].rows] == ["L1"] * 4 + ["L2"] * 4
 
 
 def test_a_replay_is_as_recorded(here: Path) -> None:
