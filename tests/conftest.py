@@ -9,7 +9,9 @@ settings.register_profile(
 )
 settings.load_profile("busy machine")
 
-# A suite that a shell started in the background ignores interrupts, and so would every process that
-# tests interrupt.
+# A suite in the background, or one of `nohup`, ignores these, and so would every process that tests
+# interrupt.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
