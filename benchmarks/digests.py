@@ -25,7 +25,7 @@ from testbed.config import ConfigError, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES
-from testbed.experiment.registry import known_robots
+from testbed.experiment.robots import known_robots
 from testbed.experiment.store import PROVENANCE, read_records
 
 SAME, DIFFERENT, BAD_INPUT = 0, 1, 2

@@ -12,7 +12,7 @@ from pathlib import Path
 from benchmarks.memory import resident_mb
 from benchmarks.sheets import Row, Sheet, gathered
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.registry import known_robots
+from testbed.experiment.robots import known_robots
 from testbed.experiment.runner import Tally, run_trials
 
 TRIALS = {"small": 120, "full": 20_000}

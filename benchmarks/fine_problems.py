@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from asp.fine_plans import FineStart
-from asp.levels import LevelSize, level_text
+from asp.domains.levels import LevelSize, level_text
+from asp.reasoning.fine_planning.reference import FineStart
 from asp.refinement import Refinement, load
 from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from agents.intentional.controller import Reasoner
+from agents.intentional.incremental import KeptLogician
 from agents.intentional.intention import Intention
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.reference import Logician
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from benchmarks.measuring import forget, median, no_collection, timed, within

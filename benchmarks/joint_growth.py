@@ -13,15 +13,17 @@ import clingo
 from clingo import Symbol
 from matplotlib.figure import Figure
 
-from agents.intentional import joint, logician, undivided
+from agents.intentional import joint
+from agents.intentional import joint_reference as undivided
+from agents.intentional import reference as logician
 from agents.intentional.controller import Reasoner
+from agents.intentional.incremental import KeptLogician
 from agents.intentional.joint import JointLogician
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
-from agents.intentional.undivided import UndividedLogician
+from agents.intentional.joint_reference import UndividedLogician
+from agents.intentional.reference import Logician
 from agents.shared import diagnosis
 from agents.shared.knowledge import Knowledge
-from asp.solving import ground
+from asp.solving.solver import ground
 from benchmarks import one_call
 from benchmarks.measuring import forget, no_collection, timed, within
 from benchmarks.one_call import OneCallLogician

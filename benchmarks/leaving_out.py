@@ -13,7 +13,7 @@ import time
 
 from hypothesis import Phase, settings
 
-from asp import solving
+from asp.solving import solver as solving
 from benchmarks.statements import without
 
 VARIABLE = "LEFT_OUT"
@@ -39,7 +39,8 @@ def pytest_runtest_setup() -> None:
 
 
 def leave_out(key: str) -> None:
-    """From now on `asp.solving.theory` gives the theory of `THEORY:LINE` without that statement.
+    """From now on `asp.solving.solver.theory` gives the theory of `THEORY:LINE` without that
+    statement.
 
     Raises ValueError where no statement begins there.
     """

@@ -16,7 +16,7 @@ from benchmarks.sheets import Row, Sheet, gathered
 from benchmarks.trials import SCENARIOS, play, specs
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 

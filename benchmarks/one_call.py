@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from agents.intentional.intention import Intention
-from agents.intentional.logician import Logician, read_intention
+from agents.intentional.reference import Logician, read_intention
 from agents.shared.diagnosis import Explained
 from agents.shared.history import History
-from asp.solving import fact, ground, optimal_model, theory
+from asp.solving.solver import fact, ground, optimal_model, theory
 
 
 class OneCallLogician(Logician):

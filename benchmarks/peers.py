@@ -7,9 +7,9 @@ from dataclasses import replace
 from math import inf
 
 from agents.shared.knowledge import knowledge
-from agents.shared.tools import tools_of
-from asp.kept.operators import Encoding
-from asp.loading import analyse, parse_description
+from agents.shared.sessions import tools_of
+from asp.language.loading import analyse, parse_description
+from asp.reasoning.planning.large.operators import Encoding
 from benchmarks.measuring import forget, median, timed, within
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.outsiders import FAST_DOWNWARD, Planner, outsiders

@@ -7,16 +7,16 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 from agents.intentional.controller import IntentionalRobot, Reasoner
+from agents.intentional.incremental import KeptLogician
 from agents.intentional.intention import Intention
-from agents.intentional.kept import KeptLogician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
-from asp.loading import parse_description
+from asp.language.loading import parse_description
 from benchmarks.measuring import forget, timed
 from testbed.environment.core import NONE, Core
 from testbed.environment.rules import Observability, Rules
-from testbed.environment.world import World
-from testbed.link.messages import Decision, Task
+from testbed.protocol.messages import Decision, Task
+from testbed.world.compiled.world import World
 
 
 @dataclass(frozen=True)

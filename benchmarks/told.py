@@ -21,10 +21,10 @@ import msgspec
 
 from agents.shared.history import GOAL
 from agents.traditional import TraditionalRobot
-from agents.traditional.planner import Plan
-from asp.description import Description
+from agents.traditional.reference import Plan
+from asp.language.description import Description
+from testbed.analysis.counting import BASELINE
 from testbed.config import ConfigError, ExperimentConfig
-from testbed.experiment.counting import BASELINE
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
@@ -37,11 +37,11 @@ from testbed.experiment.store import (
     read_records,
     write_config,
 )
-from testbed.experiment.table1.analysis import RANDOM
-from testbed.experiment.table1.runs import told_name
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Percept, Task
+from testbed.protocol.messages import Percept, Task
+from testbed.studies.table1.analysis import RANDOM
+from testbed.studies.table1.runs import told_name
 
 BAD_INPUT = 2
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.logician import Logician
+from agents.intentional.reference import Logician
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, Percept, Task
-from testbed.link.robot import Robot
+from testbed.protocol.messages import Decision, Percept, Task
+from testbed.protocol.robot import Robot
 
 SCENARIOS = ("1", "2", "3", "4", "5", "6")
 ROBOTS: Mapping[str, Callable[[], Robot]] = {

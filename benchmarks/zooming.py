@@ -10,15 +10,15 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from asp.fine_plans import FinePlan, NoPlan, PlainProblem, physical
-from asp.kept.refined import FinePlanner
-from asp.levels import LEVELS, LevelSize
+from asp.domains.levels import LEVELS, LevelSize
+from asp.language.signature import Problems, signature_of
+from asp.reasoning.fine_planning.incremental import FinePlanner
+from asp.reasoning.fine_planning.reference import FinePlan, NoPlan, PlainProblem, physical
 from asp.refinement.zooming import zoom_strong
-from asp.signature import Problems, signature_of
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, quantile, within
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
-from testbed.experiment.levels.published import RATIOS
+from testbed.studies.levels.published import RATIOS
 
 LIMIT = 200
 NAMES = {"small": ("L1", "L2"), "full": tuple(LEVELS)}

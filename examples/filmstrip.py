@@ -16,7 +16,7 @@ from PIL import Image
 from testbed import office_v0
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link.inprocess import InProcessRobot
 

@@ -17,7 +17,7 @@ from os import PathLike
 from typing import TypeAlias
 
 from asp import load_description
-from asp.spelling import suggestion
+from asp.language.spelling import suggestion
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.grounds import grounds
 from testbed.config.keys import lists_keys
@@ -27,7 +27,7 @@ from testbed.environment.fine import fine_core, fine_world
 from testbed.environment.goals import RandomGoal
 from testbed.environment.parallel import ParallelView
 from testbed.environment.rules import Rules
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
 """A file, the bare name of a packaged configuration, one already read, or None: `office`, with a

@@ -15,9 +15,10 @@ from pathlib import Path
 from agents.intentional import IntentionalRobot
 from testbed import cli
 from testbed.config import ExperimentConfig
-from testbed.experiment import plan, registry, runner
+from testbed.experiment import plan, runner
+from testbed.experiment import robots as registry
 from testbed.experiment.specs import TrialSpec
-from testbed.link.messages import Task
+from testbed.protocol.messages import Task
 
 HOLD = Path("hold")
 """Says how many trials the robot of each process may begin; all, where it is not there."""

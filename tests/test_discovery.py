@@ -15,7 +15,7 @@ from testbed import office_v0
 from testbed.config import ConfigError, load_config
 from testbed.config.models import ExperimentConfig, Limits
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 

@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 

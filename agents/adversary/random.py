@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from agents.adversary.base import AdversaryView
-from asp import literals as text
+from asp.language import literals as text
 from testbed.environment.core import NONE
 
 

@@ -16,11 +16,11 @@ import msgspec
 
 from agents.intentional.controller import IntentionalRobot
 from agents.shared.knowledge import knowledge
-from asp.budget import deciding
-from asp.description import Description, Literals
-from asp.literals import atom, complement
-from testbed.link.messages import Decision, Percept, Task
-from testbed.link.robot import Robot
+from asp.language.description import Description, Literals
+from asp.language.literals import atom, complement
+from asp.solving.budget import deciding
+from testbed.protocol.messages import Decision, Percept, Task
+from testbed.protocol.robot import Robot
 
 
 class CheckingRobot:

@@ -8,20 +8,20 @@ from typing import Protocol
 
 from msgspec import structs
 
+from agents.intentional.incremental import KeptLogician
 from agents.intentional.intention import Intention
-from agents.intentional.kept import KeptLogician
 from agents.intentional.reasons import Reasons
 from agents.shared.diagnosis import Explained, InconsistentHistoryError
-from agents.shared.doubting import distrust
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.limits import limits_of
-from agents.shared.phases import Phases
+from agents.shared.misreadings import distrust
 from agents.shared.relevance import goal_fluents, relevant_literals
-from asp.budget import LimitError, deciding
-from asp.kept.clock import preparation, reasoning_clock
-from asp.literals import is_positive
-from testbed.link.messages import Decision, Event, Percept, Task, Trace
+from agents.shared.timing import Phases
+from asp.language.literals import is_positive
+from asp.solving.budget import LimitError, deciding
+from asp.solving.clock import preparation, reasoning_clock
+from testbed.protocol.messages import Decision, Event, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
 

@@ -9,18 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from agents.intentional.intention import Intention
-from agents.shared.contradicting import Contradicting, holds
+from agents.shared.contradictions import Contradicting, holds
 from agents.shared.diagnosis import Explained
-from agents.shared.giving_up import GivingUp
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import past_of
-from agents.shared.tools import tools_of
-from asp.budget import UNLIMITED, LimitError, Limits, deciding
-from asp.kept.control import State
-from asp.kept.pasts import Assumed
-from asp.literals import complement
-from testbed.link.messages import Contradiction, Event, Explanation, NoPlan
+from agents.shared.no_plan import GivingUp
+from agents.shared.sessions import tools_of
+from asp.language.literals import complement
+from asp.reasoning.diagnosis.encoding import Assumed
+from asp.solving.budget import UNLIMITED, LimitError, Limits, deciding
+from asp.solving.session import State
+from testbed.protocol.messages import Contradiction, Event, Explanation, NoPlan
 
 MOST_ALTERNATIVES = 20
 

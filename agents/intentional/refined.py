@@ -6,19 +6,19 @@ from collections.abc import Callable
 
 from msgspec import structs
 
+from agents.intentional.abstraction import LeanRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.executor.calendar import Calendar
-from agents.intentional.executor.coarse import CoarseDiagram, State
+from agents.intentional.executor.coarse_model import CoarseDiagram, State
+from agents.intentional.executor.coarse_percept import Outcome, Reporter
 from agents.intentional.executor.execution import Execution, Steps
-from agents.intentional.executor.mind import Mind
-from agents.intentional.executor.report import Outcome, Reporter
-from agents.intentional.lean import LeanRobot
-from asp.budget import deciding
-from asp.kept.clock import preparation, reasoning_clock
-from asp.literals import is_positive
+from agents.intentional.executor.state import Mind
+from agents.intentional.executor.step_numbers import Calendar
+from asp.language.literals import is_positive
 from asp.refinement import load
-from testbed.link.messages import Decision, Percept, Task, Trace
-from testbed.link.robot import Robot
+from asp.solving.budget import deciding
+from asp.solving.clock import preparation, reasoning_clock
+from testbed.protocol.messages import Decision, Percept, Task, Trace
+from testbed.protocol.robot import Robot
 
 _WAIT, _FINISH = "wait", "finish"
 

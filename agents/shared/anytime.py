@@ -13,9 +13,9 @@ import clingo
 
 from agents.shared.history import Diagnosis
 from agents.shared.limits import BETTERING, SEARCH
-from asp.budget import BudgetError, Limits, current, deciding, up_to
-from asp.preferring import preferring
-from asp.solving import solving
+from asp.solving.budget import BudgetError, Limits, current, deciding, up_to
+from asp.solving.preference import preferring
+from asp.solving.solver import solving
 
 _FIRST_WINDOW = 4
 

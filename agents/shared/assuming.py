@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from agents.shared.history import Diagnosis, History
-from asp.kept.pasts import Assumed, Record
-from testbed.link.messages import Event
+from asp.reasoning.diagnosis.encoding import Assumed, Record
+from testbed.protocol.messages import Event
 
 
 def happened_under(record: Record, diagnosis: Diagnosis, step: int) -> tuple[str, ...]:

@@ -14,12 +14,12 @@ from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.shared.limits import SEARCH
 from agents.shared.memory import PACE, Memory, record_of
-from agents.shared.tools import tools_of
-from asp.budget import BudgetError, current, up_to
-from asp.kept.control import State
-from asp.kept.folding import Pace
-from asp.kept.pasts import Account, Assumed, Past, Record
-from asp.literals import atom, is_positive
+from agents.shared.sessions import tools_of
+from asp.language.literals import atom, is_positive
+from asp.reasoning.diagnosis.encoding import Account, Assumed, Past, Record
+from asp.reasoning.diagnosis.long_histories.compression import Pace
+from asp.solving.budget import BudgetError, current, up_to
+from asp.solving.session import State
 
 
 class Believer:

@@ -11,13 +11,13 @@ from clingo import Symbol
 from agents.shared.anytime import Search
 from agents.shared.history import Diagnosis, History
 from agents.shared.limits import SEARCH
-from asp.budget import BudgetError, current, up_to
-from asp.conflicts import cannot_hold, conflict
-from asp.kept.pasts import Assumed
-from asp.preferring import preferring
-from asp.solving import fact, ground, select, theory
-from testbed.link.errors import RobotStops
-from testbed.link.messages import Event
+from asp.reasoning.diagnosis.encoding import Assumed
+from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict
+from asp.solving.budget import BudgetError, current, up_to
+from asp.solving.preference import preferring
+from asp.solving.solver import fact, ground, select, theory
+from testbed.protocol.errors import RobotStops
+from testbed.protocol.messages import Event
 
 _KEEP = clingo.Function("keep")
 _KEEP_INITIAL = clingo.Function("keep_initial")

@@ -8,9 +8,9 @@ from agents.shared.assuming import executed_under, happened_under
 from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import record_of
-from agents.shared.tools import tools_of
-from asp.kept.control import State
-from asp.literals import atom, is_positive
+from agents.shared.sessions import tools_of
+from asp.language.literals import atom, is_positive
+from asp.solving.session import State
 
 
 @dataclass(frozen=True)

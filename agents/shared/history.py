@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 from clingo import Symbol
 
-from asp.literals import atom, is_positive
-from asp.solving import fact
-from testbed.link.messages import Event
+from asp.language.literals import atom, is_positive
+from asp.solving.solver import fact
+from testbed.protocol.messages import Event
 
 GOAL = "my_goal"
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from asp.budget import Limits
-from testbed.link.messages import Task
+from asp.solving.budget import Limits
+from testbed.protocol.messages import Task
 
 SEARCH, BETTERING = 0.5, 0.75
 """The parts of a decision's conflicts by which a diagnosis has looked for the smallest explanation,

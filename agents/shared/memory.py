@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 from agents.shared.history import GOAL, History, Moment
 from agents.shared.knowledge import Knowledge
-from agents.shared.tools import tools_of
-from asp.budget import LimitError
-from asp.kept.control import State
-from asp.kept.folding import Folding, Pace
-from asp.kept.pasts import Past, Record
+from agents.shared.sessions import tools_of
+from asp.reasoning.diagnosis.encoding import Past, Record
+from asp.reasoning.diagnosis.long_histories.compression import Folding, Pace
+from asp.solving.budget import LimitError
+from asp.solving.session import State
 
 PACE = Pace()
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from asp.description import Description
-from asp.literals import atom
+from asp.language.description import Description
+from asp.language.literals import atom
 
 
 def goal_fluents(description: Description, goal: Iterable[str]) -> frozenset[str]:

@@ -8,21 +8,21 @@ from typing import Protocol
 
 from msgspec import structs
 
-from agents.shared.contradicting import Contradicting
+from agents.shared.contradictions import Contradicting
 from agents.shared.diagnosis import Explained
-from agents.shared.giving_up import GivingUp
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.limits import limits_of
-from agents.shared.phases import Phases
+from agents.shared.no_plan import GivingUp
 from agents.shared.relevance import outcome_literals
-from agents.traditional.kept import KeptPlanner
-from agents.traditional.planner import Plan
-from asp.budget import LimitError, deciding
-from asp.kept.clock import preparation, reasoning_clock
-from asp.kept.control import State
-from asp.literals import is_positive
-from testbed.link.messages import Decision, Explanation, Percept, Task, Trace
+from agents.shared.timing import Phases
+from agents.traditional.incremental import KeptPlanner
+from agents.traditional.reference import Plan
+from asp.language.literals import is_positive
+from asp.solving.budget import LimitError, deciding
+from asp.solving.clock import preparation, reasoning_clock
+from asp.solving.session import State
+from testbed.protocol.messages import Decision, Explanation, Percept, Task, Trace
 
 
 class Reasoner(Protocol):

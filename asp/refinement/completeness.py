@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from asp import syntax
-from asp.kept.patterns import functions
+from asp.language import syntax
+from asp.language.functions import functions
+from asp.language.signature import Problems
 from asp.refinement.language import Components, Counterpart, TestsStatement
 from asp.refinement.vocabulary import Vocabulary
-from asp.signature import Problems
 
 
 def check_complete(

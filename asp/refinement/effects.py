@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from asp import syntax
-from asp.writing import atom_text
+from asp.language import syntax
+from asp.language.writer import atom_text
 
 Effect = tuple[syntax.Literal, syntax.Body]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from asp import syntax
+from asp.language import syntax
 
 
 class Facts:

@@ -12,9 +12,10 @@ from lark import Lark, Token, v_args
 from lark.exceptions import UnexpectedInput
 from lark.tree import Meta
 
-from asp import roles, syntax
-from asp.parser import ToSyntax, comments_of, place_of
-from asp.syntax_errors import Words, check_section_words, syntax_error
+from asp.language import syntax
+from asp.language import variable_sorts as roles
+from asp.language.parser import ToSyntax, comments_of, place_of
+from asp.language.syntax_errors import Words, check_section_words, syntax_error
 
 _WORDS = Words(
     frozenset({"REFINES", "MAGNIFY", "COMPONENTS", "COUNTERPARTS", "FACTS", "LAWS", "TESTS"}),
@@ -79,7 +80,10 @@ def parse_fine(text: str, file: str = "<text>") -> syntax.Source:
 
 @cache
 def _grammar() -> Lark:
-    texts = (files("asp").joinpath("al.lark"), files("asp").joinpath("refinement", "fine.lark"))
+    texts = (
+        files("asp").joinpath("language", "al.lark"),
+        files("asp").joinpath("refinement", "fine.lark"),
+    )
     grammar = "\n".join(entry.read_text(encoding="utf-8") for entry in texts)
     return Lark(
         grammar,

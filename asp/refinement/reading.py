@@ -5,8 +5,8 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
-from asp.errors import SourceError
-from asp.loading import read_domain, text_of
+from asp.language.errors import SourceError
+from asp.language.loading import read_domain, text_of
 from asp.refinement.language import Refines, parse_fine
 from asp.refinement.refinement import Refinement, load
 

@@ -8,23 +8,23 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import product
 
-from asp import syntax
-from asp.checker import check
-from asp.cycles import check_cycles, may_have_cycles
-from asp.description import Description
-from asp.errors import SourceError
-from asp.literals import arguments, atom, complement, ground, is_positive, name
-from asp.loading import MOST_TEXTS, analyse, parse_description
-from asp.parser import parse
+from asp.language import syntax
+from asp.language.checker import check
+from asp.language.description import Description
+from asp.language.errors import SourceError
+from asp.language.literals import arguments, atom, complement, ground, is_positive, name
+from asp.language.loading import MOST_TEXTS, analyse, parse_description
+from asp.language.parser import parse
+from asp.language.signature import Problems, Signature, signature_of
+from asp.language.stratification import check_cycles, may_have_cycles
 from asp.refinement.completeness import check_complete
 from asp.refinement.facts import Facts
 from asp.refinement.language import parse_fine
 from asp.refinement.maps import check_maps
 from asp.refinement.observation import check_tested, observation_text, tested_fluents
 from asp.refinement.refining import weak_text
+from asp.refinement.statics import true_statics
 from asp.refinement.vocabulary import Vocabulary, vocabulary_of
-from asp.signature import Problems, Signature, signature_of
-from asp.statics import true_statics
 
 
 @dataclass(frozen=True, eq=False)

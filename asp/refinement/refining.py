@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from asp import roles, syntax
+from asp.language import syntax
+from asp.language import variable_sorts as roles
+from asp.language.signature import Problems
+from asp.language.writer import text_of
 from asp.refinement.declarations import declarations, section
 from asp.refinement.laws import KEPT, LIFTED, REFINED, Result, refine
 from asp.refinement.rewriting import Rewriting
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
-from asp.signature import Problems
-from asp.writing import text_of
 
 _HEADINGS = {
     KEPT: "As in the coarse description; what has a counterpart is a defined fluent here.",

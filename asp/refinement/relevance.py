@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 
-from asp import roles, syntax
-from asp.checker import variable_domains
-from asp.literals import arguments, name
-from asp.signature import Problems, signature_of
+from asp.language import syntax
+from asp.language import variable_sorts as roles
+from asp.language.checker import variable_domains
+from asp.language.literals import arguments, name
+from asp.language.signature import Problems, signature_of
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, count
 
-from asp import roles, syntax
-from asp.checker import variable_domains
+from asp.language import syntax
+from asp.language import variable_sorts as roles
+from asp.language.checker import variable_domains
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
 

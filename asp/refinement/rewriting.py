@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from asp import syntax
+from asp.language import syntax
+from asp.language.signature import Problems
 from asp.refinement.vocabulary import Vocabulary
-from asp.signature import Problems
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from asp import syntax
+from asp.language import syntax
+from asp.language.signature import Problems, Signature
+from asp.language.spelling import suggestion
 from asp.refinement.language import Components, Counterpart, Magnification
-from asp.signature import Problems, Signature
-from asp.spelling import suggestion
 
 PREFIX = "fine_"
 COMPONENT = "component"

@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from asp import roles, syntax
-from asp.checker import variable_domains
-from asp.literals import arguments, atom, complement, is_positive
+from asp.language import syntax
+from asp.language import variable_sorts as roles
+from asp.language.checker import variable_domains
+from asp.language.literals import arguments, atom, complement, is_positive
+from asp.language.restriction import restrict
+from asp.language.signature import Problems, Signature, signature_of
 from asp.refinement.facts import Facts
 from asp.refinement.refinement import Refinement
 from asp.refinement.relevance import Transition, relevant
-from asp.restriction import restrict
-from asp.signature import Problems, Signature, signature_of
 
 __all__ = [
     "FineGoal",

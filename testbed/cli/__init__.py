@@ -16,8 +16,8 @@ import typer
 
 from testbed.cli import check, export, repair, replay, report, robot, run, translate
 from testbed.cli.common import BAD_INPUT, DONE, refuse
-from testbed.experiment.terminal import mute, tolerant, warn
-from testbed.importing import displaced
+from testbed.cli.importing import displaced
+from testbed.text.terminal import mute, tolerant, warn
 
 __all__ = ["app", "main"]
 

@@ -9,7 +9,7 @@ EPILOG = examples("testbed check quickstart scenarios=[5] limits.steps=40")
 
 def command(config: Config, overrides: Overrides = None) -> None:
     """Validate a configuration and print it as resolved."""
-    from testbed.experiment.loading import load
+    from testbed.cli.loading import load
     from testbed.experiment.run_config import config_text
 
     with input_errors():

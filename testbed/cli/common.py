@@ -9,7 +9,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from testbed.experiment.terminal import mute, plain, warn
+from testbed.text.terminal import mute, plain, warn
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
@@ -48,7 +48,7 @@ def say(line: str) -> None:
 @contextmanager
 def input_errors() -> Iterator[None]:
     """Turn what a user can get wrong into one line per error and the exit code for it."""
-    from asp.errors import SourceError
+    from asp.language.errors import SourceError
     from testbed.config.errors import ConfigError
     from testbed.experiment.errors import ServingError, StoreError, WorkerError
 

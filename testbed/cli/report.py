@@ -20,7 +20,7 @@ def command(
 
     with input_errors():
         configs = [read_config(folder) for folder in folders]
-        from testbed.experiment.session import report_again
+        from testbed.cli.session import report_again
 
         for folder, config in zip(folders, configs, strict=True):
             report_again(folder, config)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from testbed.cli.common import examples, input_errors
-from testbed.importing import search_as_told
+from testbed.cli.importing import search_as_told
 
 EPILOG = examples(
     "testbed robot",

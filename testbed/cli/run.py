@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from testbed.cli.common import Config, Overrides, examples, input_errors, refuse
-from testbed.experiment.terminal import warn
+from testbed.text.terminal import warn
 
 EPILOG = examples(
     "testbed run quickstart",
@@ -49,7 +49,7 @@ def command(
     quiet: Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")] = False,
 ) -> None:
     """Run every trial of a configuration and print a table of what came out."""
-    from testbed.experiment.loading import load
+    from testbed.cli.loading import load
 
     if retry_failed and not resume:
         refuse(["--retry-failed: needs --resume; it plays trials of a run folder again"])
@@ -57,7 +57,7 @@ def command(
         loaded = load(config, overrides or [])
         if not quiet:
             warn(f"preparing {loaded.name}: statistics, the plan of its trials, robots")
-        from testbed.experiment.session import run_session
+        from testbed.cli.session import run_session
 
         code = run_session(loaded, out, workers, resume, quiet, retry_failed)
     raise typer.Exit(code)

@@ -7,13 +7,13 @@ from contextlib import contextmanager
 
 import asp
 from asp import Description
-from asp.bodies import check_one_robot
-from asp.conflicts import cannot_hold, never_together
-from asp.errors import SourceError
-from asp.literals import atom, complement
-from asp.loading import read_domain
-from asp.spelling import suggestion
-from asp.translation import translate
+from asp.language.errors import SourceError
+from asp.language.literals import atom, complement
+from asp.language.loading import read_domain
+from asp.language.robots import check_one_robot
+from asp.language.spelling import suggestion
+from asp.reasoning.diagnosis.inconsistency import cannot_hold, never_together
+from asp.translation.literal import translate
 from testbed.config.errors import ConfigError
 from testbed.config.grounds import grounds
 from testbed.config.levels import ground_findings, map_findings, settings_findings
@@ -23,8 +23,8 @@ from testbed.config.places import Key, Places
 from testbed.config.scenarios import scenario_findings, scenarios_of
 from testbed.config.scripts import first_step_findings, script_findings
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
-from testbed.environment.errors import StateError
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
+from testbed.world.errors import StateError
 
 Robots = Callable[[bool], Collection[str]]
 """The robots that may be asked for, at the fine resolution or at the coarse one."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from asp.levels import LEVELS, LevelSize, level_text
-from asp.loading import read_domain
+from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.language.loading import read_domain
 from asp.refinement import Refinement, load
 from asp.refinement.reading import read_refinement
 from testbed.config.models import ExperimentConfig

@@ -6,20 +6,20 @@ from collections.abc import Collection, Iterable, Iterator
 from itertools import islice, product
 from pathlib import Path
 
-from asp import literals
-from asp.levels import LEVELS
-from asp.literals import atom
+from asp.domains.levels import LEVELS
+from asp.language import literals
+from asp.language.literals import atom
+from asp.language.signature import Signature
+from asp.language.spelling import suggestion
 from asp.refinement import Refinement
 from asp.refinement.reading import refined_name
-from asp.signature import Signature
-from asp.spelling import suggestion
 from testbed.config.models import Drawing, ExperimentConfig
 from testbed.config.places import Key
 from testbed.config.scripts import moment_findings
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
-from testbed.environment.errors import StateError
-from testbed.environment.sparse import SparseWorld
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
+from testbed.world.errors import StateError
+from testbed.world.matched import SparseWorld
 
 MOST_CELLS = 20_000
 """Of a level, and parts of its objects."""

@@ -12,14 +12,14 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 import asp
-from asp.spelling import suggestion
+from asp.language.spelling import suggestion
 from testbed.config.checking import Robots, check
 from testbed.config.composing import compose
 from testbed.config.errors import ConfigError
 from testbed.config.models import ExperimentConfig, Section
+from testbed.config.packaged import find_config
 from testbed.config.places import Key, Places
 from testbed.config.scenarios import with_scenarios
-from testbed.resources import find_config
 
 LONGEST = 80
 """How much of a value a line shows."""

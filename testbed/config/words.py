@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from asp import literals
-from asp.spelling import suggestion
+from asp.language import literals
+from asp.language.spelling import suggestion
 from testbed.config.places import Key
 
 Finding = tuple[Key, str]

@@ -12,14 +12,14 @@ from typing import TypeAlias
 import numpy as np
 from gymnasium.utils import seeding
 
-from testbed.environment.dynamics import Dynamics
-from testbed.environment.errors import IllegalActionError, NotResetError
 from testbed.environment.execution import Exact, Execution
 from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
 from testbed.environment.news import News, Played
 from testbed.environment.rules import Rules
 from testbed.environment.situation import Ending, Situation, Snapshot
-from testbed.link.messages import Event, Percept
+from testbed.protocol.messages import Event, Percept
+from testbed.world.dynamics import Dynamics
+from testbed.world.errors import IllegalActionError, NotResetError
 
 __all__ = ["FINISH", "NONE", "WAIT", "Core", "Draw", "DrawGoal"]
 

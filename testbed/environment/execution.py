@@ -6,8 +6,8 @@ from typing import Protocol
 
 import numpy as np
 
-from asp import literals as text
-from testbed.environment.dynamics import Dynamics
+from asp.language import literals as text
+from testbed.world.dynamics import Dynamics
 
 
 class Execution(Protocol):

@@ -8,10 +8,10 @@ from functools import cache
 from asp.refinement import Refinement
 from testbed.environment.core import Core, DrawGoal
 from testbed.environment.rules import Rules
-from testbed.environment.sparse import SparseWorld
-from testbed.environment.sparse.sensing import Sensing
-from testbed.environment.starts import RandomStart
-from testbed.environment.tested import Pace, Statistics, Tested
+from testbed.environment.uncertain_execution import Pace, Statistics, Tested
+from testbed.world.initial_states import RandomStart
+from testbed.world.matched import SparseWorld
+from testbed.world.matched.sensing import Sensing
 
 __all__ = ["Pace", "RandomStart", "Statistics", "fine_core", "fine_world"]
 

@@ -7,8 +7,8 @@ from itertools import product
 
 import numpy as np
 
-from asp import literals as text
-from testbed.environment.dynamics import Dynamics
+from asp.language import literals as text
+from testbed.world.dynamics import Dynamics
 
 
 class RandomGoal:

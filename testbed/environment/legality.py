@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
 
-from testbed.environment.dynamics import Dynamics
 from testbed.environment.execution import Execution
+from testbed.world.dynamics import Dynamics
 
 WAIT, FINISH, NONE = "wait", "finish", "none"
 """The actions that are the environment's own: of the robot, and of the adversary."""

@@ -8,11 +8,11 @@ from itertools import islice
 
 import numpy as np
 
-from asp import literals as text
-from testbed.environment.dynamics import Dynamics
+from asp.language import literals as text
 from testbed.environment.execution import Execution
 from testbed.environment.rules import Observability
-from testbed.link.messages import Event
+from testbed.protocol.messages import Event
+from testbed.world.dynamics import Dynamics
 
 
 @dataclass(frozen=True)

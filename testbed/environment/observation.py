@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from asp import literals as text
+from asp.language import literals as text
 from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import NONE, WAIT, Core
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from testbed.link.messages import Event
+from testbed.protocol.messages import Event
 
 
 class Ending(StrEnum):

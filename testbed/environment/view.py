@@ -7,11 +7,9 @@ from typing import Any, ClassVar
 
 from gymnasium import spaces
 
-from asp.spelling import suggestion
+from asp.language.spelling import suggestion
 from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import Core
-from testbed.environment.errors import UnknownOptionError
-from testbed.environment.notebook import html_of
 from testbed.environment.observation import (
     Vector,
     action_spaces,
@@ -19,8 +17,10 @@ from testbed.environment.observation import (
     state_space,
     state_vector,
 )
-from testbed.environment.picture import Image
-from testbed.environment.rendering import MODES, check_mode, render
+from testbed.environment.rendering.modes import MODES, check_mode, render
+from testbed.environment.rendering.notebook import html_of
+from testbed.environment.rendering.picture import Image
+from testbed.world.errors import UnknownOptionError
 
 OPTIONS = ("initial", "trial")
 """The keys of `reset(options=...)`."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import asp
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 
 @lru_cache(maxsize=8)

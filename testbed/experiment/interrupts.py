@@ -14,7 +14,7 @@ from threading import Thread, current_thread, main_thread
 from types import FrameType
 
 from testbed.experiment.processes import SIGNALS, kill
-from testbed.experiment.terminal import mute
+from testbed.text.terminal import mute
 
 INTERRUPTED = 130
 ENDING_S = 60.0

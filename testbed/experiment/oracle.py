@@ -11,14 +11,14 @@ from functools import lru_cache
 from heapq import heappop, heappush
 from itertools import count
 
-from asp.description import Description
-from asp.grounding import ground_description
-from asp.kept.independence import Independence
-from asp.literals import atom
-from asp.restriction import narrowed, restrict
-from asp.signature import Signature
-from asp.syntax import Source
-from testbed.environment.world import World
+from asp.language.description import Description
+from asp.language.grounding import ground_description
+from asp.language.literals import atom
+from asp.language.restriction import narrowed, restrict
+from asp.language.signature import Signature
+from asp.language.syntax import Source
+from asp.reasoning.planning.relevance import Independence
+from testbed.world.compiled.world import World
 
 
 class BudgetError(RuntimeError):

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from testbed.config.models import ExperimentConfig
-from testbed.environment.world import World
 from testbed.experiment.domains import load_world
-from testbed.experiment.levels.planning import level_specs
+from testbed.experiment.level_plan import level_specs
 from testbed.experiment.record import COARSE
 from testbed.experiment.repeating import repeats_of
 from testbed.experiment.specs import TrialSpec, pair_specs, seed_words, setting_of
+from testbed.world.compiled.world import World
 
 __all__ = ["TrialSpec", "plan_trials", "planned_trials"]
 

@@ -19,8 +19,8 @@ from rich.progress import (
 from rich.text import Text
 
 from testbed.experiment.runner import Notify, Tally
-from testbed.experiment.terminal import warn
 from testbed.experiment.wording import counted
+from testbed.text.terminal import warn
 
 EVERY_S = 30.0
 

@@ -9,8 +9,8 @@ from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import msgspec
 
-from testbed.link.bounds import Count
-from testbed.link.messages import Minimality, NoPlan
+from testbed.protocol.bounds import Count
+from testbed.protocol.messages import Minimality, NoPlan
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
@@ -217,7 +217,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
 
     def _repr_html_(self) -> str:
         """What a notebook shows: how the trial came out, and what happened step by step."""
-        from testbed.experiment.notebook import html_of  # noqa: PLC0415  # which is about records
+        from testbed.report.notebook import html_of  # noqa: PLC0415  # which is about records
 
         return html_of(self)
 

@@ -22,8 +22,8 @@ from testbed.experiment.record import (
     TrialRecord,
 )
 from testbed.experiment.wording import listed
-from testbed.link.bounds import shortened
-from testbed.link.messages import Decision, Event, Explanation, FineTrace, NoPlan, Trace
+from testbed.protocol.bounds import shortened
+from testbed.protocol.messages import Decision, Event, Explanation, FineTrace, NoPlan, Trace
 
 
 class Recorder:

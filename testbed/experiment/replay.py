@@ -6,15 +6,15 @@ import shlex
 from collections.abc import Iterable
 from pathlib import Path
 
-from asp.spelling import suggestion
+from asp.language.spelling import suggestion
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
+from testbed.experiment.narration import Say, teller_of
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord, logical
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_config, read_records
-from testbed.experiment.telling import Say, teller_of
 from testbed.experiment.trial import Result, play_trial
 from testbed.experiment.wording import counted, in_words, of_place, place
 from testbed.link.inprocess import InProcessRobot

@@ -12,16 +12,16 @@ from pathlib import Path
 from testbed.config import ExperimentConfig
 from testbed.experiment.conformity import check_planned
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.pool import play_all, workers_for
 from testbed.experiment.record import FAILURES
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import ERRORS, TrialWriter, locked, naming
 from testbed.experiment.trial import Result, play_trial
 from testbed.experiment.worker import Play
+from testbed.experiment.worker_pool import play_all, workers_for
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.robot import RobotClient
 from testbed.link.spawned import spawned_robot
+from testbed.protocol.robot import RobotClient
 
 
 @dataclass

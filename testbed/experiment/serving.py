@@ -9,7 +9,7 @@ from pathlib import Path
 import zenoh
 
 from testbed.experiment.errors import ServingError
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.link.serve import serve, serve_forever
 from testbed.link.session import open_as_configured, open_waiting
 

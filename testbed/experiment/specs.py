@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import msgspec
 import numpy as np
 
-from asp.levels import LevelSize
+from asp.domains.levels import LevelSize
 from testbed.config.models import (
     JUDGE_STATES,
     ExperimentConfig,

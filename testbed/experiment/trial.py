@@ -12,16 +12,16 @@ import numpy as np
 
 from agents.adversary.scripted import Script
 from testbed.environment.core import NONE, Core
-from testbed.environment.errors import IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
 from testbed.experiment.record import FineCounts, TrialRecord, check
 from testbed.experiment.recorder import FineRecorder, Recorder
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.stage import load_stage
-from testbed.link.errors import RobotGone, RobotLost, RobotStopped
+from testbed.experiment.trial_setup import load_stage
 from testbed.link.exchange import NOT_UNDERSTOOD, in_one_line
-from testbed.link.messages import Decision, Percept
-from testbed.link.robot import RobotClient
+from testbed.protocol.errors import RobotGone, RobotLost, RobotStopped
+from testbed.protocol.messages import Decision, Percept
+from testbed.protocol.robot import RobotClient
+from testbed.world.errors import IllegalActionError
 
 
 @dataclass(frozen=True)

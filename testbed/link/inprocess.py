@@ -3,8 +3,8 @@
 import traceback
 
 from testbed.link.exchange import Desk, failed, in_one_line, read_decision
-from testbed.link.messages import Decision, Percept, Question, Task, encode
-from testbed.link.robot import RobotFactory
+from testbed.protocol.messages import Decision, Percept, Question, Task, encode
+from testbed.protocol.robot import RobotFactory
 
 
 class InProcessRobot:

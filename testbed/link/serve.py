@@ -8,8 +8,8 @@ import zenoh
 
 from testbed.link import keys
 from testbed.link.exchange import Desk, in_one_line
-from testbed.link.robot import RobotFactory
 from testbed.link.session import open_robot
+from testbed.protocol.robot import RobotFactory
 
 
 def serve_forever(

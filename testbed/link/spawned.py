@@ -6,11 +6,11 @@ from itertools import count
 
 import zenoh
 
-from testbed.link.errors import RobotGone, RobotLost, RobotStopped
-from testbed.link.messages import Decision, Percept, Task
 from testbed.link.process import COMMAND, RobotProcess
 from testbed.link.remote import RemoteRobot
 from testbed.link.session import endpoint, open_driver
+from testbed.protocol.errors import RobotGone, RobotLost, RobotStopped
+from testbed.protocol.messages import Decision, Percept, Task
 
 START_S = 60.0
 _GLANCE_S = 0.05

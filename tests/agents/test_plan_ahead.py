@@ -6,7 +6,7 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link.inprocess import InProcessRobot
 

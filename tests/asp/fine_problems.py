@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import product
 
-from asp import syntax
-from asp.fine_plans import FineStart
-from asp.kept.patterns import functions, subject
-from asp.literals import arguments
+from asp.language import syntax
+from asp.language.functions import functions, subject
+from asp.language.literals import arguments
+from asp.language.signature import Problems, Signature, signature_of
+from asp.reasoning.fine_planning.reference import FineStart
 from asp.refinement import Refinement
 from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant
-from asp.signature import Problems, Signature, signature_of
-from testbed.environment.sparse.world import SparseWorld
+from testbed.world.matched.world import SparseWorld
 from tests.asp.refinement.levels import coarse_world
 
 _KNOWN, _HELD = 0.4, 0.4

@@ -5,10 +5,10 @@ from __future__ import annotations
 import clingo
 import pytest
 
-import asp.kept.outcomes
-from asp.budget import BudgetError, LimitError, Limits, TimeLimitError, deciding, up_to
-from asp.kept.plans import Plans
-from asp.solving import answer_sets, first_model, ground, is_satisfiable, optimal_model
+import asp.reasoning.planning.large.outcomes
+from asp.reasoning.planning.incremental import Plans
+from asp.solving.budget import BudgetError, LimitError, Limits, TimeLimitError, deciding, up_to
+from asp.solving.solver import answer_sets, first_model, ground, is_satisfiable, optimal_model
 
 # The solver would need hours to see that more pigeons than holes are impossible.
 PIGEONS = """
@@ -142,7 +142,7 @@ def test_a_description_with_too_many_cases_is_planned_for_without_them(
     expected = Plans(STACKING, "stacking.al").shortest(start, goal, 9)
     assert expected is not None
     assert len(expected) == 3
-    monkeypatch.setattr(asp.kept.outcomes, "MOST_BRANCHES", 5)
+    monkeypatch.setattr(asp.reasoning.planning.large.outcomes, "MOST_BRANCHES", 5)
     plans = Plans(STACKING, "stacking.al")
     assert plans.shortest(start, goal, 9) == expected
     assert plans.reachable(start, goal) is None

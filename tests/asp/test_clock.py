@@ -5,13 +5,13 @@ from collections.abc import Iterable, Sequence
 
 import pytest
 
-from asp.budget import Limits, TimeLimitError, deciding
-from asp.kept import search
-from asp.kept.clock import preparation, reasoning_clock
-from asp.kept.operators import Operator
-from asp.kept.plans import Plans
-from asp.kept.statesets import Space
-from asp.loading import read_domain
+from asp.language.loading import read_domain
+from asp.reasoning.planning.incremental import Plans
+from asp.reasoning.planning.large import search
+from asp.reasoning.planning.large.operators import Operator
+from asp.reasoning.planning.large.state_sets import Space
+from asp.solving.budget import Limits, TimeLimitError, deciding
+from asp.solving.clock import preparation, reasoning_clock
 
 SLOW_S = 3.0
 OFFICE = read_domain("office")[1]

@@ -2,8 +2,8 @@
 
 import pytest
 
-from asp.commentary import scenario_notes
-from asp.loading import load_description, read_domain
+from asp.language.comments import scenario_notes
+from asp.language.loading import load_description, read_domain
 
 TEXT = """\
 scenarios

@@ -9,20 +9,20 @@ from pathlib import Path
 
 import pytest
 
-from asp.fine_plans import FineStart
-from asp.kept.confining import confined
-from asp.kept.narrowing import Narrower
-from asp.kept.parts import ACTION
-from asp.kept.patterns import functions
-from asp.kept.playing import in_play, loose
-from asp.kept.refined import FinePlanner
-from asp.kept.relaxed import Relaxed
-from asp.kept.valued import valued
-from asp.levels import LevelSize
-from asp.literals import arguments
-from asp.loading import analyse
+from asp.domains.levels import LevelSize
+from asp.language.functions import functions
+from asp.language.literals import arguments
+from asp.language.loading import analyse
+from asp.reasoning.fine_planning.abstraction import Narrower
+from asp.reasoning.fine_planning.incremental import FinePlanner
+from asp.reasoning.fine_planning.large.function_values import valued
+from asp.reasoning.fine_planning.large.relaxed_reachability import Relaxed
+from asp.reasoning.fine_planning.large.value_pruning import confined
+from asp.reasoning.fine_planning.reference import FineStart
+from asp.reasoning.fine_planning.relevant_constants import in_play, loose
 from asp.refinement import Refinement, load, load_refinement
-from testbed.environment.sparse.world import SparseWorld
+from asp.translation.program_parts import ACTION
+from testbed.world.matched.world import SparseWorld
 from tests.asp.fine_problems import drawn_goal, drawn_state
 from tests.asp.refinement.levels import level, of_size
 from tests.asp.refinement.locked import locked_texts

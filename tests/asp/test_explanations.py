@@ -10,8 +10,8 @@ import pytest
 from clingo import Symbol
 
 from asp import load_description
-from asp.solving import fact, first_model, select
-from testbed.environment.world import World
+from asp.solving.solver import fact, first_model, select
+from testbed.world.compiled.world import World
 from tests.asp.preferring import ground_story
 from tests.asp.stories import CART, GATE_OPEN, GOAL, lines
 

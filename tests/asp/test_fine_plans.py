@@ -7,9 +7,9 @@ import random
 
 import pytest
 
-from asp.fine_plans import NoPlan, physical, plain_plan
-from asp.kept.refined import FinePlanner
-from asp.levels import LevelSize
+from asp.domains.levels import LevelSize
+from asp.reasoning.fine_planning.incremental import FinePlanner
+from asp.reasoning.fine_planning.reference import NoPlan, physical, plain_plan
 from asp.refinement import Refinement
 from asp.refinement.zooming import zoom_strong
 from tests.asp.fine_problems import FineProblem, drawn_problem, first_shortest, signature

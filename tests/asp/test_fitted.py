@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from asp.fine_plans import NoPlan
-from asp.kept.refined import FinePlanner
-from asp.levels import LevelSize
+from asp.domains.levels import LevelSize
+from asp.reasoning.fine_planning.incremental import FinePlanner
+from asp.reasoning.fine_planning.reference import NoPlan
 from asp.refinement import Refinement, load, load_refinement
 from tests.asp.fine_problems import drawn_goal, drawn_problem, drawn_state, first_shortest
 from tests.asp.refinement.levels import level, of_size

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from asp import roles, syntax
-from asp.kept.guards import comes_true_only_while
-from asp.loading import analyse
+from asp.language import syntax
+from asp.language import variable_sorts as roles
+from asp.language.loading import analyse
+from asp.reasoning.fine_planning.guarded_fluents import comes_true_only_while
 
 HAND = """
 sorts

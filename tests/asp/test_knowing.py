@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp.knowing import Inferred, Known, Theory
-from asp.levels import LevelSize, level_text
-from asp.quick import Quick
+from asp.domains.levels import LevelSize, level_text
+from asp.reasoning.fine_knowledge.incremental import Quick
+from asp.reasoning.fine_knowledge.reference import Inferred, Known, Theory
 from asp.refinement import load, load_refinement
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp.levels import LEVELS, LevelSize, level_text
-from asp.literals import arguments, name
+from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.language.literals import arguments, name
 from asp.refinement import Refinement, load
-from asp.statics import true_statics
+from asp.refinement.statics import true_statics
 
 TABLE = {  # objects by their parts, rooms, cells a room
     "L1": ({1: 1}, 2, 2),

@@ -10,13 +10,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError
-from asp.description import Description
-from asp.kept.operators import Encoding
-from asp.kept.outcomes import NotEncodableError
-from asp.loading import parse_description
+from asp.language.description import Description
+from asp.language.loading import parse_description
+from asp.reasoning.planning.large.operators import Encoding
+from asp.reasoning.planning.large.outcomes import NotEncodableError
 from benchmarks.offices import office
 from benchmarks.search import Search
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 OFFICES = (
     office(),

@@ -8,17 +8,17 @@ from contextlib import suppress
 
 import pytest
 
-from asp.budget import Limits, TimeLimitError, deciding
-from asp.description import Description
-from asp.kept.independence import Independence, symmetric_pairs
-from asp.kept.narrow import MOST_LEVELS, NarrowPrograms, candidates
-from asp.kept.operators import Encoding
-from asp.kept.outcomes import NotEncodableError
-from asp.kept.plans import Plans
-from asp.kept.search import Spaces
-from asp.loading import analyse, parse_description, read_domain
+from asp.language.description import Description
+from asp.language.loading import analyse, parse_description, read_domain
+from asp.reasoning.planning.incremental import Plans
+from asp.reasoning.planning.large.operators import Encoding
+from asp.reasoning.planning.large.outcomes import NotEncodableError
+from asp.reasoning.planning.large.problem_program import MOST_LEVELS, NarrowPrograms, candidates
+from asp.reasoning.planning.large.search import Spaces
+from asp.reasoning.planning.relevance import Independence, symmetric_pairs
+from asp.solving.budget import Limits, TimeLimitError, deciding
 from benchmarks.offices import office
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 OFFICE = read_domain("office")[1]
 FOUR_BOOKS = OFFICE.replace("{book1, book2}", "{book1, book2, book3, book4}")
@@ -115,7 +115,7 @@ def test_every_way_to_the_plan_gives_the_first_shortest(
     books: int, rooms: int, shape: str, way: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in WAYS[way].items():
-        monkeypatch.setattr(f"asp.kept.planner.{name}", value)
+        monkeypatch.setattr(f"asp.reasoning.planning.horizons.{name}", value)
     text = office(books, rooms, shape)
     description = parse_description(text, "office.al")
     world, plans, draw = World(description), Plans(text, "office.al"), random.Random(11)
@@ -139,7 +139,7 @@ def test_a_plan_may_do_nothing_but_make_things_true_or_false(
     way: str, lit: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in WAYS[way].items():
-        monkeypatch.setattr(f"asp.kept.planner.{name}", value)
+        monkeypatch.setattr(f"asp.reasoning.planning.horizons.{name}", value)
     lamps = ("on(a)", "on(b)", "on(c)")
     start, goal = ((), lamps) if lit else (lamps, tuple(f"-{lamp}" for lamp in lamps))
     plan = tuple(f"switch_{'on' if lit else 'off'}({lamp})" for lamp in "abc")
@@ -150,7 +150,7 @@ def test_a_plan_may_do_nothing_but_make_things_true_or_false(
 def test_a_plan_succeeds_where_the_world_says_so(
     most_kept: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", most_kept)
+    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", most_kept)
     description = parse_description(OFFICE, "office.al")
     world, plans, draw = World(description), Plans(OFFICE, "office.al"), random.Random(5)
     states, outcomes = list(world.initial_states()), set()
@@ -192,7 +192,7 @@ def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
 def test_a_plan_succeeds_too_where_the_goal_is_defined(
     most_kept: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", most_kept)
+    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", most_kept)
     plans = Plans(LAMP, "office.al")
     state = frozenset(["loc(rob1,office2)", "loc(book1,office2)", "loc(book2,office2)"])
     there, back = "move(rob1,kitchen)", "move(rob1,office2)"
@@ -208,9 +208,9 @@ def test_a_plan_succeeds_too_where_the_goal_is_defined(
 def test_with_few_levels_the_plan_is_chosen_bit_by_bit(
     levels: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", 0)
-    monkeypatch.setattr("asp.kept.planner.MOST_STATES", 1)
-    monkeypatch.setattr("asp.kept.narrow.MOST_LEVELS", levels)
+    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", 0)
+    monkeypatch.setattr("asp.reasoning.planning.horizons.MOST_STATES", 1)
+    monkeypatch.setattr("asp.reasoning.planning.large.problem_program.MOST_LEVELS", levels)
     description = parse_description(OFFICE, "office.al")
     world, plans, draw = World(description), Plans(OFFICE, "office.al"), random.Random(8)
     states = list(world.initial_states())
@@ -245,8 +245,8 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
 
 
 def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("asp.kept.planner._MOST_KEPT", 0)
-    monkeypatch.setattr("asp.kept.planner.MOST_STATES", 30)
+    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", 0)
+    monkeypatch.setattr("asp.reasoning.planning.horizons.MOST_STATES", 30)
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
     goal = ("loc(book1,library)", "loc(book2,library)")
     whole = Plans(OFFICE, "office.al").shortest(state, goal, 20)

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import pytest
 
-from asp.kept.operators import Encoding
-from asp.kept.search import Spaces
-from asp.loading import parse_description
+from asp.language.loading import parse_description
+from asp.reasoning.planning.large.operators import Encoding
+from asp.reasoning.planning.large.search import Spaces
 from benchmarks.offices import office
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 LIMIT = 12
 EVERYTHING = 2**20

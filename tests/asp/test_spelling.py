@@ -2,7 +2,7 @@
 
 import pytest
 
-from asp.spelling import nearest, suggestion
+from asp.language.spelling import nearest, suggestion
 
 
 @pytest.mark.parametrize(

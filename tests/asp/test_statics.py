@@ -2,8 +2,8 @@
 
 import pytest
 
-from asp.loading import analyse, packaged_domains, parse_description, read_domain
-from asp.statics import true_statics
+from asp.language.loading import analyse, packaged_domains, parse_description, read_domain
+from asp.refinement.statics import true_statics
 from tests.asp.refinement.levels import level
 from tests.asp.stories import CART
 

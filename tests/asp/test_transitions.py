@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from asp.kept.transitions import Branch, Transitions
-from asp.loading import parse_description
-from asp.translation import translate
-from testbed.environment.world import World
+from asp.language.loading import parse_description
+from asp.reasoning.successors import Branch, Transitions
+from asp.translation.literal import translate
+from testbed.world.compiled.world import World
 
 TEXT = (Path(__file__).parent / "cart.al").read_text(encoding="utf-8")
 CART = parse_description(TEXT, "cart.al")

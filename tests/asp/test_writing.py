@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from asp import syntax
-from asp.loading import packaged_domains, read_domain
-from asp.parser import parse
-from asp.writing import text_of
+from asp.language import syntax
+from asp.language.loading import packaged_domains, read_domain
+from asp.language.parser import parse
+from asp.language.writer import text_of
 from tests.asp.refinement.levels import level
 from tests.asp.stories import CART
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from asp.loading import load_description, parse_description
+from asp.language.loading import load_description, parse_description
 from benchmarks.offices import MAPS, office
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 
 def test_the_office_of_the_packaged_size_is_the_packaged_office() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.levels import LEVELS, LevelSize, level_text
+from asp.domains.levels import LEVELS, LevelSize, level_text
 from testbed.config import ConfigError, load_config
 from testbed.config.grounds import grounds, level_size
 

@@ -6,10 +6,10 @@ import pytest
 import yaml
 
 import asp
-from asp.loading import load_description
+from asp.language.loading import load_description
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.models import AdversarySettings, Limits, Observability
-from testbed.resources import find_config
+from testbed.config.packaged import find_config
 
 pytestmark = pytest.mark.versions
 

@@ -6,13 +6,13 @@ from dataclasses import replace
 import pytest
 
 from asp import Description, load_description, parse_description
-from testbed.environment.closure import UnknownFluentError
 from testbed.environment.core import FINISH, NONE, WAIT, Core
-from testbed.environment.errors import IllegalActionError, StateError
 from testbed.environment.execution import Exact
 from testbed.environment.rules import Mode, Observability, Rules
 from testbed.environment.situation import Ending
-from testbed.environment.world import World
+from testbed.world.closure import UnknownFluentError
+from testbed.world.compiled.world import World
+from testbed.world.errors import IllegalActionError, StateError
 
 WORLD = World(load_description("office"))
 IN_KITCHEN = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)")

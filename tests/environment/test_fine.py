@@ -5,14 +5,14 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from asp.levels import level_text
-from asp.loading import read_domain
+from asp.domains.levels import level_text
+from asp.language.loading import read_domain
 from asp.refinement import Refinement, load
 from testbed.environment.core import FINISH, NONE, WAIT, Core
-from testbed.environment.errors import IllegalActionError
 from testbed.environment.fine import RandomStart, fine_core, fine_world
 from testbed.environment.rules import Observability, Rules
-from testbed.environment.tested import Pace
+from testbed.environment.uncertain_execution import Pace
+from testbed.world.errors import IllegalActionError
 
 START = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]
 GOAL = ("loc(object1,room2)", "-in_hand(rob1,object1)")

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 from asp import load_description, parse_description
-from asp.levels import level_text
-from asp.loading import read_domain
+from asp.domains.levels import level_text
+from asp.language.loading import read_domain
 from asp.refinement import load
-from testbed.environment.ansi import draw_text
 from testbed.environment.core import Core
 from testbed.environment.fine import fine_core
-from testbed.environment.picture import Image, draw_picture
-from testbed.environment.rendering import MODES, render
+from testbed.environment.rendering.ansi import draw_text
+from testbed.environment.rendering.modes import MODES, render
+from testbed.environment.rendering.picture import Image, draw_picture
+from testbed.environment.rendering.scene import Scene, scene
 from testbed.environment.rules import Rules
-from testbed.environment.scene import Scene, scene
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 WORLD = World(load_description("office"))
 OFFICE = read_domain("office")[1]

@@ -3,9 +3,9 @@
 import pytest
 
 from asp import load_description, parse_description
-from testbed.environment.closure import UnknownFluentError
-from testbed.environment.errors import NotExecutableError, StateError, UnknownActionError
-from testbed.environment.world import World
+from testbed.world.closure import UnknownFluentError
+from testbed.world.compiled.world import World
+from testbed.world.errors import NotExecutableError, StateError, UnknownActionError
 
 SCENARIO_1 = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)")
 PLAN = (

@@ -9,8 +9,8 @@ from itertools import product
 import pytest
 
 from asp import load_description
-from asp.translation import translate
-from testbed.environment.world import World
+from asp.translation.literal import translate
+from testbed.world.compiled.world import World
 from tests.environment import diagram
 
 OFFICE = load_description("office")

@@ -10,8 +10,8 @@ from hypothesis import assume, event, example, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError, parse_description
-from asp.translation import translate
-from testbed.environment.world import World
+from asp.translation.literal import translate
+from testbed.world.compiled.world import World
 from tests.environment import diagram
 
 INERTIAL, DEFINED, ACTIONS = ("f", "g", "k", "h"), ("p", "q"), ("a", "b", "e")

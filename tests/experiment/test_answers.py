@@ -13,7 +13,7 @@ from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.store import TrialWriter, read_records, write_config
 from testbed.experiment.trial import Result, play_trial
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, Percept, Task
+from testbed.protocol.messages import Decision, Percept, Task
 from tests.experiment.samples import Configure
 
 MANY = 10**6

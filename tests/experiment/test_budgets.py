@@ -14,7 +14,7 @@ from testbed.config import load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord, logical
-from testbed.experiment.registry import ROBOTS, make_robot
+from testbed.experiment.robots import ROBOTS, make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 

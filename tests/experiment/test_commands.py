@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import asp
+from papers.commands import ROOT, arguments
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.commands import ROOT, arguments
 from testbed.experiment.store import flat_config, read_config, write_config
 
 DOMAINS = Path(asp.__file__).parent / "domains"

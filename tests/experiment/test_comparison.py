@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from testbed.experiment.comparison import Cell, comparisons, optima
+from testbed.analysis.summary import summarise
 from testbed.experiment.record import Outcome, TrialRecord
-from testbed.experiment.summary import summarise
+from testbed.report.comparison import Cell, comparisons, optima
 from tests.experiment.samples import a_record
 
 

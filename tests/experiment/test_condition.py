@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from testbed.analysis.condition import condition, deviations, left_out
 from testbed.cli import app
 from testbed.config import load_config
-from testbed.experiment.condition import condition, deviations, left_out
 from tests.greenhouse import WINDY
 
 SAME = ("seed=7", "limit=2", "scenarios=[1]", "repeats=2", "limits.answer_s=5", "link=zenoh")

@@ -2,8 +2,8 @@
 
 import pytest
 
+from testbed.analysis.counting import Standing, compared, eventful, pair_apart, why_apart
 from testbed.config import load_config
-from testbed.experiment.counting import Standing, compared, eventful, pair_apart, why_apart
 
 PLAYED = Standing(lost=False, late=False, solvable=True, idle=False, quiet=False)
 QUIET = Standing(lost=False, late=False, solvable=True, idle=False, quiet=True)

@@ -9,12 +9,12 @@ from typer.testing import CliRunner
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.coverage import Coverage, coverage_of
-from testbed.experiment.levels.__main__ import main as levels_page
 from testbed.experiment.plan import plan_trials, planned_trials
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import write_config
-from testbed.experiment.table1.__main__ import main as table1_page
 from testbed.experiment.wording import listed, place
+from testbed.studies.levels.__main__ import main as levels_page
+from testbed.studies.table1.__main__ import main as table1_page
 from tests.experiment.samples import a_level_record, a_record
 
 LEVELS = ["levels=[L3,L1]", "limit=3"]

@@ -10,18 +10,18 @@ import polars as pl
 import pytest
 from typer.testing import CliRunner
 
+from testbed.analysis.summary import summarise
 from testbed.cli import app
 from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.store import TrialWriter, read_records, write_config
-from testbed.experiment.summary import summarise
-from testbed.experiment.table1.analysis import analyse
-from testbed.experiment.table1.pairing import pairs_of
 from testbed.experiment.trial import play_trial
-from testbed.link.errors import RobotGone, RobotStops
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, Percept, Task
+from testbed.protocol.errors import RobotGone, RobotStops
+from testbed.protocol.messages import Decision, Percept, Task
+from testbed.studies.table1.analysis import analyse
+from testbed.studies.table1.pairing import pairs_of
 from tests.experiment.samples import Configure, a_level_record
 
 PAIRS = 4

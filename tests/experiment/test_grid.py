@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 from rich.cells import cell_len
 
-from testbed.experiment.grid import Grid
-from testbed.experiment.levels.published import NO_ZOOM, PAPER, ZOOM
-from testbed.experiment.levels.results import levels_of
-from testbed.experiment.levels.table import level_grid, level_tables
+from testbed.analysis.summary import summarise
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import At, Explained
 from testbed.experiment.store import TrialWriter, write_config
-from testbed.experiment.summary import summarise
-from testbed.experiment.tables import grid, rows_of
+from testbed.report.tables import grid, rows_of
+from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM
+from testbed.studies.levels.results import levels_of
+from testbed.studies.levels.table import level_grid, level_tables
+from testbed.text.grid import Grid
 from tests.experiment.samples import Configure, a_level_record, a_record
 
 WIDTHS = (60, 80, 120, 200)

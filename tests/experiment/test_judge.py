@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.report import write_report
 from testbed.experiment.runner import run_trials
+from testbed.report import write_report
 
 Run = Callable[..., tuple[list[dict[str, Any]], dict[str, Any], str]]
 

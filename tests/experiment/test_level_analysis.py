@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
-from testbed.experiment.levels.published import NO_ZOOM, PAPER, PARTS, ZOOM
+from testbed.analysis.summary import summarise
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.summary import summarise
+from testbed.studies.levels.published import NO_ZOOM, PAPER, PARTS, ZOOM
 from tests.experiment.samples import a_level_record
 
 

@@ -2,12 +2,12 @@
 
 import pytest
 
-from testbed.experiment.levels import evidence
-from testbed.experiment.levels.comparing import Cell, Line
-from testbed.experiment.levels.pairing import Meeting, Pair, pairs_of
-from testbed.experiment.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Rounded
+from papers.levels import evidence
+from testbed.analysis.statistics import Estimate
 from testbed.experiment.record import Attempt, Explained, Occurrence, TrialRecord
-from testbed.experiment.statistics import Estimate
+from testbed.studies.levels.comparing import Cell, Line
+from testbed.studies.levels.pairing import Meeting, Pair, pairs_of
+from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Rounded
 from tests.experiment.samples import a_level_record, a_record
 
 ROBOTS = (ZOOM, NO_ZOOM)

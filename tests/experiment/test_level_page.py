@@ -5,15 +5,15 @@ from pathlib import Path
 
 import pytest
 
+from papers.levels.commands import PAGE, commands
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
-from testbed.experiment.levels.__main__ import main
-from testbed.experiment.levels.page.commands import PAGE, commands
-from testbed.experiment.levels.published import NO_ZOOM, ZOOM
-from testbed.experiment.markdown import WIDTH, paragraph
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import PROVENANCE, TrialWriter, read_records, write_config
+from testbed.studies.levels.__main__ import main
+from testbed.studies.levels.published import NO_ZOOM, ZOOM
+from testbed.text.markdown import WIDTH, paragraph
 from tests.experiment.samples import a_level_record
 
 SMALL = ["levels=[L1,L3]", "limit=3", "adversary.rate=0.2"]
@@ -113,8 +113,8 @@ def test_the_commands_are_those_that_make_the_run_again(tmp_path: Path) -> None:
         "$ testbed run levels name=mine 'levels=[L1,L3]' draw.holding=0.5 limit=3 "
         "adversary.rate=0.2 --workers 2"
     )
-    assert page == f"$ python -m testbed.experiment.levels runs/mine > {PAGE}"
-    assert picture.startswith("$ python -m testbed.experiment.report runs/mine ")
+    assert page == f"$ python -m papers.levels runs/mine > {PAGE}"
+    assert picture.startswith("$ python -m papers runs/mine ")
     (tmp_path / PROVENANCE).unlink()
     assert "--workers" not in commands(tmp_path, config)
 

@@ -7,7 +7,7 @@ import pytest
 from testbed.config import load_config
 from testbed.environment.fine import fine_world
 from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.stage import load_ground
+from testbed.experiment.trial_setup import load_ground
 
 
 def _specs(*overrides: str) -> list[TrialSpec]:

@@ -14,12 +14,12 @@ from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import logical
-from testbed.experiment.registry import make_robot
-from testbed.experiment.report import write_report
+from testbed.experiment.robots import make_robot
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import read_records, write_config
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
+from testbed.report import write_report
 
 TESTBED = (sys.executable, "-m", "testbed")
 LEVELS = ("L1", "L2", "L3", "L4", "L5", "L6", "L7", "L8")

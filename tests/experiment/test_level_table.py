@@ -2,10 +2,14 @@
 
 import pytest
 
+from testbed.analysis.statistics import Estimate
+from testbed.analysis.summary import summarise
 from testbed.config import load_config
-from testbed.experiment.levels import comparing
-from testbed.experiment.levels.protocol import paper_of
-from testbed.experiment.levels.published import (
+from testbed.experiment.record import TrialRecord
+from testbed.report.tables import headings, rows_of
+from testbed.studies.levels import comparing
+from testbed.studies.levels.protocol import paper_of
+from testbed.studies.levels.published import (
     NO_ZOOM,
     OWN,
     PAPER,
@@ -15,8 +19,8 @@ from testbed.experiment.levels.published import (
     ZOOM,
     Rounded,
 )
-from testbed.experiment.levels.results import levels_of
-from testbed.experiment.levels.table import (
+from testbed.studies.levels.results import levels_of
+from testbed.studies.levels.table import (
     GROWTH,
     SECONDS,
     SHARES,
@@ -28,10 +32,6 @@ from testbed.experiment.levels.table import (
     seconds_rows,
     share_rows,
 )
-from testbed.experiment.record import TrialRecord
-from testbed.experiment.statistics import Estimate
-from testbed.experiment.summary import summarise
-from testbed.experiment.tables import headings, rows_of
 from tests.experiment.samples import a_level_record, a_record
 
 

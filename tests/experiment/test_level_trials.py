@@ -7,13 +7,13 @@ import pytest
 
 from testbed.config import load_config
 from testbed.environment.fine import fine_world
+from testbed.experiment.narration import teller_of
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord, logical
-from testbed.experiment.stage import load_ground, load_stage
-from testbed.experiment.telling import teller_of
 from testbed.experiment.trial import play_trial
+from testbed.experiment.trial_setup import load_ground, load_stage
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, FineTrace, Percept, Task, Trace
+from testbed.protocol.messages import Decision, FineTrace, Percept, Task, Trace
 
 SMALL = "level_sizes={small: {rooms: 2, rows: 1, columns: 2, objects: [[2, 2]]}}"
 

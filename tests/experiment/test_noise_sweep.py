@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from asp.levels import LEVELS, level_text
-from asp.literals import name
+from asp.domains.levels import LEVELS, level_text
+from asp.language.literals import name
 from asp.refinement import load
 from benchmarks.own import Own
 from testbed.environment.fine import fine_world

@@ -5,13 +5,13 @@ import itertools
 import numpy as np
 import pytest
 
-from asp.grounding import ground_description
-from asp.levels import level_text
-from asp.loading import analyse
+from asp.domains.levels import level_text
+from asp.language.grounding import ground_description
+from asp.language.loading import analyse
 from testbed.environment.goals import RandomGoal
-from testbed.environment.world import World
 from testbed.experiment.domains import load_world
 from testbed.experiment.oracle import Oracle, minimal_actions, minimal_units, shortest_plan
+from testbed.world.compiled.world import World
 
 DELIVERED = (
     "loc(book1,library)",

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from asp.loading import read_domain
+from asp.language.loading import read_domain
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 

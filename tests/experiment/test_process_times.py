@@ -14,10 +14,10 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, Percept
+from testbed.protocol.messages import Decision, Percept
 
 CPU_TIMES = ("planning_cpu_s", "diagnosis_cpu_s", "preparation_cpu_s")
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from testbed.experiment.quotient import of_means, of_medians
-from testbed.experiment.statistics import Estimate
+from testbed.analysis.quotient import of_means, of_medians
+from testbed.analysis.statistics import Estimate
 
 
 def test_the_interval_of_a_quotient_of_means_is_that_of_the_delta_method() -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import ONLY_FINE, ROBOTS, STARTERS, make_robot
+from testbed.experiment.robots import ONLY_FINE, ROBOTS, STARTERS, make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 from tests.experiment.samples import Configure

@@ -4,17 +4,17 @@ from pathlib import Path
 
 import pytest
 
-from testbed.environment.world import World
 from testbed.experiment.domains import load_world
+from testbed.experiment.narration import Teller
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.registry import make_robot
 from testbed.experiment.replay import list_trials, replay
+from testbed.experiment.robots import make_robot
 from testbed.experiment.store import TrialWriter, write_config
-from testbed.experiment.telling import Teller
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, Percept, Trace
+from testbed.protocol.messages import Decision, Percept, Trace
+from testbed.world.compiled.world import World
 from tests.experiment.samples import Configure
 
 

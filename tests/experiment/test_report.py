@@ -12,8 +12,8 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.record import At, Attempt, Explained, Occurrence
-from testbed.experiment.report import SHOWN, timeline, write_report
 from testbed.experiment.store import TrialWriter
+from testbed.report import SHOWN, timeline, write_report
 from tests.experiment.samples import a_record
 
 pytestmark = pytest.mark.versions
@@ -147,7 +147,7 @@ def test_the_same_records_give_the_same_page(tmp_path: Path) -> None:
     text, _ = _report(tmp_path, a_record(explanations=[Explained(9, events, ["b", "a"])]))
     program = (
         "import sys; from pathlib import Path; from testbed.config import load_config; "
-        "from testbed.experiment.report import write_report; "
+        "from testbed.report import write_report; "
         "write_report(Path(sys.argv[1]), load_config('office', ['name=tiny', 'seed=7']))"
     )
     for seed in ("1", "2"):

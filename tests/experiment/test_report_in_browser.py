@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.report import write_report
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import REPORT
+from testbed.report import write_report
 from tests.experiment.browser import CHROMIUM, Browser, Tab
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here")

@@ -15,15 +15,15 @@ import pytest
 
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.pool import WORTH, play_all, workers_for
 from testbed.experiment.record import logical
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.runner import Tally, player, run_trials
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import Moment, Result, blank_record, play_trial
 from testbed.experiment.worker import Play
-from testbed.link.robot import Robot
+from testbed.experiment.worker_pool import WORTH, play_all, workers_for
 from testbed.link.spawned import spawned_robot
+from testbed.protocol.robot import Robot
 from tests.experiment.samples import Configure, ids
 
 pytestmark = pytest.mark.load
@@ -235,7 +235,7 @@ def test_no_more_trials_wait_for_an_earlier_one_than_memory_is_to_hold(
     tmp_path: Path, configure: Configure, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first pair is held until the other worker has played all that may wait for it."""
-    monkeypatch.setattr("testbed.experiment.pool.AHEAD", 6)
+    monkeypatch.setattr("testbed.experiment.worker_pool.AHEAD", 6)
     specs = plan_trials(configure("scenarios=[1,2,3,4,5,6]"))
     held = tmp_path / "held"
     held.touch()
@@ -263,7 +263,7 @@ def test_a_crew_larger_than_its_work_plays_each_trial_once(configure: Configure)
 def test_there_is_a_worker_a_core_where_each_has_enough_to_play(
     cores: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("testbed.experiment.pool._cores", lambda: cores)
+    monkeypatch.setattr("testbed.experiment.worker_pool._cores", lambda: cores)
     trials = range(10 * WORTH)
     for n in trials:
         assert 1 <= workers_for(n) <= cores
@@ -276,7 +276,7 @@ def test_a_run_without_a_number_of_workers_chooses_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: int | None, cores: int, used: int
 ) -> None:
     """The choice is for what is missing: a trial that is left over has one worker."""
-    monkeypatch.setattr("testbed.experiment.pool._cores", lambda: cores)
+    monkeypatch.setattr("testbed.experiment.worker_pool._cores", lambda: cores)
     monkeypatch.setattr("testbed.experiment.runner.player", _instantly)
     config = load_config("office", ["link=inprocess", "scenarios=[1]", f"limit={WORTH}"])
     assert run_trials(config, tmp_path, given, _ignore).workers == used

@@ -11,7 +11,7 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import Decision, Percept, Task, Trace
+from testbed.protocol.messages import Decision, Percept, Task, Trace
 from tests.greenhouse import GREENHOUSE
 
 TEXT = """\

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from testbed.experiment import resampling
-from testbed.experiment.statistics import (
+from testbed.analysis import resampling
+from testbed.analysis.statistics import (
     Estimate,
     Test,
     holm,

@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
-from testbed.experiment.counting import NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.analysis.counting import NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.analysis.summary import summarise
 from testbed.experiment.record import At, Explained, Occurrence, TrialRecord
-from testbed.experiment.summary import summarise
-from testbed.experiment.tables import COLUMNS, explained, rows_of
+from testbed.report.tables import COLUMNS, explained, rows_of
 from tests.experiment.samples import a_record
 
 GAVE_UP: dict[str, Any] = {"achieved": False, "outcome": "gave_up"}

@@ -18,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from testbed.config import load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 

@@ -10,9 +10,9 @@ import pytest
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.trial import Moment, Result, play_trial
-from testbed.link.errors import RobotStops
 from testbed.link.inprocess import InProcessRobot
-from testbed.link.messages import (
+from testbed.protocol.errors import RobotStops
+from testbed.protocol.messages import (
     Contradiction,
     Decision,
     Event,

@@ -2,8 +2,8 @@
 
 import pytest
 
-from testbed.link.errors import RobotLost, RobotStopped
-from testbed.link.robot import RobotClient
+from testbed.protocol.errors import RobotLost, RobotStopped
+from testbed.protocol.robot import RobotClient
 from tests.link.scripted import percept, task
 
 pytestmark = [pytest.mark.load, pytest.mark.versions]

@@ -4,9 +4,9 @@ import pytest
 import zenoh
 
 from testbed.link import keys
-from testbed.link.messages import Decision, Question, decode, encode
 from testbed.link.session import open_driver
 from testbed.link.spawned import SpawnedRobot
+from testbed.protocol.messages import Decision, Question, decode, encode
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 pytestmark = pytest.mark.load

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from testbed.link.errors import LinkError
-from testbed.link.messages import (
+from testbed.protocol.errors import LinkError
+from testbed.protocol.messages import (
     PROTOCOL_VERSION,
     Decision,
     Event,

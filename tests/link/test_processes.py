@@ -11,12 +11,12 @@ import pytest
 import zenoh
 
 from testbed.link import keys
-from testbed.link.errors import RobotLost
-from testbed.link.messages import Decision, decode
 from testbed.link.process import RobotProcess
 from testbed.link.remote import RemoteRobot
 from testbed.link.session import endpoint, open_driver, open_robot
 from testbed.link.spawned import SpawnedRobot, spawned_robot
+from testbed.protocol.errors import RobotLost
+from testbed.protocol.messages import Decision, decode
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 pytestmark = pytest.mark.load

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from itertools import chain
 
-from agents.intentional.executor.means import means_of
-from asp.knowing import Known
-from asp.literals import arguments, atom, complement
+from agents.intentional.executor.compiled import means_of
+from asp.language.literals import arguments, atom, complement
+from asp.reasoning.fine_knowledge.reference import Known
 from asp.refinement import Refinement
 
 
 class FineBelief:
     """What is known of a trial at the fine resolution.
 
-    Inferences are those of `fine_inference.lp`; where the laws are simple, `asp.quick` makes them.
+    Inferences are those of `fine_inference.lp`; where the laws are simple,
+    `asp.reasoning.fine_knowledge.incremental` makes them.
     """
 
     def __init__(self, refinement: Refinement, literals: Iterable[str]) -> None:

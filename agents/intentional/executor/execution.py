@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterable, Sequence
 
-from agents.intentional.executor.looking import Looking
-from agents.intentional.executor.mind import Mind
-from asp.budget import LimitError, deciding
-from asp.literals import arguments, atom, complement, is_positive
+from agents.intentional.executor.sensing import Looking
+from agents.intentional.executor.state import Mind
+from asp.language.literals import arguments, atom, complement, is_positive
 from asp.refinement.zooming import Transition, fine_goal, relevant
-from testbed.link.messages import Percept
+from asp.solving.budget import LimitError, deciding
+from testbed.protocol.messages import Percept
 
 Steps = Generator[str, Percept, bool]
 """Yields concrete actions, is sent the percepts after them, returns whether all went well."""

@@ -7,7 +7,7 @@ import pytest
 
 from agents.adversary.base import AdversaryView
 from agents.adversary.random import Random
-from asp.levels import level_text
+from asp.domains.levels import level_text
 from asp.refinement import load
 from testbed.environment.core import FINISH, NONE
 from testbed.environment.fine import fine_core

@@ -4,11 +4,11 @@ import pytest
 
 from agents.adversary.base import AdversaryView
 from agents.adversary.scripted import Script, Triggered
-from asp import literals as text
 from asp import load_description
+from asp.language import literals as text
 from testbed.environment.core import FINISH, NONE, WAIT, Core
 from testbed.environment.rules import Rules
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 BOOKS, ROOMS = ("book1", "book2"), ("kitchen", "office1", "office2", "library")
 SCENARIOS = ("2", "3", "4", "5", "6", "random")

@@ -8,10 +8,10 @@ from pathlib import Path
 
 from msgspec import structs
 
-from asp.loading import load_description, read_domain
-from testbed.environment.world import World
-from testbed.link.messages import Decision, Event, Percept, Task
-from testbed.link.robot import Robot
+from asp.language.loading import load_description, read_domain
+from testbed.protocol.messages import Decision, Event, Percept, Task
+from testbed.protocol.robot import Robot
+from testbed.world.compiled.world import World
 
 
 @dataclass(frozen=True)

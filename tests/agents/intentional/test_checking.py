@@ -11,14 +11,14 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
 from agents.intentional.controller import IntentionalRobot
-from agents.shared import tools
+from agents.shared import sessions as tools
 from agents.shared.knowledge import knowledge
-from agents.shared.tools import Tools, tools_of
-from asp.kept.recent import Recent
-from asp.loading import parse_description
+from agents.shared.sessions import Tools, tools_of
+from asp.language.loading import parse_description
+from asp.solving.cache import Recent
 from testbed.experiment.oracle import minimal_actions
-from testbed.link.messages import Task
-from testbed.link.robot import Robot
+from testbed.protocol.messages import Task
+from testbed.protocol.robot import Robot
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
     DOMAIN,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.incremental import KeptLogician
+from agents.intentional.reference import Logician
 from tests.agents.intentional.lives import WORLD, live
 
 STATES = list(WORLD.initial_states())

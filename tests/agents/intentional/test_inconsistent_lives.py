@@ -11,13 +11,13 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.incremental import KeptLogician
+from agents.intentional.reference import Logician
 from agents.shared.diagnosis import InconsistentHistoryError
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import goal_facts, knowledge
-from asp.conflicts import cannot_hold, conflict
-from asp.literals import complement
+from asp.language.literals import complement
+from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict
 from tests.agents.intentional.test_joint_lives import ONE_BOOK, WORLD
 
 OFFICE = knowledge("office", ONE_BOOK)

@@ -9,15 +9,15 @@ import pytest
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.intention import Intention
 from agents.intentional.joint import JointLogician
-from agents.intentional.logician import Logician
-from agents.intentional.undivided import UndividedLogician
+from agents.intentional.joint_reference import UndividedLogician
+from agents.intentional.reference import Logician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from testbed.config import load_config
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records
-from testbed.link.messages import Event
+from testbed.protocol.messages import Event
 from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_joint_lives import BesideAti
 

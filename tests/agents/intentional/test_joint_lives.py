@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.intention import Intention
 from agents.intentional.joint import JointLogician
-from agents.intentional.logician import Logician
-from agents.intentional.undivided import UndividedLogician
+from agents.intentional.joint_reference import UndividedLogician
+from agents.intentional.reference import Logician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge
-from asp.loading import parse_description
+from asp.language.loading import parse_description
 from benchmarks.offices import office
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import Place, Wish, live, place
 
 DEFAULTS = """

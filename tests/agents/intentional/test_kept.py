@@ -7,14 +7,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
+from agents.intentional.incremental import KeptLogician
 from agents.intentional.intention import Intention
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.reference import Logician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.memory import PACE
-from asp.kept.folding import Pace
+from asp.reasoning.diagnosis.long_histories.compression import Pace
 from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,

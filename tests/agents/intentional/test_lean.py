@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec import structs
 
+from agents.intentional.abstraction import Leaned, LeanRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.lean import Leaned, LeanRobot
-from asp.levels import level_text
-from asp.loading import parse_description
-from testbed.environment.world import World
-from testbed.link.messages import Decision, Event, Task
+from asp.domains.levels import level_text
+from asp.language.loading import parse_description
+from testbed.protocol.messages import Decision, Event, Task
+from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import OFFICE, Place, Wish, live
 
 SOURCE = level_text(3, 1, 2, ((4, 1),))[0]

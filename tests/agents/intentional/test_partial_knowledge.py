@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.logician import Logician
-from asp.loading import parse_description
-from testbed.environment.world import World
-from testbed.link.messages import Decision
+from agents.intentional.reference import Logician
+from asp.language.loading import parse_description
+from testbed.protocol.messages import Decision
+from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import Place, Wish, live, place
 from tests.agents.intentional.test_kept import Both
 

@@ -7,8 +7,8 @@ import random
 import pytest
 
 from agents.intentional.controller import IntentionalRobot, Reasoner
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.incremental import KeptLogician
+from agents.intentional.reference import Logician
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from testbed.experiment.oracle import minimal_actions

@@ -10,19 +10,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.incremental import KeptLogician
 from agents.intentional.reasons import Reasons
+from agents.intentional.reference import Logician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import knowledge
-from agents.shared.tools import tools_of
-from asp.budget import Limits
-from asp.kept.plans import Plans
-from asp.kept.reach import Reach
-from asp.solving import ground, select, theory
-from testbed.environment.world import World
-from testbed.link.messages import Decision, Event, Percept, Task
+from agents.shared.sessions import tools_of
+from asp.reasoning.planning.incremental import Plans
+from asp.reasoning.planning.reachability import Reach
+from asp.solving.budget import Limits
+from asp.solving.solver import ground, select, theory
+from testbed.protocol.messages import Decision, Event, Percept, Task
+from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_reports import CART
 
@@ -234,14 +234,14 @@ def test_nor_where_some_fluents_are_defined() -> None:
 def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
     goal: tuple[str, ...], provable: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asp.kept.reach._MOST_STATES", 0)
+    monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     plans = Plans(CART.description.source, "cart.al")
     reach = Reach(CART.description, CART.program, plans)
     assert reach.out_of_reach(frozenset(["at(left)"]), goal) is provable
 
 
 def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("asp.kept.reach._MOST_STATES", 0)
+    monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     moved = knowledge("cart", CART.description.source.replace("if lit, -shut", "if at(left)"))
     reach = Reach(moved.description, moved.program, Plans(moved.description.source, "cart.al"))
     assert not reach.out_of_reach(frozenset(["at(left)", "safe"]), ("-safe",))

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from agents.intentional.controller import Reasoner
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.incremental import KeptLogician
+from agents.intentional.reference import Logician
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
-from asp.budget import Limits, TimeLimitError, deciding
+from asp.solving.budget import Limits, TimeLimitError, deciding
 
 SOURCE = (Path(__file__).parents[2] / "asp" / "cart.al").read_text(encoding="utf-8")
 CART = knowledge("cart", SOURCE)

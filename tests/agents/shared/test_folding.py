@@ -13,11 +13,11 @@ from agents.shared.believing import Believer
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.memory import PACE
-from asp.kept import frontier
-from asp.kept.folding import Pace
-from asp.kept.frontier import Frontier
-from asp.kept.pasts import Account, Assumed, Past
-from asp.kept.windows import Windows
+from asp.reasoning.diagnosis.encoding import Account, Assumed, Past
+from asp.reasoning.diagnosis.long_histories import frontier
+from asp.reasoning.diagnosis.long_histories.compression import Pace
+from asp.reasoning.diagnosis.long_histories.frontier import Frontier
+from asp.reasoning.diagnosis.long_histories.suffix_explanations import Windows
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.agents.shared.wandering import Habits, wander
 

@@ -10,14 +10,14 @@ from weakref import ref
 import pytest
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
-from agents.shared import tools
+from agents.shared import sessions as tools
 from agents.shared.knowledge import knowledge
-from agents.shared.tools import Tools, tools_of
-from asp.description import Description
-from asp.kept.control import KeptControl
-from asp.kept.recent import Recent
-from asp.loading import MOST_TEXTS, parse_description
-from testbed.link.messages import Task
+from agents.shared.sessions import Tools, tools_of
+from asp.language.description import Description
+from asp.language.loading import MOST_TEXTS, parse_description
+from asp.solving.cache import Recent
+from asp.solving.session import KeptControl
+from testbed.protocol.messages import Task
 from tests.agents.intentional.lives import OFFICE, live
 
 T = TypeVar("T")

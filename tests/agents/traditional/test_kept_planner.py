@@ -6,15 +6,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.kept import KeptLogician
-from agents.intentional.logician import Logician
+from agents.intentional.incremental import KeptLogician
+from agents.intentional.reference import Logician
 from agents.shared.diagnosis import Explained, InconsistentHistoryError
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.traditional import TraditionalRobot
-from agents.traditional.kept import KeptPlanner
-from agents.traditional.planner import Plan, Planner
-from testbed.link.messages import Event
+from agents.traditional.incremental import KeptPlanner
+from agents.traditional.reference import Plan, Planner
+from testbed.protocol.messages import Event
 from tests.agents.intentional import test_reports as cart
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,

@@ -12,12 +12,12 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.traditional import TraditionalRobot
-from agents.traditional.kept import KeptPlanner
-from agents.traditional.planner import Plan
-from asp.budget import OUT_OF_TIME, TimeLimitError
+from agents.traditional.incremental import KeptPlanner
+from agents.traditional.reference import Plan
+from asp.solving.budget import OUT_OF_TIME, TimeLimitError
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.registry import make_robot
+from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link.inprocess import InProcessRobot
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, live

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cache
 
-from asp.levels import LEVELS, LevelSize, level_text
+from asp.domains.levels import LEVELS, LevelSize, level_text
 from asp.refinement import Refinement, load
 from asp.refinement.zooming import Transition
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
 
 
 @cache

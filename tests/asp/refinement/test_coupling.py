@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from asp.literals import ground
+from asp.language.literals import ground
 from asp.refinement import Refinement, load_refinement
 from asp.refinement.zooming import Transition, relevant, zoom_weak
-from testbed.environment.sparse import SparseWorld
+from testbed.world.matched import SparseWorld
 from tests.asp.refinement.levels import coarse_world, level, transitions, transitions_from
 from tests.asp.refinement.paths import Paths, drawn_refinement, literals_of, some_refinement
 

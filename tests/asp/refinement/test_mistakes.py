@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from asp import SourceError
-from asp.loading import read_domain
+from asp.language.loading import read_domain
 from asp.refinement import load, load_refinement
 from asp.refinement.reading import read_refinement
 

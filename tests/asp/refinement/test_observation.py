@@ -8,10 +8,10 @@ from functools import cache
 import pytest
 
 from asp import parse_description
-from asp.levels import LevelSize, level_text
+from asp.domains.levels import LevelSize, level_text
 from asp.refinement import load
-from asp.translation import translate
-from testbed.environment.world import World
+from asp.translation.literal import translate
+from testbed.world.compiled.world import World
 from tests.asp.diagrams import after
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 
 from asp import parse_description
-from asp.levels import LevelSize, level_text
-from asp.loading import analyse
+from asp.domains.levels import LevelSize, level_text
+from asp.language.loading import analyse
 from asp.refinement import Refinement, load, load_refinement
 from asp.refinement.language import parse_fine
 from asp.refinement.refining import shared_places
-from asp.translation import translate_source
-from testbed.environment.world import World
+from asp.translation.literal import translate_source
+from testbed.world.compiled.world import World
 from tests.asp.diagrams import warnings_of
 from tests.asp.refinement.levels import level, of_size
 from tests.asp.refinement.locked import locked_texts

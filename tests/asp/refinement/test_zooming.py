@@ -8,10 +8,12 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp import syntax
-from asp.grounding import ground_description
-from asp.instances import Instances
-from asp.literals import arguments, atom, complement, ground, is_positive
+from asp.language import syntax
+from asp.language.grounding import ground_description
+from asp.language.instances import Instances
+from asp.language.literals import arguments, atom, complement, ground, is_positive
+from asp.language.restriction import restrict
+from asp.language.signature import Problems, Signature, signature_of
 from asp.refinement import Refinement, load_refinement
 from asp.refinement.zooming import (
     Transition,
@@ -22,10 +24,8 @@ from asp.refinement.zooming import (
     zoom_strong,
     zoom_weak,
 )
-from asp.restriction import restrict
-from asp.signature import Problems, Signature, signature_of
-from asp.translation import translate_source
-from testbed.environment.world import World
+from asp.translation.literal import translate_source
+from testbed.world.compiled.world import World
 from tests.asp.diagrams import warnings_of
 from tests.asp.refinement.levels import level, transitions
 

@@ -6,9 +6,9 @@ from hypothesis import assume, event, example, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError, parse_description
-from testbed.environment.errors import StateError
-from testbed.environment.sparse import SparseWorld
-from testbed.environment.world import World
+from testbed.world.compiled.world import World
+from testbed.world.errors import StateError
+from testbed.world.matched import SparseWorld
 from tests.environment.test_world_random import CLOSED_WORLD, TOGETHER, UNDETERMINED
 from tests.environment.test_world_random import HEADER as PROPOSITIONS
 from tests.environment.test_world_random import laws as propositional

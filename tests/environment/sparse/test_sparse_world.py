@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from asp import parse_description
-from asp.grounding import ground_description
-from asp.levels import level_text
-from asp.loading import read_domain
+from asp.domains.levels import level_text
+from asp.language.grounding import ground_description
+from asp.language.loading import read_domain
 from asp.refinement import load
-from testbed.environment.closure import UnknownFluentError
-from testbed.environment.errors import NotExecutableError, StateError, UnknownActionError
-from testbed.environment.sparse import SparseWorld
-from testbed.environment.world import World
+from testbed.world.closure import UnknownFluentError
+from testbed.world.compiled.world import World
+from testbed.world.errors import NotExecutableError, StateError, UnknownActionError
+from testbed.world.matched import SparseWorld
 from tests.environment.test_world import UNDETERMINED
 
 OFFICE = read_domain("office")[1]

@@ -1,8 +1,8 @@
 """Accuracy and ratios with intervals of a run of one's own."""
 
-from testbed.experiment.outline import MEASURES
+from testbed.analysis.outline import MEASURES
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.report import compared
+from testbed.report import compared
 from tests.experiment.samples import a_record
 
 

@@ -3,8 +3,8 @@
 import re
 from xml.etree import ElementTree
 
-from testbed.experiment.report.figures import Panel, Point, Series, curves, forest
-from testbed.experiment.report.svg import FIRST, PAPER, SECOND, VARIABLES
+from testbed.report.figures import Panel, Point, Series, curves, forest
+from testbed.report.svg import FIRST, PAPER, SECOND, VARIABLES
 
 OURS = Series("ours", FIRST, (Point("a", 2.0, 1.5, 2.5), Point("b", 0.5, 0.4, 0.6)))
 THEIRS = Series("theirs", PAPER, (Point("a", 1.0),), marker="D", published=True)

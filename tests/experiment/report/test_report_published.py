@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pytest
 
+from testbed.analysis.statistics import Estimate, Test
+from testbed.analysis.summary import summarise
 from testbed.config import load_config
-from testbed.experiment.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
-from testbed.experiment.levels.results import levels_of
-from testbed.experiment.report import level_panels, levels, table1
-from testbed.experiment.report.figures import Panel
 from testbed.experiment.runner import Tally, run_trials
-from testbed.experiment.statistics import Estimate, Test
-from testbed.experiment.summary import summarise
-from testbed.experiment.table1.analysis import Analysis, Ratio, Row, Table
-from testbed.experiment.table1.published import MEASURES, PUBLISHED
+from testbed.report import level_panels, levels, table1
+from testbed.report.figures import Panel
+from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
+from testbed.studies.levels.results import levels_of
+from testbed.studies.table1.analysis import Analysis, Ratio, Row, Table
+from testbed.studies.table1.published import MEASURES, PUBLISHED
 from tests.experiment.samples import a_level_record
 
 ALWAYS = Estimate(1.0, 0.98, 1.0)

@@ -1,8 +1,8 @@
 """Pairs made by hand, from which the numbers of a page can be worked out on paper."""
 
-from testbed.experiment.outline import TIMES
-from testbed.experiment.table1.pairing import Pair, Side
-from testbed.experiment.table1.published import MEASURES
+from testbed.analysis.outline import TIMES
+from testbed.studies.table1.pairing import Pair, Side
+from testbed.studies.table1.published import MEASURES
 
 
 def a_side(correct: bool = True, **values: object) -> Side:

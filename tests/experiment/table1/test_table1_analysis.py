@@ -5,14 +5,14 @@ from itertools import count
 
 import pytest
 
+from testbed.analysis.outline import DIVIDED
+from testbed.analysis.outline import MEASURES as COMPUTED
 from testbed.experiment.domains import load_world
-from testbed.experiment.outline import DIVIDED
-from testbed.experiment.outline import MEASURES as COMPUTED
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
-from testbed.experiment.table1 import table as text
-from testbed.experiment.table1.analysis import Analysis, Row, Table, analyse
-from testbed.experiment.table1.pairing import Meeting, Pair, Side, pairs_of, undone
-from testbed.experiment.table1.published import MEASURES, NO_FAILURES, PUBLISHED
+from testbed.studies.table1 import table as text
+from testbed.studies.table1.analysis import Analysis, Row, Table, analyse
+from testbed.studies.table1.pairing import Meeting, Pair, Side, pairs_of, undone
+from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from tests.experiment.samples import a_record
 
 WORLD = load_world("office")

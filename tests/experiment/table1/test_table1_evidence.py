@@ -2,14 +2,14 @@
 
 import pytest
 
-from testbed.experiment.statistics import Estimate
-from testbed.experiment.table1.analysis import Ratio, Row, Table
-from testbed.experiment.table1.evidence import (
+from papers.table1.evidence import (
     closeness,
     published_failures,
     published_weights,
 )
-from testbed.experiment.table1.published import ALL, MEASURES, PUBLISHED, SCENARIOS
+from testbed.analysis.statistics import Estimate
+from testbed.studies.table1.analysis import Ratio, Row, Table
+from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED, SCENARIOS
 
 
 def test_the_published_rows_weighted_so_give_the_row_of_all() -> None:

@@ -4,25 +4,25 @@ from pathlib import Path
 
 import pytest
 
-from testbed.config import load_config
-from testbed.experiment.digest import digest
-from testbed.experiment.domains import load_world
-from testbed.experiment.errors import StoreError
-from testbed.experiment.record import Activity, Attempt, TrialRecord, encode
-from testbed.experiment.store import read_records, write_config
-from testbed.experiment.table1.evidence import closeness
-from testbed.experiment.table1.page.document import Sources, document
-from testbed.experiment.table1.page.hypotheses import (
+from papers.table1.document import Sources, document
+from papers.table1.evidence import closeness
+from papers.table1.hypotheses import (
     Hypothesis,
     both,
     compared,
     hypotheses,
     weigh,
 )
-from testbed.experiment.table1.page.released import released
-from testbed.experiment.table1.pairing import Pair, Side
-from testbed.experiment.table1.published import MEASURES, PUBLISHED, SCENARIOS
-from testbed.experiment.table1.runs import read_run, told_name, told_order
+from papers.table1.released import released
+from testbed.config import load_config
+from testbed.experiment.digest import digest
+from testbed.experiment.domains import load_world
+from testbed.experiment.errors import StoreError
+from testbed.experiment.record import Activity, Attempt, TrialRecord, encode
+from testbed.experiment.store import read_records, write_config
+from testbed.studies.table1.pairing import Pair, Side
+from testbed.studies.table1.published import MEASURES, PUBLISHED, SCENARIOS
+from testbed.studies.table1.runs import read_run, told_name, told_order
 from tests.experiment.samples import a_record
 from tests.experiment.table1.made import a_pair, a_side
 

@@ -8,17 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from testbed.analysis.summary import summarise
 from testbed.config import load_config
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
-from testbed.experiment.report import write_report
-from testbed.experiment.report.table1 import analyses
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records, write_config
-from testbed.experiment.summary import summarise
-from testbed.experiment.table1.analysis import Analysis, Row, analyse
-from testbed.experiment.table1.pairing import pairs_of
-from testbed.experiment.table1.published import ALL, MEASURES, PUBLISHED
+from testbed.report import write_report
+from testbed.report.table1 import analyses
+from testbed.studies.table1.analysis import Analysis, Row, analyse
+from testbed.studies.table1.pairing import pairs_of
+from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED
 from tests.experiment.samples import a_record
 
 CONFIG = load_config("table1", ["limit=16", "repeats=2", "scenario_settings={}"])

@@ -1,10 +1,10 @@
 """How far both robots are from the optimum, from pairs made by hand."""
 
-from testbed.experiment.optimum import Optimum
-from testbed.experiment.outline import DIVIDED
-from testbed.experiment.table1.analysis import analyse
-from testbed.experiment.table1.optimum import section
-from testbed.experiment.table1.pairing import Pair, Side
+from testbed.analysis.optimum import Optimum
+from testbed.analysis.outline import DIVIDED
+from testbed.studies.table1.analysis import analyse
+from testbed.studies.table1.optimum import section
+from testbed.studies.table1.pairing import Pair, Side
 
 
 def _side(actions: float, units: float, achieved: bool = True) -> Side:

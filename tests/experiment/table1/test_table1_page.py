@@ -4,17 +4,17 @@ import dataclasses
 
 import pytest
 
+from papers.table1 import evidence
+from papers.table1.drawing import drawing, unclassified
+from papers.table1.failing import blindness, failures, meetings
+from papers.table1.others import later, unaided
+from papers.table1.rows import row_by_row
 from testbed.config import load_config
 from testbed.experiment.domains import load_world
-from testbed.experiment.table1 import evidence
-from testbed.experiment.table1.analysis import Analysis, analyse
-from testbed.experiment.table1.page.drawing import drawing, unclassified
-from testbed.experiment.table1.page.failing import blindness, failures, meetings
-from testbed.experiment.table1.page.others import later, unaided
-from testbed.experiment.table1.page.rows import row_by_row
-from testbed.experiment.table1.pairing import Pair
-from testbed.experiment.table1.published import PUBLISHED
-from testbed.experiment.table1.runs import Run
+from testbed.studies.table1.analysis import Analysis, analyse
+from testbed.studies.table1.pairing import Pair
+from testbed.studies.table1.published import PUBLISHED
+from testbed.studies.table1.runs import Run
 from tests.experiment.table1.made import a_pair, a_side
 
 WORLD = load_world("office")

@@ -9,7 +9,7 @@ from agents.adversary.scripted import Triggered
 from testbed.environment.core import NONE
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Attempt, Occurrence
-from testbed.experiment.table1.redrawing import Chances, as_stated, passed_on, weight
+from testbed.studies.table1.redrawing import Chances, as_stated, passed_on, weight
 from tests.experiment.samples import a_record
 
 WORLD = load_world("office")

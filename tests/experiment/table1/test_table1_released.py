@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pytest
 
+from papers.table1.document import Sources, document
+from papers.table1.hypotheses import weigh
+from papers.table1.weighing import Weighing
 from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records, write_config
-from testbed.experiment.table1.__main__ import main
-from testbed.experiment.table1.page.document import Sources, document
-from testbed.experiment.table1.page.hypotheses import weigh
-from testbed.experiment.table1.published import SCENARIOS
-from testbed.experiment.table1.runs import Run, read_run, released_weights
-from testbed.experiment.table1.weighing import Weighing
+from testbed.studies.table1.__main__ import main
+from testbed.studies.table1.published import SCENARIOS
+from testbed.studies.table1.runs import Run, read_run, released_weights
 
 HOLDING = "[loc(rob1,kitchen), 'in_hand(rob1,book1)', loc(book1,kitchen), loc(book2,office2)]"
 MIND = "intentional"

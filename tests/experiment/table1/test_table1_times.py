@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from testbed.experiment.outline import Outline
-from testbed.experiment.pairwise import Played, group
+from testbed.analysis.outline import Outline
+from testbed.analysis.pairwise import Played, group
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.table1 import times
-from testbed.experiment.table1.analysis import Analysis, Row, analyse
+from testbed.studies.table1 import times
+from testbed.studies.table1.analysis import Analysis, Row, analyse
 from tests.experiment.samples import a_record
 from tests.experiment.table1.made import a_pair, a_side
 

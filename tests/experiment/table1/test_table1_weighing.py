@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from testbed.experiment.table1.analysis import analyse
-from testbed.experiment.table1.published import MEASURES
-from testbed.experiment.table1.results import Row
-from testbed.experiment.table1.weighing import Weighing, weighing, weighted_mean
+from papers.table1.weighing import Weighing, weighing, weighted_mean
+from testbed.studies.table1.analysis import analyse
+from testbed.studies.table1.published import MEASURES
+from testbed.studies.table1.results import Row
 from tests.experiment.table1.made import a_pair, a_side
 
 PAIRS = [

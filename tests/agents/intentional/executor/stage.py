@@ -7,12 +7,12 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 
-from asp.literals import complement, name
+from asp.language.literals import complement, name
 from asp.refinement import Refinement
 from testbed.environment.fine import fine_world
-from testbed.environment.sparse.sensing import Sensing
-from testbed.link.messages import Decision, Event, FineTrace, Percept, Task
-from testbed.link.robot import Robot
+from testbed.protocol.messages import Decision, Event, FineTrace, Percept, Task
+from testbed.protocol.robot import Robot
+from testbed.world.matched.sensing import Sensing
 
 Nth = tuple[str, int]
 """An action or test, and the how-manieth time it is made, from 1."""

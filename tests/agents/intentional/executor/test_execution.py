@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.executor.mind import Mind
+from agents.intentional.executor.state import Mind
 from agents.intentional.refined import RefinedRobot
-from asp.budget import OUT_OF_TIME, TimeLimitError
-from asp.levels import level_text
-from asp.loading import read_domain
+from asp.domains.levels import level_text
+from asp.language.loading import read_domain
 from asp.refinement import Refinement, load
-from testbed.link.messages import Task
+from asp.solving.budget import OUT_OF_TIME, TimeLimitError
+from testbed.protocol.messages import Task
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
 
 GOAL = ["loc(object1,room2)", "-in_hand(rob1,object1)"]

@@ -8,14 +8,14 @@ from weakref import ref
 
 import pytest
 
-from agents.intentional.executor import means
-from agents.intentional.executor.means import Means, means_of
+from agents.intentional.executor import compiled as means
+from agents.intentional.executor.compiled import Means, means_of
 from agents.intentional.refined import RefinedRobot
-from asp.kept.horizon import Horizon
-from asp.kept.horizons import Horizons
-from asp.kept.recent import Recent
-from asp.levels import level_text
+from asp.domains.levels import level_text
+from asp.reasoning.fine_planning.horizon import Horizon
+from asp.reasoning.fine_planning.horizon_cache import Horizons
 from asp.refinement import Refinement, load
+from asp.solving.cache import Recent
 from tests.agents.intentional.executor.stage import TEXTS, play
 
 GOAL = ["loc(object1,room2)"]

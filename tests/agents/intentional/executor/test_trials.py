@@ -8,15 +8,15 @@ import pytest
 from agents.adversary.base import AdversaryView
 from agents.adversary.random import Random
 from agents.intentional.refined import EitherRobot
-from asp.levels import LEVELS, level_text
-from asp.literals import complement
-from asp.loading import read_domain
+from asp.domains.levels import LEVELS, level_text
+from asp.language.literals import complement
+from asp.language.loading import read_domain
 from asp.refinement import load
 from asp.refinement.reading import read_refinement
 from testbed.environment.fine import RandomStart, fine_core, fine_world
 from testbed.environment.rules import Observability, Rules
 from testbed.environment.situation import Ending
-from testbed.link.messages import FineTrace, Task
+from testbed.protocol.messages import FineTrace, Task
 
 STATISTICS = {"fine_move": 0.85, "test_fine_loc": 0.9}
 TOLD = {"fine_exo_move": Observability("always")}

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from agents.intentional.refined import RefinedRobot
-from asp.kept.compact import NotCompactError
-from asp.kept.refined import FinePlanner
-from asp.levels import level_text
-from asp.loading import read_domain
+from asp.domains.levels import level_text
+from asp.language.loading import read_domain
+from asp.reasoning.fine_planning.incremental import FinePlanner
 from asp.refinement import Refinement, load
+from asp.translation.compact import NotCompactError
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
 
 

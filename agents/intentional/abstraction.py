@@ -1,0 +1,188 @@
+"""A task without the constants that its goal does not need, in the first names of their classes.
+
+What is true of a constant that is independent of all others (`asp.reasoning.planning.relevance`)
+matters only where it stands in the way. Without those that the goal leaves alone and that never
+stand in the way, a robot decides as it does with them; tasks that differ in names alone become the
+same task, and share what is kept of it in a process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from functools import lru_cache
+
+from msgspec import structs
+
+from agents.intentional.renaming import renamed_decision, renamed_event
+from asp.language import syntax
+from asp.language.description import Description
+from asp.language.literals import arguments, atom, is_positive, renamed
+from asp.language.loading import analyse, parse_description
+from asp.language.restriction import restrict
+from asp.language.writer import text_of
+from asp.reasoning.planning.relevance import Independence
+from asp.solving.budget import deciding
+from asp.solving.clock import preparation
+from testbed.protocol.messages import Decision, Percept, Task
+from testbed.protocol.robot import Robot
+
+_SECTIONS: Mapping[type[syntax.Statement], str] = {
+    syntax.SortDefinition: "sorts",
+    syntax.CausalLaw: "laws",
+    syntax.StateConstraint: "laws",
+    syntax.ExecutabilityCondition: "laws",
+    syntax.Fact: "facts",
+    syntax.InitiallyStatement: "initially",
+    syntax.SeesStatement: "sees",
+    syntax.ShowsStatement: "shows",
+}
+_DECLARED = {"static": "statics", "inertial": "fluents", "defined": "fluents"}
+# They say nothing of the transition diagram, nor of what is seen of it.
+_SILENT = (syntax.CostStatement, syntax.TriggerStatement, syntax.QuietStatement)
+
+
+class Leaned:
+    """The task that is left of another, and the way between their names.
+
+    Where the domain has defaults, everything is kept.
+    """
+
+    def __init__(self, task: Task) -> None:
+        classes = _independence(task.source, task.domain).classes
+        kept = _needed(task)
+        self._there = _names(classes, kept)
+        left = frozenset(self._there.values())
+        members = frozenset(constant for each in classes for constant in each)
+        source = _without(task.source, task.domain, members - left)
+        self._gone = members - kept
+        self._back = {new: old for old, new in self._there.items()}
+        self.task = structs.replace(
+            task, source=source, goal=self.seen(task.goal), initial=self.seen(task.initial)
+        )
+
+    def seen(self, literals: Iterable[str]) -> list[str]:
+        """Literals or actions in the names of the task that is left; the others are left out."""
+        return [renamed(text, self._there) for text in literals if self.is_about(text)]
+
+    def back(self, literals: Iterable[str]) -> list[str]:
+        """Literals or actions of the task that is left, in their own names."""
+        return [renamed(literal, self._back) for literal in literals]
+
+    def constant(self, left: str) -> str:
+        """A constant of the task that is left, in its own name."""
+        return self._back.get(left, left)
+
+    def is_about(self, literal: str) -> bool:
+        """Whether a literal or action names nothing that is left out."""
+        return self._gone.isdisjoint(arguments(literal))
+
+    def percept(self, percept: Percept) -> Percept:
+        """What is told of a step, as far as it is about what is left."""
+        attempted = percept.attempted
+        return structs.replace(
+            percept,
+            visible=self.seen(percept.visible),
+            doubtful=self.seen(percept.doubtful),
+            attempted=None if attempted is None else renamed(attempted, self._there),
+            events=[
+                renamed_event(event, self._there)
+                for event in percept.events
+                if self.is_about(event.action)
+            ],
+        )
+
+    def decision(self, decision: Decision) -> Decision:
+        """A decision in the names of the whole task."""
+        if all(old == new for old, new in self._back.items()):
+            return decision
+        return renamed_decision(decision, self._back)
+
+
+class LeanRobot:
+    """Plays a task as another robot plays what is left of it (`Leaned`)."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+
+    def begin(self, task: Task) -> None:
+        """Takes on what is left of the task."""
+        with deciding():
+            self.leaned = Leaned(task)
+            self._robot.begin(self.leaned.task)
+
+    def act(self, percept: Percept) -> Decision:
+        """The other robot's decision. Raises InconsistentHistoryError."""
+        return self.leaned.decision(self._robot.act(self.leaned.percept(percept)))
+
+
+@lru_cache(maxsize=16)
+def _independence(source: str, domain: str) -> Independence:
+    file = f"{domain}.al"
+    with preparation():
+        return Independence(parse_description(source, file), *analyse(source, file))
+
+
+def _needed(task: Task) -> frozenset[str]:
+    """The members of classes that the task needs, and one of each class at least."""
+    independence = _independence(task.source, task.domain)
+    description = parse_description(task.source, f"{task.domain}.al")
+    members = frozenset(constant for each in independence.classes for constant in each)
+    if not _may_leave_out(task.source, task.domain):
+        return members
+    known = frozenset(map(atom, task.initial))
+    possible = {literal for literal in task.initial if is_positive(literal)}
+    possible.update(fluent for fluent in description.inertial if fluent not in known)
+    spare = independence.droppable(possible, task.goal)
+    spare -= {constant for literal in task.goal for constant in arguments(literal)}
+    firsts = (each[0] for each in independence.classes if spare.issuperset(each))
+    return (members - spare) | frozenset(firsts)
+
+
+@lru_cache(maxsize=16)
+def _may_leave_out(source: str, domain: str) -> bool:
+    """Whether anything of a domain may be left out."""
+    with preparation():
+        description = parse_description(source, f"{domain}.al")
+        candidates = _independence(source, domain).candidates
+        return not description.defaults and not _may_hinder(description, candidates)
+
+
+def _may_hinder(description: Description, candidates: Collection[str]) -> bool:
+    """Whether others can bring about that a candidate stands in the way of anything else."""
+    made = {law.head for law in description.causal if law.action in description.exogenous_actions}
+    size = 0
+    while len(made) > size:
+        size = len(made)
+        made.update(law.head for law in description.constraints if not made.isdisjoint(law.body))
+    own = frozenset(description.agent_actions)
+    return any(
+        constant in candidates and not any(constant in arguments(a) for a in law.actions)
+        for law in description.executability
+        if own.issuperset(law.actions)
+        for literal in law.body
+        if is_positive(literal) and literal in made
+        for constant in arguments(literal)
+    )
+
+
+def _names(classes: Iterable[tuple[str, ...]], kept: Collection[str]) -> dict[str, str]:
+    """New names of the kept members: the first ones of their class, in the same order."""
+    pairs = (zip([m for m in each if m in kept], each, strict=False) for each in classes)
+    return {old: new for each in pairs for old, new in each}
+
+
+@lru_cache(maxsize=64)
+def _without(text: str, domain: str, dropped: frozenset[str]) -> str:
+    """The AL_d text without some constants, and without what says nothing of the diagram."""
+    if not dropped:
+        return text
+    with preparation():
+        source = restrict(analyse(text, f"{domain}.al")[0], dropped)
+        spoken = (s for s in source.statements if not isinstance(s, _SILENT))
+        return "".join(f"{_section(s)}\n  {text_of(s)}\n" for s in spoken)
+
+
+def _section(statement: syntax.Statement) -> str:
+    if isinstance(statement, syntax.Declaration):
+        return _DECLARED.get(statement.kind, "actions")
+    return _SECTIONS[type(statement)]

@@ -1,0 +1,136 @@
+"""Tests in the middle of an abstract action: which are made, and when an outcome is believed."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Generator, Iterable
+from typing import TypeVar
+
+from agents.intentional.executor.state import Mind
+from asp.language.literals import arguments, atom, complement, is_positive
+from testbed.protocol.messages import Percept
+
+T = TypeVar("T")
+
+Asking = Generator[str, Percept, T]
+"""Yields tests and is sent the percepts after them."""
+
+
+class Looking:
+    """What is observed in the course of one abstract action.
+
+    `seen` are the literals newly known by tests, `heard` the constants that news is about, both
+    since they were last cleared; `looked_for` are the coarse constants that were tested for.
+    """
+
+    def __init__(
+        self, mind: Mind, before: Collection[str], after: Collection[str], things: Collection[str]
+    ) -> None:
+        """`before` and `after` are the states of the coarse transition; `things` is tested for."""
+        self._mind = mind
+        self._before, self._after = before, after
+        self._things = things
+        self._disturbed: set[str] = set()
+        self.looked_for: set[str] = set()
+        self.clear()
+
+    def clear(self) -> None:
+        """What is new from now on."""
+        self.seen: list[str] = []
+        self.heard: set[str] = set()
+
+    def look(self) -> Asking[None]:
+        """Tests what can be tested here of what is relevant, where it is not known.
+
+        What a test finds may be what another one needs.
+        """
+        mind, true = self._mind, self._mind.belief.known.true
+        robots = {c for f in true if mind.coarse.robot in arguments(f) for c in arguments(f)}
+        tested: set[str] = set()
+        while possible := self._open(tested):
+            for fluent in filter(mind.belief.is_open, possible):
+                things = set(arguments(fluent)) - robots
+                self.looked_for.update(mind.refinement.wholes[thing] for thing in things)
+                yield from self._test(fluent)
+            tested.update(possible)
+
+    def _open(self, tested: Collection[str]) -> list[str]:
+        """What can be tested here and is not known, apart from what has been tested."""
+        mind = self._mind
+        possible = mind.testable(self._things)
+        return [f for f in possible if f not in tested and mind.belief.is_open(f)]
+
+    def doubt(self, action: str) -> Asking[None]:
+        """Tests again what an action that failed took for granted, and what is not certain."""
+        mind = self._mind
+        about = {mind.refinement.wholes.get(part, part) for part in arguments(action)}
+        things = mind.looked_for(about)
+        with mind.tally.inferring():
+            doubtful = mind.belief.known.true - mind.certain().known.true
+        for fluent in [*mind.testable(things)]:
+            if fluent in doubtful and fluent in mind.belief.known.true:
+                yield from self._test(fluent)
+
+    def outcome(self, effect: str, percept: Percept) -> Asking[str]:
+        """The effect if it came about, as far as that can be observed; else its complement.
+
+        A test that shows nothing was not possible: the robot is not where it wanted to be.
+        """
+        if self._mind.tests.of(effect) is None:
+            return complement(effect) if complement(effect) in percept.visible else effect
+        holds = yield from self._read(effect)
+        return effect if holds == is_positive(effect) else complement(effect)
+
+    def commit(self, literals: Iterable[str]) -> None:
+        """Takes observations of the present moment for certain."""
+        mind = self._mind
+        with mind.tally.inferring():
+            seen = mind.believable(literals)
+        new = [literal for literal in seen if not self._is_known(literal)]
+        with mind.tally.inferring():
+            mind.belief.see(seen)
+        mind.tally.committed(new)
+        self.seen += new
+
+    def hear(self, percept: Percept) -> None:
+        with self._mind.tally.inferring():
+            touched = self._mind.hear(percept)
+        self.heard |= touched
+        self._disturbed |= touched
+
+    def _test(self, fluent: str) -> Asking[None]:
+        """Tests a fluent and takes the outcome for certain.
+
+        An outcome contrary to the coarse belief is tested once more. Absence is certain then if it
+        is found again; where the fluent was found true a third test decides.
+        """
+        holds = yield from self._read(fluent)
+        if holds is not None and self._expected(fluent) == (not holds):
+            holds = yield from self._read(fluent)
+            if holds:
+                holds = yield from self._read(fluent)
+        if holds is not None:
+            self.commit([fluent if holds else complement(fluent)])
+
+    def _expected(self, fluent: str) -> bool | None:
+        """Whether a fine fluent may be true by the coarse belief; None where that is changing."""
+        for coarse in self._mind.refinement.coarse_of(fluent):
+            if not self._disturbed.isdisjoint(arguments(coarse)):
+                return None
+            if (coarse in self._before) == (coarse in self._after):
+                return coarse in self._before
+        return None
+
+    def _read(self, fluent: str) -> Asking[bool | None]:
+        """The outcome of a test; None if it shows nothing."""
+        test = self._mind.tests.of(atom(fluent))
+        assert test is not None, "only what can be tested is tested"
+        self._mind.tally.test()
+        percept = yield test
+        self.hear(percept)
+        if atom(fluent) in percept.visible:
+            return True
+        return False if complement(atom(fluent)) in percept.visible else None
+
+    def _is_known(self, literal: str) -> bool:
+        known = self._mind.belief.known
+        return atom(literal) in (known.true if is_positive(literal) else known.false)

@@ -1,0 +1,91 @@
+"""What the laws say of a fluent as a whole: that it is a function of its other arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from asp.language import literals, syntax
+from asp.language.signature import Signature
+
+
+@dataclass(frozen=True)
+class Function:
+    """A fluent with at most one value in one of its places; `total`: with exactly one.
+
+    `f(X, V1)` and `f(X, V2)` exclude each other where the values V1, V2 at `place` differ.
+    """
+
+    place: int
+    total: bool
+
+
+def functions(source: syntax.Source, signature: Signature) -> dict[str, Function]:
+    """The inertial fluents that are functions, by name.
+
+    A fluent is one by a law `-f(X, V2) if f(X, V1), V1 != V2`. It is total if the description says
+    that initially it holds for some value, and nothing else makes it false.
+    """
+    found: dict[str, Function] = {}
+    for law in source.each(syntax.StateConstraint):
+        place = excluding_place(law)
+        if place is not None and signature.symbols[law.head.atom.name].kind == "inertial":
+            name = law.head.atom.name
+            found.setdefault(name, Function(place, _is_total(name, place, source)))
+    return found
+
+
+def subject(fluent: str, known: Mapping[str, Function]) -> tuple[str, ...] | None:
+    """The total function and its arguments that a fluent gives a value; None if it is of none."""
+    function = known.get(literals.name(fluent))
+    if function is None or not function.total:
+        return None
+    others = [a for place, a in enumerate(literals.arguments(fluent)) if place != function.place]
+    return (literals.name(fluent), *others)
+
+
+def excluding_place(law: syntax.Statement) -> int | None:
+    """The place of the values that a law `-f(X, V2) if f(X, V1), V1 != V2` keeps apart, or None."""
+    if not isinstance(law, syntax.StateConstraint) or law.head.positive or len(law.body) != 2:
+        return None
+    conditions = [part for part in law.body if isinstance(part, syntax.Literal)]
+    comparisons = [part for part in law.body if isinstance(part, syntax.Comparison)]
+    if len(conditions) != 1 or len(comparisons) != 1 or comparisons[0].equal:
+        return None
+    head, body = law.head.atom, conditions[0].atom
+    if head.name != body.name or not conditions[0].positive or not _all_variables(head, body):
+        return None
+    apart = [n for n, (a, b) in enumerate(_pairs(head, body)) if a != b]
+    sides = {comparisons[0].left.name, comparisons[0].right.name}
+    if len(apart) != 1 or {head.args[apart[0]].name, body.args[apart[0]].name} != sides:
+        return None
+    return apart[0]
+
+
+def _all_variables(*atoms: syntax.Atom) -> bool:
+    """Whether the atoms have different variables for arguments, each in one place of an atom."""
+    return all(
+        all(term.is_variable for term in atom.args)
+        and len({term.name for term in atom.args}) == len(atom.args)
+        for atom in atoms
+    )
+
+
+def _pairs(one: syntax.Atom, other: syntax.Atom) -> Iterable[tuple[str, str]]:
+    return ((a.name, b.name) for a, b in zip(one.args, other.args, strict=True))
+
+
+def _is_total(name: str, place: int, source: syntax.Source) -> bool:
+    given = any(
+        statement.fluent.name == name
+        and _all_variables(statement.fluent)
+        and statement.fluent.args[place].name == statement.variable.name
+        for statement in source.each(syntax.InitiallyStatement)
+    )
+    laws: list[syntax.CausalLaw | syntax.StateConstraint] = [*source.each(syntax.CausalLaw)]
+    laws += source.each(syntax.StateConstraint)
+    denied = any(
+        law.head.atom.name == name and not law.head.positive and excluding_place(law) != place
+        for law in laws
+    )
+    return given and not denied

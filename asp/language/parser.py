@@ -1,0 +1,189 @@
+"""From AL_d text to its abstract syntax."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from lark import Lark, Token, Transformer, v_args
+from lark.exceptions import UnexpectedInput
+from lark.tree import Meta
+
+from asp.language import syntax
+from asp.language.syntax_errors import check_section_words, syntax_error
+
+
+def parse(text: str, file: str = "<text>") -> syntax.Source:
+    """Parses an AL_d text. `file` is the name used in errors. Raises SourceError."""
+    try:
+        tree = _grammar().parse(text)
+    except UnexpectedInput as error:
+        raise syntax_error(error, text, file) from None
+    check_section_words(tree, text, file)
+    statements = _with_defaults(ToSyntax().transform(tree))
+    return syntax.Source(file, text, statements, comments_of(text))
+
+
+def _with_defaults(statements: tuple[syntax.Statement, ...]) -> tuple[syntax.Statement, ...]:
+    """The statements, each exception with the default that it is one of."""
+    defaults = {s.name: s for s in statements if isinstance(s, syntax.DefaultStatement)}
+    return tuple(
+        replace(s, of=defaults.get(s.name)) if isinstance(s, syntax.ExceptionStatement) else s
+        for s in statements
+    )
+
+
+@cache
+def _grammar() -> Lark:
+    grammar = files("asp").joinpath("language", "al.lark").read_text(encoding="utf-8")
+    return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
+
+
+def comments_of(text: str) -> tuple[syntax.Comment, ...]:
+    """The comments of a text, line by line."""
+    found = []
+    for number, line in enumerate(text.split("\n"), start=1):
+        match = re.search(r"%.*", line)
+        if match:
+            alone = not line[: match.start()].strip()
+            found.append(syntax.Comment(number, match.group().rstrip(), alone))
+    return tuple(found)
+
+
+def place_of(meta: Meta | Token) -> syntax.Place:
+    """Where a node of the parse tree begins."""
+    assert meta.line is not None
+    assert meta.column is not None
+    return syntax.Place(meta.line, meta.column)
+
+
+@v_args(meta=True)
+class ToSyntax(Transformer[Token, Any]):
+    """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules."""
+
+    def section(self, _: Meta, children: list[Any]) -> list[syntax.Statement]:
+        return children[1:]
+
+    sorts = statics = fluents = actions = laws = facts = costs = scenarios = section
+    sees_section = shows_section = initially_section = defaults = section
+
+    def start(self, _: Meta, sections: list[list[syntax.Statement]]) -> Any:
+        return tuple(statement for section in sections for statement in section)
+
+    def sort(self, meta: Meta, children: list[Any]) -> syntax.SortDefinition:
+        return syntax.SortDefinition(
+            place_of(meta), meta.end_line, str(children[0]), tuple(children[1:])
+        )
+
+    def members(self, _: Meta, constants: list[syntax.Term]) -> tuple[syntax.Term, ...]:
+        return tuple(constants)
+
+    def range(self, meta: Meta, bounds: list[Token]) -> tuple[syntax.Term, ...]:
+        low, high = (int(bound) if len(bound) < 10 else syntax.LARGEST for bound in bounds)
+        last = min(high, low + syntax.MOST_MEMBERS)  # one too many is told where sorts are checked
+        return tuple(syntax.Term(str(n), place_of(meta)) for n in range(low, last + 1))
+
+    def signature(self, meta: Meta, children: list[Any]) -> tuple[str, tuple[syntax.Term, ...]]:
+        return str(children[0]), tuple(c for c in children[1:] if c is not None)
+
+    def static(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
+        return syntax.Declaration(place_of(meta), meta.end_line, "static", *children[0])
+
+    def fluent(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
+        kind, (name, sorts) = children
+        return syntax.Declaration(place_of(meta), meta.end_line, kind.value, name, sorts)
+
+    action = fluent
+
+    def causal_law(self, meta: Meta, children: list[Any]) -> syntax.CausalLaw:
+        action, head, body = children
+        return syntax.CausalLaw(place_of(meta), meta.end_line, action, head, body or ())
+
+    def executability(self, meta: Meta, children: list[Any]) -> syntax.ExecutabilityCondition:
+        *actions, body = children
+        return syntax.ExecutabilityCondition(
+            place_of(meta), meta.end_line, tuple(actions), body or ()
+        )
+
+    def state_constraint(self, meta: Meta, children: list[Any]) -> syntax.StateConstraint:
+        head, body = children
+        return syntax.StateConstraint(place_of(meta), meta.end_line, head, body or ())
+
+    def fact(self, meta: Meta, children: list[Any]) -> syntax.Fact:
+        return syntax.Fact(place_of(meta), meta.end_line, children[0])
+
+    def sees(self, meta: Meta, children: list[Any]) -> syntax.SeesStatement:
+        robot, fluent, body = children
+        return syntax.SeesStatement(place_of(meta), meta.end_line, robot, fluent, body or ())
+
+    def shows(self, meta: Meta, children: list[Any]) -> syntax.ShowsStatement:
+        action, fluent, body = children
+        return syntax.ShowsStatement(place_of(meta), meta.end_line, action, fluent, body or ())
+
+    def cost(self, meta: Meta, children: list[Any]) -> syntax.CostStatement:
+        action, units = children
+        return syntax.CostStatement(place_of(meta), meta.end_line, action, int(units))
+
+    def initially(self, meta: Meta, children: list[Any]) -> syntax.InitiallyStatement:
+        return syntax.InitiallyStatement(place_of(meta), meta.end_line, *children)
+
+    def default(self, meta: Meta, children: list[Any]) -> syntax.DefaultStatement:
+        name, head, body = children
+        return syntax.DefaultStatement(place_of(meta), meta.end_line, str(name), head, body or ())
+
+    def exception(self, meta: Meta, children: list[Any]) -> syntax.ExceptionStatement:
+        name, body = children
+        return syntax.ExceptionStatement(place_of(meta), meta.end_line, str(name), body, None)
+
+    def trigger(self, meta: Meta, children: list[Any]) -> syntax.TriggerStatement:
+        scenario, event, upon, drawing, body, probability = children
+        drawn, pool = drawing or (None, ())
+        return syntax.TriggerStatement(
+            place_of(meta),
+            meta.end_line,
+            scenario=str(scenario),
+            event=event,
+            upon=None if isinstance(upon, Token) else upon,
+            drawn=drawn,
+            pool=pool,
+            body=body or (),
+            probability=1.0 if probability is None else probability,
+        )
+
+    def quiet(self, meta: Meta, children: list[Token]) -> syntax.QuietStatement:
+        return syntax.QuietStatement(place_of(meta), meta.end_line, str(children[0]))
+
+    def drawing(self, _: Meta, children: list[Any]) -> tuple[syntax.Term, syntax.Body]:
+        variable, body = children
+        return variable, body or ()
+
+    def probability(self, _: Meta, children: list[Token]) -> float:
+        return float(children[0])
+
+    def if_body(self, _: Meta, children: list[syntax.Body]) -> syntax.Body:
+        return children[0]
+
+    def body(self, _: Meta, conditions: list[syntax.Condition]) -> syntax.Body:
+        return tuple(conditions)
+
+    def comparison(self, meta: Meta, children: list[Any]) -> syntax.Comparison:
+        left, sign, right = children
+        return syntax.Comparison(left, right, sign.type == "EQUAL", place_of(meta))
+
+    def literal(self, _: Meta, children: list[Any]) -> syntax.Literal:
+        minus, atom = children
+        return syntax.Literal(atom, minus is None)
+
+    def atom(self, meta: Meta, children: list[Any]) -> syntax.Atom:
+        args = tuple(c for c in children[1:] if c is not None)
+        return syntax.Atom(str(children[0]), args, place_of(meta))
+
+    def constant(self, _: Meta, children: list[Token]) -> syntax.Term:
+        token = children[0]
+        name = str(int(token)) if token.type == "NUMBER" else str(token)
+        return syntax.Term(name, place_of(token))
+
+    variable = constant

@@ -1,0 +1,1 @@
+"""Plans, explanations and inferences, from descriptions and histories."""

@@ -1,0 +1,1 @@
+"""Smallest explanations of histories."""

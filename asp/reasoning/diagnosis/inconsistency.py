@@ -1,0 +1,77 @@
+"""Why a history is inconsistent: observations that cannot all hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from clingo import Symbol
+
+from asp.language.literals import atom, is_positive
+from asp.solving.solver import core, fact, ground, optimal_model, select, theory
+
+
+def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...] | None:
+    """A smallest set of a history's observations that no events explain; None: there is none.
+
+    `program` is a domain's translation; `facts` are the history up to `step`, the goal, and what an
+    initial state must have. None of the observations can be left out; late ones are preferred. An
+    element is `obs(LITERAL) at STEP`, or `hpd(ACTION) at STEP` for the result of an attempt, with
+    `-` before an action that did not take effect. Raises LimitError.
+    """
+    control = ground([program, theory("conflict")], {"n": step}, facts)
+    atoms = control.symbolic_atoms.by_signature("stated", 1)
+    statements = {atom.literal: atom.symbol.arguments[0] for atom in atoms}
+    in_order = sorted(statements, key=lambda literal: _place(statements[literal]))
+    found = core(control, [], in_order)
+    return None if found is None else tuple(_text(statements[literal]) for literal in found)
+
+
+def misreadings(program: str, facts: Iterable[Symbol], step: int) -> list[tuple[int, str]] | None:
+    """The fewest doubtful observations that have to be wrong, whatever events occurred.
+
+    `program` and `facts` are as for `conflict`, with doubtful(F,I) for observations that rest on
+    tests. They are given as steps and fluents; None where the rest is inconsistent all the same.
+    Raises LimitError.
+    """
+    texts = [program, theory("conflict"), theory("misreadings")]
+    model, _ = optimal_model(ground(texts, {"n": step}, facts))
+    found = None if model is None else select(model, "wrong", 2)
+    return None if found is None else sorted((time.number, str(fluent)) for fluent, time in found)
+
+
+def never_together(program: str, literals: Iterable[str]) -> tuple[str, ...] | None:
+    """A smallest part of some literals that no state has; None: there is a state that has them all.
+
+    `program` is a domain's translation. None of the literals named can be left out. Raises
+    LimitError.
+    """
+    wanted = {
+        fact("obs", atom(literal), "true" if is_positive(literal) else "false", 0): literal
+        for literal in literals
+    }
+    facts = [*wanted, fact("current_step", 0)]
+    control = ground([program, theory("conflict")], {"n": 0}, facts)
+    stated = {control.symbolic_atoms[fact("stated", obs)]: obs for obs in wanted}
+    numbers = {found.literal: wanted[obs] for found, obs in stated.items() if found is not None}
+    part = core(control, [], list(numbers))
+    return None if part is None else tuple(numbers[number] for number in part)
+
+
+def cannot_hold(observations: tuple[str, ...]) -> str:
+    """One sentence about a conflict."""
+    if not observations:
+        return "whatever is observed, the domain has no initial state"
+    if len(observations) == 1:
+        return f"{observations[0]} cannot hold"
+    together = "both" if len(observations) == 2 else "all"
+    return f"{', '.join(observations[:-1])} and {observations[-1]} cannot {together} hold"
+
+
+def _place(statement: Symbol) -> tuple[int, str]:
+    return statement.arguments[2].number, str(statement)
+
+
+def _text(statement: Symbol) -> str:
+    what, truth, step = statement.arguments
+    sign = "" if str(truth) == "true" else "-"
+    return f"{statement.name}({sign}{what}) at {step}"

@@ -1,0 +1,1 @@
+"""Explanations of long histories, of which the past is compressed."""

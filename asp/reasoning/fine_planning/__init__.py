@@ -1,0 +1,1 @@
+"""Shortest plans at the fine resolution."""

@@ -1,0 +1,1 @@
+"""Plans in large fine descriptions: reachability, landmarks, value pruning."""

@@ -1,0 +1,178 @@
+"""Plans at the fine resolution as the theory says: the literal translation, solved from scratch."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from itertools import product
+
+from clingo import Symbol
+
+from asp.language import literals, syntax
+from asp.language.functions import Function, functions, subject
+from asp.language.signature import Signature
+from asp.solving.solver import fact, first_model, ground, select, theory
+from asp.translation.literal import translate_source
+from asp.translation.rules import term_text
+
+FinePlan = tuple[str, ...]
+"""Concrete actions, in order."""
+
+_TEST, _OBSERVED = "test_", "observed_"
+
+
+class NotCandidatesError(ValueError):
+    """Fluents one of which is to hold, that are not values of one function that always has one."""
+
+
+class NoPlan(Enum):
+    """Why there is no plan: none of any length, or none of at most so many actions."""
+
+    OUT_OF_REACH = "out of reach"
+    BEYOND_LIMIT = "beyond the limit"
+
+
+@dataclass(frozen=True)
+class FineStart:
+    """What is taken for certain of the present state at the fine resolution, and what is not.
+
+    `true` are inertial fluents, `candidates` groups of them of each of which exactly one holds; all
+    other inertial fluents are false. A group without members is a contradiction.
+    """
+
+    true: frozenset[str]
+    candidates: tuple[tuple[str, ...], ...] = ()
+
+    def within(self, constants: frozenset[str]) -> FineStart:
+        """What it says of these constants only."""
+        true = (f for f in self.true if constants.issuperset(literals.arguments(f)))
+        groups = (_within(group, constants) for group in self.candidates)
+        return FineStart(frozenset(true), tuple(group for group in groups if group))
+
+
+class PlainProblem:
+    """A planning problem in the literal translation of the strong refinement.
+
+    Every concrete action is followed by a test of its outcome, and what is not certain is found by
+    a test before anything is done with it. In the weak refinement, which has no tests, plans have
+    none either.
+    """
+
+    def __init__(
+        self, source: syntax.Source, signature: Signature, start: FineStart, goal: Iterable[str]
+    ) -> None:
+        self._texts = (
+            translate_source(source, signature),
+            "\n".join([*_tests(signature), *_changes(source)]),
+            theory("fine_planning"),
+        )
+        actions = _concrete_actions(signature)
+        self._facts = [fact("ranks", len(actions))]
+        self._facts += (fact("rank", action, number) for number, action in enumerate(actions))
+        self._facts += _start(start)
+        if any(symbol.startswith(_TEST) for symbol in signature.symbols):
+            self._facts += _dealing(start, actions, functions(source, signature))
+        self._facts += (
+            fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
+            for literal in goal
+        )
+
+    def plan(self, length: int) -> FinePlan | None:
+        """The first plan of exactly so many actions and tests, or None. Raises LimitError."""
+        model = first_model(ground(self._texts, {"n": length}, self._facts))
+        if model is None:
+            return None
+        steps = sorted(select(model, "occurs", 2), key=lambda pair: pair[1])
+        return tuple(str(action) for action, _ in steps)
+
+
+def plain_plan(
+    source: syntax.Source,
+    signature: Signature,
+    start: FineStart,
+    goal: Sequence[str],
+    limit: int,
+) -> FinePlan | NoPlan:
+    """The first shortest plan of at most `limit` actions and tests. Raises LimitError."""
+    if not all(start.candidates):
+        return NoPlan.OUT_OF_REACH
+    problem = PlainProblem(source, signature, start, goal)
+    for length in range(limit + 1):
+        plan = problem.plan(length)
+        if plan is not None:
+            return plan
+    return NoPlan.BEYOND_LIMIT
+
+
+def _within(group: tuple[str, ...], constants: frozenset[str]) -> tuple[str, ...]:
+    first, last = literals.arguments(group[0]), literals.arguments(group[-1])
+    # What two candidates share, all do.
+    if not constants.issuperset(a for a, b in zip(first, last, strict=True) if a == b):
+        return ()
+    return tuple(f for f in group if constants.issuperset(literals.arguments(f)))
+
+
+def physical(plan: Iterable[str]) -> FinePlan:
+    """The plan without its tests."""
+    return tuple(action for action in plan if not literals.name(action).startswith(_TEST))
+
+
+def _tests(signature: Signature) -> Iterator[str]:
+    """tests_fluent(A,F,O): by the names that refinement gives to tests and to what they tell."""
+    for symbol in signature.symbols.values():
+        if not symbol.name.startswith(_TEST):
+            continue
+        tested = signature.symbols[symbol.name.removeprefix(_TEST)]
+        outcomes = signature.sorts[signature.symbols[_OBSERVED + tested.name].sorts[-1].name]
+        given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
+        # The robot that tests comes first; where the fluent is about this robot, only once.
+        about = given[len(given) - len(tested.sorts) :]
+        test, fluent = literals.ground(symbol.name, given), literals.ground(tested.name, about)
+        found = literals.ground(_OBSERVED + tested.name, [*given, outcomes[0]])
+        yield f"tests_fluent({test},{fluent},{found}) :- agent_action({test})."
+
+
+def _changes(source: syntax.Source) -> Iterator[str]:
+    for law in source.each(syntax.CausalLaw):
+        action, fluent = term_text(law.action), term_text(law.head.atom)
+        yield f"changes({action},{fluent}) :- agent_action({action}), inertial({fluent})."
+
+
+def _concrete_actions(signature: Signature) -> list[str]:
+    """The agent actions that are no tests, in the order of declaration."""
+    return [
+        literals.ground(symbol.name, members)
+        for symbol in signature.symbols.values()
+        if symbol.kind == "agent" and not symbol.name.startswith(_TEST)
+        for members in product(*(signature.sorts[sort.name] for sort in symbol.sorts))
+    ]
+
+
+def _start(start: FineStart) -> Iterator[Symbol]:
+    """What is certain, and the candidates."""
+    yield from (fact("certain", fluent) for fluent in sorted(start.true))
+    for number, group in enumerate(start.candidates):
+        yield from (fact("candidate", number, fluent) for fluent in group)
+
+
+def _dealing(
+    start: FineStart, actions: Iterable[str], known: Mapping[str, Function]
+) -> Iterator[Symbol]:
+    """deals_with(A,G): the actions that name what a group of candidates is about."""
+    about = [_about(group, known) for group in start.candidates]
+    for action in actions:
+        named = frozenset(literals.arguments(action))
+        yield from (fact("deals_with", action, n) for n, some in enumerate(about) if some <= named)
+
+
+def _about(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:
+    """The constants that a group of candidates is about.
+
+    Raises NotCandidatesError for a group that is not made of values of one total function.
+    """
+    found = {subject(fluent, known) for fluent in group}
+    first = next(iter(found))
+    if len(found) != 1 or first is None:
+        raise NotCandidatesError(f"not candidates for the place of one thing: {', '.join(group)}")
+    return frozenset(first[1:])

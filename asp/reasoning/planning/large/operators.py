@@ -1,0 +1,149 @@
+"""A description as planning operators over variables with a few values each (SAS+).
+
+Fluents that exclude each other become the values of one variable. Each agent action becomes one
+operator for each case that its laws and the state constraints distinguish, so that operators have
+a conjunction of values as precondition and assignments as effects, and nothing else. The states
+and transitions are those of the description.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from asp.language.description import Description
+from asp.language.literals import atom, complement, is_positive
+from asp.reasoning.planning.large.outcomes import Laws, NotEncodableError
+from asp.reasoning.planning.large.variables import Law
+
+NONE, FALSE, TRUE = "none", "false", "true"
+
+Values = tuple[tuple[int, int], ...]
+"""Variables, each with a value, both by number."""
+
+
+@dataclass(frozen=True)
+class Operator:
+    """An agent action in one of its cases; `after` are the values that it changes."""
+
+    action: str
+    before: Values
+    after: Values
+
+
+class Encoding:
+    """The variables of a description and its operators. Raises NotEncodableError.
+
+    `domains` are the values of each variable: fluents, of which this one is true, and NONE where
+    none of them may be; or TRUE and FALSE of a fluent of its own, told by `names`.
+    """
+
+    def __init__(self, description: Description) -> None:
+        if description.defined:
+            raise NotEncodableError("defined fluents are not encoded")
+        groups = list(_groups(description))
+        self.names = tuple(group[0] for group in groups)
+        self.domains = tuple(_domain(description, group) for group in groups)
+        self._entries = dict(self._all_entries(groups))
+        self._laws = Laws(
+            (
+                Law(self.assignment(law.head), tuple(map(self.assignment, law.body)))
+                for law in description.constraints
+                if not self._excludes(law.head, law.body)
+            ),
+            list(map(len, self.domains)),
+        )
+        self.operators = tuple(self._operators(description))
+
+    def values(self, true: Collection[str]) -> tuple[int, ...] | None:
+        """The state in which these fluents are true, a value of each variable; None: no state."""
+        state = [
+            values.index(FALSE) if FALSE in values else values.index(NONE) if NONE in values else -1
+            for values in self.domains
+        ]
+        for fluent in true:
+            variable, value = self._entries[fluent]
+            state[variable] = value
+        said = {self._fluent(*entry) for entry in enumerate(state)} - {None}
+        legal = -1 not in state and said == set(true) and self._laws.hold(state)
+        return tuple(state) if legal else None
+
+    def assignment(self, literal: str) -> tuple[int, int, bool]:
+        """The variable of a literal, the value it speaks of, and whether it claims or denies it."""
+        return (*self._entries[atom(literal)], is_positive(literal))
+
+    def _fluent(self, variable: int, value: int) -> str | None:
+        text = self.domains[variable][value] if value >= 0 else NONE
+        return self.names[variable] if text == TRUE else None if text in (NONE, FALSE) else text
+
+    def _all_entries(self, groups: Iterable[list[str]]) -> Iterator[tuple[str, tuple[int, int]]]:
+        for variable, group in enumerate(groups):
+            for fluent in group:
+                value = TRUE if TRUE in self.domains[variable] else fluent
+                yield fluent, (variable, self.domains[variable].index(value))
+
+    def _excludes(self, head: str, body: Collection[str]) -> bool:
+        """Whether a constraint says that two values of one variable exclude each other."""
+        if is_positive(head) or len(body) != 1:
+            return False
+        (condition,) = body
+        return (
+            is_positive(condition)
+            and condition != atom(head)
+            and self._entries[condition][0] == self._entries[atom(head)][0]
+        )
+
+    def _operators(self, description: Description) -> Iterator[Operator]:
+        effects: dict[str, list[Law]] = {}
+        for causal in description.causal:
+            law = Law(self.assignment(causal.head), tuple(map(self.assignment, causal.body)))
+            effects.setdefault(causal.action, []).append(law)
+        hindrances: dict[str, list[tuple[tuple[int, int, bool], ...]]] = {}
+        for condition in description.executability:
+            if len(set(condition.actions)) == 1:
+                body = tuple(map(self.assignment, condition.body))
+                hindrances.setdefault(condition.actions[0], []).append(body)
+        for action in description.agent_actions:
+            cases = self._laws.cases(effects.get(action, []), hindrances.get(action, []))
+            for before, after in cases:
+                if after is None:
+                    raise NotEncodableError(f"{action} may have several outcomes")
+                yield Operator(action, before, after)
+
+
+def _groups(description: Description) -> Iterator[list[str]]:
+    """The fluents in groups of which at most one is true, by constraints `-f if g` each way."""
+    excluded: dict[str, set[str]] = {fluent: set() for fluent in description.fluents}
+    for law in description.constraints:
+        if not is_positive(law.head) and len(law.body) == 1 and is_positive(law.body[0]):
+            excluded[atom(law.head)].add(law.body[0])
+    done: set[str] = set()
+    for fluent in description.fluents:
+        if fluent not in done:
+            group = _group(fluent, excluded, done)
+            done.update(group)
+            yield group
+
+
+def _group(fluent: str, excluded: Mapping[str, set[str]], done: set[str]) -> list[str]:
+    order = {other: number for number, other in enumerate(excluded)}
+    group = [fluent]
+    for other in sorted(excluded[fluent] - done - {fluent}, key=order.__getitem__):
+        if all(other in excluded[member] and member in excluded[other] for member in group):
+            group.append(other)
+    return group
+
+
+def _domain(description: Description, group: list[str]) -> tuple[str, ...]:
+    if len(group) == 1:
+        return (TRUE, FALSE)
+    return (*group,) if _always_one(description, group) else (*group, NONE)
+
+
+def _always_one(description: Description, group: list[str]) -> bool:
+    """Whether some fluent of the group is true at first, and none is ever made false alone."""
+    members = set(group)
+    heads = {law.head for law in description.causal}
+    heads |= {law.head for law in description.constraints if not members.issuperset(law.body)}
+    given = any(set(some) <= members for some in description.initially)
+    return given and heads.isdisjoint(map(complement, group))

@@ -1,0 +1,107 @@
+"""What an action leads to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import clingo
+from clingo import Symbol
+
+from asp.solving.session import KeptControl, State
+from asp.solving.solver import answer_sets, fact, solving
+
+MOST_ASSUMED = 6
+"""How many unobserved events and distrusted reports are assumed of one step at most."""
+
+_BRANCHING, _PAST, _FAILING = map(clingo.Function, ("branching", "past", "failing"))
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A transition, with the unobserved events and the distrusted statements that it assumes."""
+
+    state: State
+    took_effect: bool
+    events: tuple[str, ...]
+    distrusted: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        return len(self.events) + len(self.distrusted)
+
+
+class Transitions:
+    """The transition diagram of a domain, one transition at a time."""
+
+    def __init__(self, program: str, fluents: Sequence[str], ranks: Iterable[Symbol]) -> None:
+        self._kept = KeptControl(
+            program, "kept_transition", fluents, ranks, n=1, most=MOST_ASSUMED + 1
+        )
+
+    def after(
+        self, state: State, attempt: str | None, reported: tuple[str, ...]
+    ) -> tuple[State, bool] | None:
+        """The next state, and whether the attempt took effect; None where nothing fits.
+
+        `attempt` is the agent's action, or None; `reported` are exogenous actions that happened.
+        """
+        kept = self._kept
+        kept.switch_on(*_actions(attempt, reported))
+        assumptions = kept.assume_state(state, 0)
+        if assumptions is None:
+            return None
+        happened = None if attempt is None else kept.literal("occurs", attempt, 0)
+        with solving(kept.control, assumptions) as model:
+            if model is None:
+                return None
+            return kept.state(model, 1), happened is not None and model.is_true(happened)
+
+    def branches(
+        self,
+        state: State,
+        attempt: str | None,
+        reported: tuple[str, ...],
+        size: int,
+        most: int,
+        failing: bool = False,
+    ) -> list[Branch] | None:
+        """Every transition with at most `size` events that nobody reported and distrusted reports.
+
+        The attempt, where it is `failing`, may be distrusted, too: it was not executed. With `size`
+        -1 nothing may have happened at all: reports are distrusted, whatever their number. None
+        where there are more than `most`, or `size` is above MOST_ASSUMED.
+        """
+        kept = self._kept
+        if size > MOST_ASSUMED:
+            return None
+        switches = [_BRANCHING, *([_PAST] if size >= 0 else []), *([_FAILING] if failing else [])]
+        kept.switch_on(*switches, *_actions(attempt, reported))
+        assumptions = kept.assume_state(state, 0)
+        if assumptions is None:
+            return []
+        more = None if size < 0 else kept.literal("more", size + 1)
+        limited = assumptions if more is None else [*assumptions, -more]
+        found, left_off = answer_sets(kept.control, limited, most)
+        return None if left_off else [_branch(shown) for shown in found]
+
+
+def _actions(attempt: str | None, reported: tuple[str, ...]) -> list[Symbol]:
+    actions = [fact("reported", event) for event in reported]
+    return actions if attempt is None else [*actions, fact("attempted", attempt)]
+
+
+def _branch(shown: Iterable[Symbol]) -> Branch:
+    found: dict[str, list[str]] = {"next": [], "unobserved": [], "distrusted": []}
+    took_effect = False
+    for symbol in shown:
+        if symbol.name == "took_effect":
+            took_effect = True
+        else:
+            found[symbol.name].append(str(symbol.arguments[0]))
+    return Branch(
+        frozenset(found["next"]),
+        took_effect,
+        tuple(found["unobserved"]),
+        tuple(found["distrusted"]),
+    )

@@ -1,0 +1,52 @@
+"""What the facts and static laws of a description make true, found by clingo."""
+
+from __future__ import annotations
+
+from asp.language import syntax
+from asp.language import variable_sorts as roles
+from asp.language.signature import Signature
+from asp.solving.solver import first_model, ground
+from asp.translation.rules import rule, term_text
+
+
+def true_statics(source: syntax.Source, signature: Signature) -> frozenset[str]:
+    """The true statics of a checked description, as ASP text.
+
+    The same as the statics of its ground description, without making the instances in Python; the
+    statics must not depend on their own negation.
+    """
+    rules = [f"{sort}({';'.join(m)})." for sort, m in signature.sorts.items() if m]
+    rules += (
+        rule(term_text(fact.literal.atom), _ranges([fact.literal.atom], signature))
+        for fact in source.each(syntax.Fact)
+    )
+    for law in source.each(syntax.StateConstraint):
+        if signature.symbols[law.head.atom.name].kind == "static":
+            atoms = [use.atom for use in roles.uses(law)]
+            body = [_condition(part) for part in law.body]
+            rules.append(rule(term_text(law.head.atom), [*body, *_ranges(atoms, signature)]))
+    shown = [
+        f"#show {name}/{len(declaration.sorts)}."
+        for name, declaration in signature.symbols.items()
+        if declaration.kind == "static"
+    ]
+    model = first_model(ground(["\n".join([*rules, "#show.", *shown])], {}, []))
+    return frozenset(map(str, model or ()))
+
+
+def _ranges(atoms: list[syntax.Atom], signature: Signature) -> list[str]:
+    """The sorts of the variables, by all the places where they stand."""
+    found = (
+        f"{sort.name}({term.name})"
+        for atom in atoms
+        if atom.name in signature.symbols
+        for term, sort in zip(atom.args, signature.symbols[atom.name].sorts, strict=True)
+        if term.is_variable
+    )
+    return list(dict.fromkeys(found))
+
+
+def _condition(part: syntax.Condition) -> str:
+    if isinstance(part, syntax.Comparison):
+        return f"{part.left.name} {'=' if part.equal else '!='} {part.right.name}"
+    return ("" if part.positive else "not ") + term_text(part.atom)

@@ -1,0 +1,1 @@
+"""Descriptions as answer set programs: the literal translation, and the compact one."""

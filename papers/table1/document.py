@@ -1,0 +1,177 @@
+"""`docs/published-and-measured.md`: both tables beside the published one, and what explains it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from papers.table1.commands import Sources, commands, played
+from papers.table1.drawing import drawing
+from papers.table1.failing import blindness, failures, meetings
+from papers.table1.hypotheses import (
+    Hypothesis,
+    both,
+    compared,
+    hypotheses,
+    weigh,
+)
+from papers.table1.others import later, unaided
+from papers.table1.released import released
+from papers.table1.rows import row_by_row
+from testbed.experiment.coverage import coverage_of
+from testbed.experiment.digest import digest
+from testbed.experiment.domains import load_world
+from testbed.experiment.errors import StoreError
+from testbed.experiment.store import read_records
+from testbed.studies.table1 import optimum, times
+from testbed.studies.table1.analysis import RANDOM, Analysis, Table
+from testbed.studies.table1.pairing import Pair
+from testbed.studies.table1.runs import Run, released_weights, told_order
+from testbed.studies.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
+from testbed.text.markdown import markdown, paragraph
+
+__all__ = ["Sources", "document"]
+
+INTRODUCTION = """\
+# Published and measured
+
+Generated from stored trials by the commands below; [the protocol](table1.md) says what is counted
+and how. Nothing in the robots or in the triggers was chosen to come near the published figures.
+
+```console
+{commands}
+```
+
+Whoever runs them gets the same results. Planning times depend on the machine, and on what else it
+does. The digests of the results, which are also said at the end of each run, are
+
+{digests}
+{incomplete}
+In each table: our mean with its 95% interval, our median, and the published value, with `*` where
+it does not lie in the interval of our mean. TP is `traditional`, ATI `intentional`; ratios are
+TP / ATI. Times are process time; *planning time* is without diagnosis, [which is told
+beside it](#planning-diagnosis-and-both).
+"""
+
+TESTS = """\
+## Tests
+
+Effect sizes (of measures rank-biserial, above 0 where TP needed more; of the accuracy the
+difference of the proportions, above 0 where ATI was right more often), with p-values after Holm's
+correction over the table. What comes from one initial state counts once. There is none where no
+pair differs.
+
+"""
+
+
+def document(sources: Sources) -> str:
+    """The page as Markdown: the tables, then a section a question, the tests last."""
+    mind = sources.main.minds[0]
+    analysis, pairs = sources.main.analyses[mind], sources.main.pairs[mind]
+    parts = [
+        INTRODUCTION.format(
+            commands=commands(sources),
+            digests=_digests(sources),
+            incomplete=_incomplete(sources),
+        ),
+        *_tables(analysis),
+        times.section(analysis),
+        drawing(analysis),
+        blindness(pairs),
+        row_by_row(pairs, load_world(sources.main.config.domain)),
+        *_hypotheses(sources, mind),
+        *([] if sources.later is None else [later(sources.later, pairs)]),
+        optimum.section(analysis),
+        failures(sources.main, mind),
+        meetings(pairs),
+        *([] if sources.unaided is None else [unaided(sources.unaided)]),
+        _tests(analysis),
+    ]
+    return "\n".join(parts)
+
+
+def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
+    """What random pairs would come to otherwise, where there are any."""
+    main = sources.main
+    if main.analyses[mind].random is None:
+        return
+    weights = released_weights(main, mind)
+    if weights:
+        yield _released(main.pairs[mind], weights)
+    found = hypotheses(main.pairs[mind], main.config.goal, weights)
+    if sources.later is not None:
+        own = weigh(sources.later.pairs[mind], lambda _: 1.0)
+        found.append(Hypothesis(f"rate {sources.later.config.adversary.rate}", own))
+    for run in sources.variants:
+        found += both(run.config.name, run.pairs[mind], released_weights(run, mind))
+    for run in sources.told:
+        name = ", ".join(("told", *told_order(run)))
+        found += both(name, _of(main, run, mind), weights)
+    yield compared(found, bool(sources.variants), bool(sources.told))
+
+
+def _released(pairs: Iterable[Pair], weights: Mapping[str, float]) -> str:
+    drawn = [pair for pair in pairs if pair.intended == RANDOM]
+    otherwise = sum(pair.meeting not in ("nothing", "same") for pair in drawn)
+    return released(weigh(drawn, lambda pair: weights[pair.mind.trial]), otherwise)
+
+
+def _of(main: Run, run: Run, mind: str) -> list[Pair]:
+    """The pairs of a run whose other robot met the same as in the main run."""
+    known = {pair.mind.trial for pair in main.pairs[mind] if pair.intended == RANDOM}
+    if any(pair.mind.trial not in known for pair in run.pairs[mind]):
+        raise StoreError(f"{run.folder}: its pairs are not those of {main.folder}")
+    return run.pairs[mind]
+
+
+def _digests(sources: Sources) -> str:
+    rows = [
+        (f"`runs/{run.config.name}`", f"`{digest(read_records(run.folder))}`")
+        for run in (*played(sources), *sources.told)
+    ]
+    return markdown(("run", "digest"), rows)
+
+
+def _incomplete(sources: Sources) -> str:
+    """A paragraph for each run that is not complete."""
+    runs = (*played(sources), *sources.told)
+    notices = ((run, coverage_of(read_records(run.folder), run.config).notice()) for run in runs)
+    return "".join(
+        "\n" + paragraph(f"**Incomplete:** of `runs/{run.config.name}` {notice}.") + "\n"
+        for run, notice in notices
+        if notice is not None
+    )
+
+
+def _tables(analysis: Analysis) -> Iterator[str]:
+    if analysis.triggered is not None:
+        yield "## Triggered scenarios\n"
+        yield markdown(COLUMNS, rows_of(analysis.triggered)) + "\n"
+        yield _apart(analysis.triggered)
+    if analysis.random is not None:
+        yield "## Random exogenous actions, classified afterwards\n"
+        yield markdown(COLUMNS, rows_of(analysis.random)) + "\n"
+        yield _apart(analysis.random)
+
+
+def _tests(analysis: Analysis) -> str:
+    """Effect sizes and corrected p-values of both tables."""
+    columns = ("scenario", *HEADINGS, "accuracy")
+    parts = [
+        f"**{name}**\n\n{markdown(columns, tests_of(table))}\n"
+        for name, table in (("Triggered", analysis.triggered), ("Random", analysis.random))
+        if table is not None
+    ]
+    return TESTS + "\n".join(parts)
+
+
+def _apart(table: Table) -> str:
+    apart = [f"{count} pairs: {name}" for name, count in table.apart.items()]
+    everything = [row for row in table.rows if row.name.isdigit()]
+    counts = (
+        ("trials in error or without a robot", sum(row.lost for row in everything)),
+        ("decisions cut off by the clock", sum(row.late for row in everything)),
+        ("goal out of reach from the start", sum(row.unsolvable for row in everything)),
+        ("goal out of reach at the end", sum(row.out_of_reach for row in everything)),
+    )
+    counted = [f"{name}: {count}" for name, count in counts]
+    return f"Counted apart: {'; '.join([*apart, *counted])}.\n"

@@ -1,0 +1,1 @@
+"""Statistics of the trials of a run."""

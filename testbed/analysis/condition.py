@@ -1,0 +1,131 @@
+"""The condition that trials are played under: in words, and what a published one has otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from asp.language.loading import read_domain
+from testbed.config import ExperimentConfig, load_config
+from testbed.config.models import RANDOM_RATE, Observability, ScenarioSettings
+from testbed.experiment.wording import in_words, listed
+
+NO_RESULT = {"answer_s"}
+"""Limits on which no logical result depends."""
+UNSEEN = Observability()
+
+
+def condition(config: ExperimentConfig) -> str:
+    """One line: observability, feedback, adversary, knowledge, limits and statistics."""
+    parts = [
+        _observability(config),
+        _of_scenarios(config, _feedback),
+        _of_scenarios(config, lambda own: _adversary(config, own)),
+        f"{config.knowledge} knowledge of the initial state",
+        "limits: " + ", ".join(_limit(key, value) for key, value in _limits(config).items()),
+        ", ".join(f"{name} comes out with {p}" for name, p in config.statistics.items()),
+    ]
+    return "; ".join(part for part in parts if part)
+
+
+def deviations(config: ExperimentConfig, study: str) -> tuple[str, ...]:
+    """In what a configuration is not that of a published study, which has the name of a package's.
+
+    How many trials are played, of which of its scenarios or levels, by which further robots and
+    with which seed makes no difference.
+    """
+    own, published = _rules(config), _rules(load_config(study))
+    return tuple(name for name, value in own.items() if value != published[name])
+
+
+def left_out(config: ExperimentConfig) -> str | None:
+    """Why the figures of the published experiment do not stand beside a run's; None if they do."""
+    if config.protocol is None:
+        return None
+    names = deviations(config, config.protocol)
+    if not names:
+        return None
+    return f"published figures are left out: {listed(names)} not as in the published experiment"
+
+
+def _rules(config: ExperimentConfig) -> Mapping[str, object]:
+    played = [config.settings(name) for name in config.scenarios] or [config.settings("")]
+    reference = load_config(config.protocol).robots if config.protocol else ()
+    return {
+        "domain": (read_domain(config.domain)[1], config.refinement),
+        "goal": {frozenset(own.goal or ()) for own in played},
+        "initial state": {own.initial for own in played},
+        "robots": not set(reference) - set(config.robots),
+        "observability": {n: o for n, o in config.observability.items() if o != UNSEEN},
+        "goal feedback": {own.goal_feedback for own in played},
+        "knowledge": config.knowledge,
+        "adversary": ({_script(own) for own in played}, _events(config)),
+        "limits": _limits(config),
+        "statistics": config.statistics,
+        "draw": config.draw if config.is_fine else None,
+    }
+
+
+def _script(own: ScenarioSettings) -> object:
+    return own.script, own.exogenous_while_thinking
+
+
+def _events(config: ExperimentConfig) -> object:
+    own = config.adversary
+    return own.strategy or ("random" if config.is_fine else "triggers"), own.rate, own.pace
+
+
+def _limits(config: ExperimentConfig) -> dict[str, object]:
+    limits = config.limits.model_dump(exclude=NO_RESULT)
+    return {key: value for key, value in limits.items() if value is not None}
+
+
+def _limit(key: str, value: object) -> str:
+    """`steps 100`; a time with its unit: `decision_s` is `decision 30.0 s`."""
+    seconds = key.removesuffix("_s")
+    return f"{in_words(key)} {value}" if seconds == key else f"{in_words(seconds)} {value} s"
+
+
+def _observability(config: ExperimentConfig) -> str:
+    told = {name: own for name, own in config.observability.items() if own != UNSEEN}
+    if not told:
+        return "told of no exogenous action"
+    return "told of " + ", ".join(f"{name} ({_news(own)})" for name, own in told.items())
+
+
+def _news(own: Observability) -> str:
+    given = own.model_dump(exclude_defaults=True)
+    return ", ".join([own.mode, *(f"{in_words(k)} {v}" for k, v in given.items() if k != "mode")])
+
+
+def _feedback(own: ScenarioSettings) -> str:
+    return "goal feedback" if own.goal_feedback else "no goal feedback"
+
+
+def _adversary(config: ExperimentConfig, own: ScenarioSettings) -> str:
+    thinking = ", also while the robot thinks" if own.exogenous_while_thinking else ""
+    return f"{_strategy(config, own)}{thinking}"
+
+
+def _strategy(config: ExperimentConfig, own: ScenarioSettings) -> str:
+    rate = config.adversary.rate
+    if own.script is not None:
+        return "exogenous actions by script" if own.script else "no exogenous actions"
+    if config.is_fine:
+        return _random(rate or 0.0)
+    if config.has_random_events:
+        return _random(RANDOM_RATE if rate is None else rate)
+    return "exogenous actions by triggers" + ("" if rate is None else f" at rate {rate}")
+
+
+def _random(rate: float) -> str:
+    return f"random exogenous actions at rate {rate}" if rate else "no exogenous actions"
+
+
+def _of_scenarios(config: ExperimentConfig, said: Callable[[ScenarioSettings], str]) -> str:
+    """What is said of the scenarios, once where it is the same of all of them."""
+    where: dict[str, list[str]] = {}
+    for name in config.scenarios or ("",):
+        where.setdefault(said(config.settings(name)), []).append(name)
+    if len(where) == 1:
+        return next(iter(where))
+    return "; ".join(f"{words} in {listed(names)}" for words, names in where.items())

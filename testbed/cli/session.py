@@ -1,0 +1,185 @@
+"""A session of the command line over a run folder: run or go on, then tables and report."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+from textwrap import wrap
+from typing import TYPE_CHECKING
+
+from testbed.config import ExperimentConfig
+from testbed.experiment.conformity import check_planned
+from testbed.experiment.coverage import coverage_of
+from testbed.experiment.errors import WorkerError
+from testbed.experiment.interrupts import INTERRUPTED, stoppable
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.progress import progress
+from testbed.experiment.provenance import Provenance, session_arguments
+from testbed.experiment.runner import Tally, go_on
+from testbed.experiment.store import (
+    CONFIG,
+    REPORT,
+    check_unchanged,
+    choose_folder,
+    holds_run,
+    locked,
+    read_records,
+    refuse_second_run,
+    write_config,
+)
+from testbed.experiment.wording import counted
+from testbed.report import Tables, write_report
+from testbed.report.tables import grid
+from testbed.studies.levels.table import level_grid
+from testbed.text.grid import Grid
+from testbed.text.terminal import Printer, Say, columns
+
+if TYPE_CHECKING:
+    from testbed.studies.table1.analysis import Analysis
+
+DONE, FAILED, BAD_INPUT = 0, 1, 2
+
+
+def run_session(
+    config: ExperimentConfig,
+    out: Path | None,
+    workers: int | None,
+    resume: bool,
+    quiet: bool,
+    retry_failed: bool = False,
+) -> int:
+    """Run a configuration and report; the exit code.
+
+    Raises:
+        StoreError: before anything is run.
+        WorkerError: where no trial can be played; what is on record stays.
+    """
+    folder = choose_folder(out, config.name, resume)
+    say = Printer(quiet)
+    if resume and not holds_run(folder):
+        say(f"nothing to resume: a new run in {folder}")
+    with locked(folder), stoppable(_to_go_on(folder), quiet):
+        _prepare(folder, config, resume)
+        provenance = Provenance(folder, config, session_arguments())
+        try:
+            tally = _played(config, folder, workers, quiet, retry_failed)
+        except WorkerError:
+            provenance.close(BAD_INPUT, workers=0)
+            raise
+        code = _exit_code(tally)
+        provenance.close(code, tally.workers)
+        try:
+            _conclude(folder, config, tally, say)
+        except KeyboardInterrupt:  # the trials are on record, the report is not made
+            say(f"interrupted; for the report: testbed report {_quoted(folder)}")
+            return INTERRUPTED
+    return code
+
+
+def report_again(folder: Path, config: ExperimentConfig) -> None:
+    """Table, summary and report of a run, made again. Raises StoreError."""
+    say = Printer()
+    if not config.is_fine:  # to draw levels again takes long
+        check_planned(folder, plan_trials(config))
+    _show(say, write_report(folder, config))
+    say(f"report: {folder / REPORT}")
+
+
+def _prepare(folder: Path, config: ExperimentConfig, resume: bool) -> None:
+    refuse_second_run(folder, resume)  # another may have begun, and ended, since it was chosen
+    if holds_run(folder):
+        check_unchanged(folder, config)
+    else:
+        write_config(folder, config)
+
+
+def _played(
+    config: ExperimentConfig, folder: Path, workers: int | None, quiet: bool, retry_failed: bool
+) -> Tally:
+    try:
+        with progress(quiet) as notify:
+            return go_on(config, folder, workers, notify, retry_failed)
+    except KeyboardInterrupt:  # while the trials were planned: none was played
+        covered = coverage_of(read_records(folder), config)
+        planned = sum(covered.planned.values())
+        done = planned - sum(covered.missing.values())
+        return Tally(planned, done, failed=0, workers=0, interrupted=True)
+
+
+def _exit_code(tally: Tally) -> int:
+    if tally.interrupted:
+        return INTERRUPTED
+    return FAILED if tally.failed else DONE
+
+
+def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, say: Say) -> None:
+    tables = write_report(folder, config)
+    if tables.rows:
+        _show(say, tables)
+    if tally.interrupted:
+        kept = f"{tally.done} of {counted(tally.planned, 'trial')}"
+        say(f"interrupted: {kept} kept in {folder}")
+        say(_to_go_on(folder))
+        if not tables.rows:
+            return
+    if tally.failed:
+        failed = counted(tally.failed, "trial")
+        say(f"{failed} ended in error or without a robot; see the report")
+    say(f"report: {folder / REPORT}")
+
+
+def _show(say: Say, tables: Tables) -> None:
+    if tables.rows:
+        _show_tables(say, tables)
+    if tables.notice is not None:
+        say(f"incomplete: {tables.notice}")
+    if tables.rows:
+        say(f"digest of {_digested(tables)}: {tables.digest}")
+
+
+def _digested(tables: Tables) -> str:
+    """Of how many trials the digest is: of those that the clock had no part in."""
+    played = sum(row.trials + row.lost for row in tables.rows)
+    results = counted(played - tables.late, "trial")
+    return f"{results}, without {tables.late} with a deadline" if tables.late else results
+
+
+def _show_tables(say: Say, tables: Tables) -> None:
+    _show_grid(say, grid(tables.rows))
+    for levels in tables.levels:
+        say("")
+        _show_grid(say, level_grid(levels))
+    for analysis in tables.table1:
+        _show_table1(say, analysis)
+    for row in tables.rows:
+        for note in row.notes():
+            say(note)
+    if tables.left_out is not None:
+        say(tables.left_out)
+    for line in wrap(f"condition: {tables.condition}", columns(), subsequent_indent="    "):
+        say(line)
+
+
+def _show_table1(say: Say, analysis: Analysis) -> None:
+    from testbed.studies.table1.table import table1_grid  # slow, and rare
+
+    whom = f"Table 1, {analysis.mind} against {analysis.base}"
+    both = (("triggered", analysis.triggered), ("random events, classified", analysis.random))
+    for kind, table in both:
+        if table is not None:
+            say("")
+            _show_grid(say, table1_grid(table, f"{whom}: {kind}"))
+
+
+def _show_grid(say: Say, shown: Grid) -> None:
+    for line in shown.lines(columns()):
+        say(line)
+
+
+def _to_go_on(folder: Path) -> str:
+    where = _quoted(folder)
+    return f"to go on: testbed run {_quoted(folder / CONFIG)} --out {where} --resume"
+
+
+def _quoted(path: Path) -> str:
+    return shlex.quote(str(path))

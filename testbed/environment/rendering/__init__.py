@@ -1,0 +1,1 @@
+"""A game as a picture, as text, and in a notebook."""

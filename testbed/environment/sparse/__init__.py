@@ -1,5 +1,0 @@
-"""A world whose laws are matched against what is true, and never instantiated as a whole."""
-
-from testbed.environment.sparse.world import SparseWorld
-
-__all__ = ["SparseWorld"]

@@ -1,0 +1,1 @@
+"""The published studies: how they are loaded, measured and compared."""

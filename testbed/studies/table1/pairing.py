@@ -1,0 +1,173 @@
+"""Pairs of trials: what is kept of each, and whether both robots met the same event."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from testbed.analysis.counting import (
+    NOTHING_TO_DO,
+    Apart,
+    Standing,
+    is_solvable,
+    why_apart,
+)
+from testbed.analysis.outline import DIVIDED, Outline, state_of
+from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
+from testbed.studies.table1.classify import classify, state_at
+from testbed.world.compiled.world import World
+
+Meeting = Literal["nothing", "same", "same later", "other", "other at once"]
+MEETINGS: Mapping[Meeting, str] = {
+    "nothing": "nothing exogenous happened to either",
+    "same": "same event beside the same action, after the same actions",
+    "same later": "same event beside the same action; before it the robots had acted differently",
+    "other": "not the same event and action: before it the robots had acted differently",
+    "other at once": "not the same event and action, although the robots had acted alike",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """What is kept of one robot's trial in a pair.
+
+    `decided`: whether it is known if it was correct.
+    `before` are its actions up to the one that `event` goes with, or all where there is no event;
+    `undone`: whether the event took away a part of the goal that would have been true; `ended`:
+    whether the trial came to its end without an error.
+    """
+
+    trial: str
+    lost: bool
+    achieved: bool
+    correct: bool
+    out_of_reach: bool
+    outcome: str
+    event: str | None
+    undone: bool
+    before: tuple[str, ...]
+    measures: Mapping[str, float]
+    late: bool = False
+    decided: bool = True
+    ended: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Both robots' trials; `happened` is the scenario read off the intentional robot's trial.
+
+    `state` names the initial state. `minimal` has the least that achieves the goal from there, by
+    the names of measures; nothing where it was not computed.
+    """
+
+    intended: str
+    happened: str
+    solvable: bool
+    mind: Side
+    base: Side
+    state: str
+    minimal: Mapping[str, int]
+
+    @property
+    def played(self) -> bool:
+        """Whether both trials say something of their robots, and some plan achieves the goal."""
+        return self.solvable and not self.lost and not self.late
+
+    @property
+    def decided(self) -> bool:
+        """Whether it is known of both trials if they were correct."""
+        return self.mind.decided and self.base.decided
+
+    @property
+    def ended(self) -> bool:
+        """Whether no robot's own error ended its trial: the measures are of whole trials."""
+        return self.mind.ended and self.base.ended
+
+    @property
+    def lost(self) -> bool:
+        """Whether something other than its robot ended one of the trials."""
+        return self.mind.lost or self.base.lost
+
+    @property
+    def late(self) -> bool:
+        """Whether a decision in one of the trials was cut off by the clock."""
+        return self.mind.late or self.base.late
+
+    def apart(self, sure: Collection[str]) -> Apart | None:
+        """Why the pair is not counted under the scenario that was played; `sure` as `why_apart`."""
+        ended = self.mind.ended
+        idle, quiet = ended and self.happened == NOTHING_TO_DO, ended and self.mind.event is None
+        mind, base = (
+            Standing(side.lost, side.late, self.solvable, idle, quiet)
+            for side in (self.mind, self.base)
+        )
+        return why_apart(self.intended, (mind, base), (mind,), sure)
+
+    @property
+    def meeting(self) -> Meeting:
+        """Whether the robots met the same event."""
+        mind, base = self.mind, self.base
+        if mind.event is None and base.event is None:
+            return "nothing"
+        if mind.event == base.event and mind.before[-1:] == base.before[-1:]:
+            return "same" if mind.before == base.before else "same later"
+        common = min(len(side.before) for side in (mind, base) if side.event is not None)
+        alike = mind.before[:common] == base.before[:common]
+        return "other at once" if alike else "other"
+
+
+def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str) -> Iterator[Pair]:
+    """The pairs of two robots, as they become complete; others' records are passed over."""
+    waiting: dict[str, tuple[str, str, Side]] = {}
+    for record in records:
+        if record.robot not in (mind, base):
+            continue
+        side = _side(record, world)
+        happened = classify(record, world) if record.robot == mind else ""
+        if record.pair not in waiting:
+            waiting[record.pair] = (record.robot, happened, side)
+            continue
+        robot, earlier, other = waiting.pop(record.pair)
+        minds, bases = (other, side) if robot == mind else (side, other)
+        yield Pair(
+            intended=record.scenario,
+            happened=happened or earlier,
+            solvable=is_solvable(record),
+            mind=minds,
+            base=bases,
+            state=state_of(record),
+            minimal=Outline(record).minimal,
+        )
+
+
+def _side(record: TrialRecord, world: World) -> Side:
+    event = record.exogenous[0] if record.exogenous else None
+    until = record.steps if event is None else event.step
+    row = Outline(record)
+    return Side(
+        trial=record.trial,
+        lost=record.lost,
+        ended=record.outcome not in FAILURES,
+        late=record.deadline,
+        achieved=record.achieved,
+        correct=record.correct is True,
+        decided=record.correct is not None,
+        out_of_reach=record.in_reach is False,
+        outcome=record.outcome,
+        event=None if event is None else event.action,
+        undone=event is not None and undone(record, event, world),
+        before=tuple(a.action for a in record.actions if a.step <= until),
+        measures={name: measure(row) for name, measure in DIVIDED.items()},
+    )
+
+
+def undone(record: TrialRecord, event: Occurrence, world: World) -> bool:
+    """Whether a literal of the goal is false after an event that would else be true there."""
+    before, after = state_at(record, world, event.step), state_at(record, world, event.step + 1)
+    own = [a.action for a in record.actions if a.step == event.step and a.happened]
+    return any(
+        world.holds(without, literal) and not world.holds(after, literal)
+        for without in world.successors(before, own)
+        for literal in record.goal
+    )

@@ -1,0 +1,106 @@
+"""The pairs of a run folder, by what its configuration says of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from testbed.analysis.counting import BASELINE, INTENTIONAL, eventful
+from testbed.config import ExperimentConfig
+from testbed.experiment.domains import load_world
+from testbed.experiment.errors import StoreError
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.store import read_config, read_records
+from testbed.studies.table1.analysis import RANDOM, Analysis, analyse
+from testbed.studies.table1.pairing import Pair, pairs_of
+from testbed.studies.table1.redrawing import as_stated, passed_on, weight
+
+PROTOCOL = "table1"
+TOLD = "told"
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run of the protocol: its pairs and their analysis, by the robot beside the baseline."""
+
+    folder: Path
+    config: ExperimentConfig
+    pairs: Mapping[str, list[Pair]]
+    analyses: Mapping[str, Analysis]
+
+    @property
+    def minds(self) -> tuple[str, ...]:
+        """The robots that are compared with the baseline."""
+        return tuple(self.pairs)
+
+
+def read_run(folder: Path) -> Run:
+    """The run in a folder.
+
+    Raises:
+        StoreError: for a folder without a run, one of another protocol, or one without pairs.
+        ConfigError: where the stored configuration is not valid any more.
+    """
+    config = read_config(folder)
+    if config.protocol != PROTOCOL:
+        raise StoreError(f"{folder}: its configuration has no `protocol: {PROTOCOL}`")
+    pairs = {mind: _pairs(read_records(folder), config, mind) for mind in minds_of(config)}
+    if not any(pairs.values()):
+        robots = f"{INTENTIONAL} and {BASELINE}"
+        raise StoreError(f"{folder}: has no pairs of {robots} on record")
+    sure = eventful(config)
+    analyses = {mind: analyse(own, mind, BASELINE, sure) for mind, own in pairs.items()}
+    return Run(folder, config, pairs, analyses)
+
+
+def minds_of(config: ExperimentConfig) -> tuple[str, ...]:
+    """The robots of a configuration with activities, where the baseline is there, too."""
+    if BASELINE not in config.robots:
+        return ()
+    return tuple(name for name in config.robots if name.startswith(INTENTIONAL))
+
+
+def _pairs(records: Iterable[TrialRecord], config: ExperimentConfig, mind: str) -> list[Pair]:
+    return list(pairs_of(records, load_world(config.domain), mind, BASELINE))
+
+
+def released_weights(run: Run, mind: str) -> dict[str, float]:
+    """What random pairs weigh under the released simulator's draw, by this robot's trial.
+
+    Nothing where events are not drawn by triggers, beside physical actions alone: `redrawing` knows
+    no other draw.
+    """
+    if not _is_redrawable(run.config):
+        return {}
+    world, rate = load_world(run.config.domain), run.config.adversary.rate
+    played, other = as_stated(world, RANDOM, rate), passed_on(world, RANDOM, rate)
+    own = (r for r in read_records(run.folder) if r.scenario == RANDOM and r.robot == mind)
+    return {record.trial: weight(record, world, played, other) for record in own}
+
+
+def _is_redrawable(config: ExperimentConfig) -> bool:
+    own = config.settings(RANDOM)
+    by_triggers = own.script is None and config.adversary.strategy != "random"
+    return by_triggers and not (own.exogenous_while_thinking or config.is_fine)
+
+
+def told_name(order: Iterable[str]) -> str:
+    """The name of a run of `benchmarks/told.py` with this order of places; none: the domain's."""
+    return "-".join((TOLD, *order))
+
+
+def told_order(run: Run) -> list[str]:
+    """The order that `told_name` was given.
+
+    Raises:
+        StoreError: for any other name: it is TOLD, alone or with all members of a sort.
+    """
+    own, *order = run.config.name.split("-")
+    sorts = load_world(run.config.domain).description.sorts.values()
+    if own == TOLD and (not order or sorted(order) in map(sorted, sorts)):
+        return order
+    raise StoreError(
+        f"{run.folder}: name: {run.config.name} is not that of a run of benchmarks/told.py; "
+        f"it would be {TOLD}, or {TOLD}- and all members of a sort of the domain"
+    )

@@ -1,0 +1,1 @@
+"""The transition function of a domain, with two backends."""

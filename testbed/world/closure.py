@@ -1,0 +1,134 @@
+"""Sets of literals as bit masks, and what state constraints make of them.
+
+With n fluents, bit i is the literal `f_i` and bit n + i is `-f_i`. A set of literals is a Python
+integer, so that a rule fires or not in one comparison.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from asp.language import literals as text
+
+
+class UnknownFluentError(ValueError):
+    """A literal whose atom is no fluent of the description."""
+
+
+class Vocabulary:
+    """The literals over an ordered tuple of fluents, as bits and as text."""
+
+    def __init__(self, fluents: tuple[str, ...]) -> None:
+        self.fluents = fluents
+        self.size = len(fluents)
+        self.positive = (1 << self.size) - 1
+        self._bits = {fluent: 1 << i for i, fluent in enumerate(fluents)}
+
+    def bit(self, literal: str) -> int:
+        """The mask of one literal. Raises UnknownFluentError."""
+        try:
+            bit = self._bits[text.atom(literal)]
+        except KeyError:
+            raise UnknownFluentError(
+                f"{text.atom(literal)} is not a fluent of the domain"
+            ) from None
+        return bit if text.is_positive(literal) else bit << self.size
+
+    def mask(self, literals: Iterable[str]) -> int:
+        """The mask of a set of literals. Raises UnknownFluentError."""
+        mask = 0
+        for literal in literals:
+            mask |= self.bit(literal)
+        return mask
+
+    def complete(self, state: int) -> int:
+        """The complete set of literals of a state, itself the mask of its true fluents."""
+        return state | (self.positive & ~state) << self.size
+
+    def complement(self, literals: int) -> int:
+        """Every literal of the set with the other sign."""
+        return (literals & self.positive) << self.size | literals >> self.size
+
+    def consistent(self, literals: int) -> bool:
+        return not literals & literals >> self.size & self.positive
+
+    def render(self, literals: int) -> tuple[str, ...]:
+        """The text of a set of literals, in the order of the fluents, of a pair `f` first."""
+        return tuple(
+            sign + fluent
+            for fluent in self.fluents
+            for sign, bit in (("", self._bits[fluent]), ("-", self._bits[fluent] << self.size))
+            if literals & bit
+        )
+
+
+@dataclass(frozen=True)
+class Rule:
+    """`head` follows where all of `body` holds; `head` is a mask of one literal."""
+
+    body: int
+    head: int
+
+
+class Closure:
+    """The consequence operator Cn of a set of rules, and its models under defaults."""
+
+    def __init__(self, vocabulary: Vocabulary, rules: Iterable[Rule]) -> None:
+        self._vocabulary = vocabulary
+        # By one literal of the body each, if possible a positive one: few fluents are true.
+        watched: dict[int, list[tuple[int, int]]] = {}
+        for rule in rules:
+            watched.setdefault(rule.body & -rule.body, []).append((rule.body, rule.head))
+        self._watched = tuple(watched.items())
+
+    def consequences(self, literals: int) -> int:
+        """Cn: the least superset closed under the rules; it may be inconsistent."""
+        before = -1
+        while before != literals:
+            before = literals
+            for watched, rules in self._watched:
+                if watched & literals == watched:
+                    for body, head in rules:
+                        if body & literals == body:
+                            literals |= head
+        return literals
+
+    def models(self, facts: int, defaults: int) -> tuple[int, ...]:
+        """Every consistent S with S = Cn(facts + the defaults whose complement is not in S).
+
+        With facts E(a,s) and defaults that say inertia and the closed world of defined fluents,
+        these are the answer sets of the translated program at the next step (D 2.2). Sorted.
+        """
+        return tuple(sorted(set(self._search(facts, 0, defaults))))
+
+    def _search(self, facts: int, kept: int, undecided: int) -> Iterator[int]:
+        all_defaults = kept | undecided
+        branches = [(kept, undecided)]
+        while branches:
+            kept, undecided = self._narrow(facts, *branches.pop())
+            model = self.consequences(facts | kept)
+            if not self._vocabulary.consistent(model):
+                continue
+            if undecided:
+                chosen = undecided & -undecided
+                rest = undecided ^ chosen
+                branches += [(kept, rest), (kept | chosen, rest)]
+            elif kept == all_defaults & ~self._vocabulary.complement(model):
+                yield model
+
+    def _narrow(self, facts: int, kept: int, undecided: int) -> tuple[int, int]:
+        """Decide what every model below must agree on, as in the well-founded semantics.
+
+        A default is dropped when its complement follows from what is certain, kept when its
+        complement does not follow even from all that is possible.
+        """
+        complement = self._vocabulary.complement
+        before = -1
+        while undecided and before != undecided:
+            before = undecided
+            undecided &= ~complement(self.consequences(facts | kept))
+            possible = self.consequences(facts | kept | undecided)
+            safe = undecided & ~complement(possible)
+            kept, undecided = kept | safe, undecided ^ safe
+        return kept, undecided

@@ -1,0 +1,1 @@
+"""A world compiled from a ground description."""
