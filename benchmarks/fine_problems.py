@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from asp.domains.levels import LevelSize, level_text
-from asp.reasoning.fine_planning.reference import FineStart
-from asp.refinement import Refinement, load
-from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant
+from asp.reasoning.fine_planning import FineStart
+from asp.refinement import Refinement, Transition, fine_constants, fine_goal, load, relevant
 
 _HELD = 0.4
 _KINDS = ("move", "move", "pickup", "put_down")

@@ -23,7 +23,7 @@ from agents.intentional.joint_reference import UndividedLogician
 from agents.intentional.reference import Logician
 from agents.shared import diagnosis
 from agents.shared.knowledge import Knowledge
-from asp.solving.solver import ground
+from asp.solving import ground
 from benchmarks import one_call
 from benchmarks.measuring import forget, no_collection, timed, within
 from benchmarks.one_call import OneCallLogician

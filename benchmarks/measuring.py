@@ -12,7 +12,7 @@ from functools import _lru_cache_wrapper
 from multiprocessing.connection import Connection
 from typing import TypeVar
 
-from asp.solving.cache import Answers
+from asp.solving import Answers
 
 T = TypeVar("T")
 

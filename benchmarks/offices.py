@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import pairwise
 
-from asp.language.loading import read_domain
+from asp.language import read_domain
 
 _SORT = r"^(?P<head>\s*{name}\s*=\s*)\{{[^}}]*\}}"
 _MAP = re.compile(r"(?<=\nfacts\n)(?:^  next_to\(\w+, \w+\)\.\n)+", re.MULTILINE)

@@ -6,7 +6,7 @@ from agents.intentional.intention import Intention
 from agents.intentional.reference import Logician, read_intention
 from agents.shared.diagnosis import Explained
 from agents.shared.history import History
-from asp.solving.solver import fact, ground, optimal_model, theory
+from asp.solving import fact, ground, optimal_model, theory
 
 
 class OneCallLogician(Logician):

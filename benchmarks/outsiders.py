@@ -14,7 +14,7 @@ from typing import Any
 import clingo
 from clingo import ast
 
-from asp.reasoning.planning.large.operators import Encoding
+from asp.reasoning.planning import Encoding
 from benchmarks.search import Search
 
 Planner = Callable[[Encoding, Sequence[str], Sequence[str]], int | None]

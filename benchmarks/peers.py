@@ -8,8 +8,8 @@ from math import inf
 
 from agents.shared.knowledge import knowledge
 from agents.shared.sessions import tools_of
-from asp.language.loading import analyse, parse_description
-from asp.reasoning.planning.large.operators import Encoding
+from asp.language import analyse, parse_description
+from asp.reasoning.planning import Encoding
 from benchmarks.measuring import forget, median, timed, within
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.outsiders import FAST_DOWNWARD, Planner, outsiders

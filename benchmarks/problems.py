@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from agents.shared.knowledge import Knowledge, knowledge
-from asp.language.description import Description
-from asp.solving.session import State
+from asp.language import Description
+from asp.solving import State
 from benchmarks.offices import book_names, office, room_names
 
 

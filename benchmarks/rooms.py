@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from asp.domains.levels import LevelSize
-from asp.reasoning.fine_planning.incremental import FinePlanner
+from asp.reasoning.fine_planning import FinePlanner
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, within
 from benchmarks.sheets import DisagreementError, Row, Sheet, gathered

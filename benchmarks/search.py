@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
-from asp.reasoning.planning.large.operators import Encoding, Operator, Values
+from asp.reasoning.planning import Encoding, Operator, Values
 
 State = tuple[int, ...]
 

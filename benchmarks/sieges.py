@@ -11,7 +11,7 @@ from agents.intentional.incremental import KeptLogician
 from agents.intentional.intention import Intention
 from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
-from asp.language.loading import parse_description
+from asp.language import parse_description
 from benchmarks.measuring import forget, timed
 from testbed.environment.core import NONE, Core
 from testbed.environment.rules import Observability, Rules

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from itertools import takewhile
 
-from asp.solving.solver import theory
+from asp.solving import theory
 
 REDUNDANT = "% redundant: "
 """A comment right above a statement that only saves time: what follows it says why."""

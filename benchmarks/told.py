@@ -22,7 +22,7 @@ import msgspec
 from agents.shared.history import GOAL
 from agents.traditional import TraditionalRobot
 from agents.traditional.reference import Plan
-from asp.language.description import Description
+from asp.language import Description
 from testbed.analysis.counting import BASELINE
 from testbed.config import ConfigError, ExperimentConfig
 from testbed.experiment.digest import digest

@@ -10,7 +10,7 @@ import numpy as np
 from agents.adversary.base import AdversaryView
 from agents.adversary.random import Random
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language.literals import name as name_of
+from asp.language import name as name_of
 from asp.refinement import Refinement, load
 from benchmarks.measuring import median, no_collection, quantile, timed
 from benchmarks.sheets import Row, Sheet, gathered

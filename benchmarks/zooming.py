@@ -11,10 +11,9 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from asp.domains.levels import LEVELS, LevelSize
-from asp.language.signature import Problems, signature_of
-from asp.reasoning.fine_planning.incremental import FinePlanner
-from asp.reasoning.fine_planning.reference import FinePlan, NoPlan, PlainProblem, physical
-from asp.refinement.zooming import zoom_strong
+from asp.language import Problems, signature_of
+from asp.reasoning.fine_planning import FinePlan, FinePlanner, NoPlan, PlainProblem, physical
+from asp.refinement import zoom_strong
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, quantile, within
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered

@@ -17,7 +17,7 @@ from os import PathLike
 from typing import TypeAlias
 
 from asp import load_description
-from asp.language.spelling import suggestion
+from asp.language import suggestion
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.grounds import grounds
 from testbed.config.keys import lists_keys

@@ -9,8 +9,8 @@ import numpy as np
 
 from agents.adversary.base import AdversaryView
 from asp import Description
+from asp.language import Trigger
 from asp.language import literals as text
-from asp.language.description import Trigger
 from testbed.environment.core import NONE
 
 T = TypeVar("T")

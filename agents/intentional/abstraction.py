@@ -14,15 +14,20 @@ from functools import lru_cache
 from msgspec import structs
 
 from agents.intentional.renaming import renamed_decision, renamed_event
-from asp.language import syntax
-from asp.language.description import Description
-from asp.language.literals import arguments, atom, is_positive, renamed
-from asp.language.loading import analyse, parse_description
-from asp.language.restriction import restrict
-from asp.language.writer import text_of
-from asp.reasoning.planning.relevance import Independence
-from asp.solving.budget import deciding
-from asp.solving.clock import preparation
+from asp.language import (
+    Description,
+    analyse,
+    arguments,
+    atom,
+    is_positive,
+    parse_description,
+    renamed,
+    restrict,
+    syntax,
+    text_of,
+)
+from asp.reasoning.planning import Independence
+from asp.solving import deciding, preparation
 from testbed.protocol.messages import Decision, Percept, Task
 from testbed.protocol.robot import Robot
 

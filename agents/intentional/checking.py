@@ -16,9 +16,8 @@ import msgspec
 
 from agents.intentional.controller import IntentionalRobot
 from agents.shared.knowledge import knowledge
-from asp.language.description import Description, Literals
-from asp.language.literals import atom, complement
-from asp.solving.budget import deciding
+from asp.language import Description, Literals, atom, complement
+from asp.solving import deciding
 from testbed.protocol.messages import Decision, Percept, Task
 from testbed.protocol.robot import Robot
 

@@ -18,9 +18,8 @@ from agents.shared.limits import limits_of
 from agents.shared.misreadings import distrust
 from agents.shared.relevance import goal_fluents, relevant_literals
 from agents.shared.timing import Phases
-from asp.language.literals import is_positive
-from asp.solving.budget import LimitError, deciding
-from asp.solving.clock import preparation, reasoning_clock
+from asp.language import is_positive
+from asp.solving import LimitError, deciding, preparation, reasoning_clock
 from testbed.protocol.messages import Decision, Event, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")

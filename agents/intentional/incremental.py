@@ -13,8 +13,8 @@ from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import PACE
 from agents.shared.sessions import tools_of
-from asp.reasoning.diagnosis.long_histories.compression import Pace
-from asp.solving.session import State
+from asp.reasoning.diagnosis import Pace
+from asp.solving import State
 
 # (16): nothing else happens while the goal is selected.
 _FIRST_EVENT = 1

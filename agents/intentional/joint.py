@@ -10,7 +10,7 @@ from agents.intentional.intention import Intention
 from agents.intentional.reference import Logician, read_intention
 from agents.shared.diagnosis import Explained, explained_by
 from agents.shared.history import Diagnosis, History
-from asp.solving.solver import fact, first_model, ground, theory
+from asp.solving import fact, first_model, ground, theory
 
 _EXPLAINING = ("defaults", "diagnosis")
 _INACTIVE = ("finishes", "starts")

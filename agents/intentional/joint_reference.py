@@ -8,7 +8,7 @@ from agents.intentional.intention import Intention
 from agents.intentional.reference import Logician, read_intention
 from agents.shared.diagnosis import Explained, event_limits, explained_by
 from agents.shared.history import Diagnosis, History
-from asp.solving.solver import fact, ground, optimal_model, theory
+from asp.solving import fact, ground, optimal_model, theory
 
 _THEORIES = ("defaults", "diagnosis", "planning", "joint", "undivided")
 

@@ -16,10 +16,9 @@ from agents.shared.knowledge import Knowledge
 from agents.shared.memory import past_of
 from agents.shared.no_plan import GivingUp
 from agents.shared.sessions import tools_of
-from asp.language.literals import complement
-from asp.reasoning.diagnosis.encoding import Assumed
-from asp.solving.budget import UNLIMITED, LimitError, Limits, deciding
-from asp.solving.session import State
+from asp.language import complement
+from asp.reasoning.diagnosis import Assumed
+from asp.solving import UNLIMITED, LimitError, Limits, State, deciding
 from testbed.protocol.messages import Contradiction, Event, Explanation, NoPlan
 
 MOST_ALTERNATIVES = 20

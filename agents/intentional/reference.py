@@ -10,7 +10,7 @@ from agents.intentional.intention import Intention
 from agents.shared.diagnosis import Explained, diagnose
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, goal_facts
-from asp.solving.solver import fact, first_model, ground, select, theory
+from asp.solving import fact, first_model, ground, select, theory
 
 
 class Logician:

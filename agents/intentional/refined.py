@@ -13,10 +13,9 @@ from agents.intentional.executor.coarse_percept import Outcome, Reporter
 from agents.intentional.executor.execution import Execution, Steps
 from agents.intentional.executor.state import Mind
 from agents.intentional.executor.step_numbers import Calendar
-from asp.language.literals import is_positive
+from asp.language import is_positive
 from asp.refinement import load
-from asp.solving.budget import deciding
-from asp.solving.clock import preparation, reasoning_clock
+from asp.solving import deciding, preparation, reasoning_clock
 from testbed.protocol.messages import Decision, Percept, Task, Trace
 from testbed.protocol.robot import Robot
 

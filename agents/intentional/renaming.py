@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from msgspec import structs
 
-from asp.language.literals import renamed
+from asp.language import renamed
 from testbed.protocol.messages import Contradiction, Decision, Event, Explanation, Trace
 
 Names = Mapping[str, str]

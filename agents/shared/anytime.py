@@ -13,9 +13,7 @@ import clingo
 
 from agents.shared.history import Diagnosis
 from agents.shared.limits import BETTERING, SEARCH
-from asp.solving.budget import BudgetError, Limits, current, deciding, up_to
-from asp.solving.preference import preferring
-from asp.solving.solver import solving
+from asp.solving import BudgetError, Limits, current, deciding, preferring, solving, up_to
 
 _FIRST_WINDOW = 4
 

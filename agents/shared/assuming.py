@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from agents.shared.history import Diagnosis, History
-from asp.reasoning.diagnosis.encoding import Assumed, Record
+from asp.reasoning.diagnosis import Assumed, Record
 from testbed.protocol.messages import Event
 
 

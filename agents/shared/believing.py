@@ -15,11 +15,9 @@ from agents.shared.knowledge import Knowledge
 from agents.shared.limits import SEARCH
 from agents.shared.memory import PACE, Memory, record_of
 from agents.shared.sessions import tools_of
-from asp.language.literals import atom, is_positive
-from asp.reasoning.diagnosis.encoding import Account, Assumed, Past, Record
-from asp.reasoning.diagnosis.long_histories.compression import Pace
-from asp.solving.budget import BudgetError, current, up_to
-from asp.solving.session import State
+from asp.language import atom, is_positive
+from asp.reasoning.diagnosis import Account, Assumed, Pace, Past, Record
+from asp.solving import BudgetError, State, current, up_to
 
 
 class Believer:

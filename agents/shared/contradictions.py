@@ -5,8 +5,8 @@ from __future__ import annotations
 from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.sessions import tools_of
-from asp.language.literals import atom, complement, is_positive
-from asp.solving.session import State
+from asp.language import atom, complement, is_positive
+from asp.solving import State
 from testbed.protocol.messages import Contradiction, Event
 
 

@@ -11,11 +11,8 @@ from clingo import Symbol
 from agents.shared.anytime import Search
 from agents.shared.history import Diagnosis, History
 from agents.shared.limits import SEARCH
-from asp.reasoning.diagnosis.encoding import Assumed
-from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict
-from asp.solving.budget import BudgetError, current, up_to
-from asp.solving.preference import preferring
-from asp.solving.solver import fact, ground, select, theory
+from asp.reasoning.diagnosis import Assumed, cannot_hold, conflict
+from asp.solving import BudgetError, current, fact, ground, preferring, select, theory, up_to
 from testbed.protocol.errors import RobotStops
 from testbed.protocol.messages import Event
 

@@ -9,8 +9,8 @@ from agents.shared.history import GOAL, Diagnosis, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.memory import record_of
 from agents.shared.sessions import tools_of
-from asp.language.literals import atom, is_positive
-from asp.solving.session import State
+from asp.language import atom, is_positive
+from asp.solving import State
 
 
 @dataclass(frozen=True)

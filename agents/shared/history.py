@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from clingo import Symbol
 
-from asp.language.literals import atom, is_positive
-from asp.solving.solver import fact
+from asp.language import atom, is_positive
+from asp.solving import fact
 from testbed.protocol.messages import Event
 
 GOAL = "my_goal"

@@ -8,11 +8,9 @@ from functools import cached_property, lru_cache
 
 from clingo import Symbol
 
-from asp.language.description import Description
-from asp.language.literals import atom, complement, is_positive
-from asp.language.loading import parse_description
-from asp.solving.solver import fact
-from asp.translation.literal import translate
+from asp.language import Description, atom, complement, is_positive, parse_description
+from asp.solving import fact
+from asp.translation import translate
 
 # A robot whose domain follows from its goal has as many domains as goals.
 _REMEMBERED = 32

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from asp.solving.budget import Limits
+from asp.solving import Limits
 from testbed.protocol.messages import Task
 
 SEARCH, BETTERING = 0.5, 0.75

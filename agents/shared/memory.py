@@ -7,10 +7,8 @@ from collections.abc import Callable
 from agents.shared.history import GOAL, History, Moment
 from agents.shared.knowledge import Knowledge
 from agents.shared.sessions import tools_of
-from asp.reasoning.diagnosis.encoding import Past, Record
-from asp.reasoning.diagnosis.long_histories.compression import Folding, Pace
-from asp.solving.budget import LimitError
-from asp.solving.session import State
+from asp.reasoning.diagnosis import Folding, Pace, Past, Record
+from asp.solving import LimitError, State
 
 PACE = Pace()
 

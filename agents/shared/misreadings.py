@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from agents.shared.history import History
 from agents.shared.knowledge import Knowledge, goal_facts
-from asp.reasoning.diagnosis.inconsistency import misreadings
+from asp.reasoning.diagnosis import misreadings
 
 
 def distrust(knowledge: Knowledge, goal: tuple[str, ...], history: History) -> bool:

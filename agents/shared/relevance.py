@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from asp.language.description import Description
-from asp.language.literals import atom
+from asp.language import Description, atom
 
 
 def goal_fluents(description: Description, goal: Iterable[str]) -> frozenset[str]:

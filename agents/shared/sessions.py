@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from agents.shared.knowledge import Knowledge
-from asp.reasoning.diagnosis.incremental import Explanations
-from asp.reasoning.diagnosis.long_histories.suffix_explanations import Windows
-from asp.reasoning.planning.incremental import Plans
-from asp.reasoning.planning.reachability import Reach
+from asp.reasoning.diagnosis import Explanations, Windows
+from asp.reasoning.planning import Plans, Reach
 from asp.reasoning.successors import Transitions
-from asp.solving.cache import Recent
+from asp.solving import Recent
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from msgspec import structs
 
-from asp.solving.clock import Reading, reasoning_clock
+from asp.solving import Reading, reasoning_clock
 from testbed.protocol.messages import Trace
 
 

@@ -10,7 +10,7 @@ from clingo import Symbol
 from agents.shared.diagnosis import Explained, diagnose
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, goal_facts
-from asp.solving.solver import first_model, ground, select, theory
+from asp.solving import first_model, ground, select, theory
 
 
 @dataclass(frozen=True)

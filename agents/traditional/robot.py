@@ -18,10 +18,8 @@ from agents.shared.relevance import outcome_literals
 from agents.shared.timing import Phases
 from agents.traditional.incremental import KeptPlanner
 from agents.traditional.reference import Plan
-from asp.language.literals import is_positive
-from asp.solving.budget import LimitError, deciding
-from asp.solving.clock import preparation, reasoning_clock
-from asp.solving.session import State
+from asp.language import is_positive
+from asp.solving import LimitError, State, deciding, preparation, reasoning_clock
 from testbed.protocol.messages import Decision, Explanation, Percept, Task, Trace
 
 

@@ -14,7 +14,7 @@ from functools import lru_cache
 from importlib.resources import files
 from itertools import pairwise
 
-from asp.language.loading import MOST_TEXTS
+from asp.language import MOST_TEXTS
 
 
 @dataclass(frozen=True)

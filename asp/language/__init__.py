@@ -1,1 +1,78 @@
 """The action language AL_d: text in, a checked and ground description out."""
+
+from asp.language.checker import check, variable_domains
+from asp.language.comments import scenario_notes
+from asp.language.description import Causal, Constraint, Description, Literals, Trigger
+from asp.language.errors import SourceError
+from asp.language.functions import Function, excluding_place, functions, subject
+from asp.language.grounding import ground_description
+from asp.language.literals import arguments, atom, complement, ground, is_positive, name, renamed
+from asp.language.loading import (
+    MOST_TEXTS,
+    analyse,
+    load_description,
+    parse_description,
+    read_domain,
+    read_text,
+)
+from asp.language.parser import ToSyntax, comments_of, parse, place_of
+from asp.language.restriction import named, narrowed, restrict, without_exogenous
+from asp.language.robots import check_one_robot
+from asp.language.signature import Problems, Signature, signature_of
+from asp.language.spelling import suggestion
+from asp.language.stratification import check_cycles, may_have_cycles
+from asp.language.syntax import Source
+from asp.language.syntax_errors import Words, check_section_words, syntax_error
+from asp.language.writer import atom_text, condition_text, text_of
+
+__all__ = [
+    "MOST_TEXTS",
+    "Causal",
+    "Constraint",
+    "Description",
+    "Function",
+    "Literals",
+    "Problems",
+    "Signature",
+    "Source",
+    "SourceError",
+    "ToSyntax",
+    "Trigger",
+    "Words",
+    "analyse",
+    "arguments",
+    "atom",
+    "atom_text",
+    "check",
+    "check_cycles",
+    "check_one_robot",
+    "check_section_words",
+    "comments_of",
+    "complement",
+    "condition_text",
+    "excluding_place",
+    "functions",
+    "ground",
+    "ground_description",
+    "is_positive",
+    "load_description",
+    "may_have_cycles",
+    "name",
+    "named",
+    "narrowed",
+    "parse",
+    "parse_description",
+    "place_of",
+    "read_domain",
+    "read_text",
+    "renamed",
+    "restrict",
+    "scenario_notes",
+    "signature_of",
+    "subject",
+    "suggestion",
+    "syntax_error",
+    "text_of",
+    "variable_domains",
+    "without_exogenous",
+]

@@ -66,10 +66,10 @@ def read_domain(name_or_path: str) -> tuple[str, str]:
             f"{name_or_path}: no such domain; give the path of an .al file or one of "
             f"{', '.join(packaged_domains())}"
         )
-    return str(path), text_of(path)
+    return str(path), read_text(path)
 
 
-def text_of(path: Path) -> str:
+def read_text(path: Path) -> str:
     """The text of a file. Raises SourceError, at its place, for what is not UTF-8, and OSError."""
     try:
         return path.read_text(encoding="utf-8")

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import clingo
 from clingo import Symbol
 
-from asp.solving.session import KeptControl, State
-from asp.solving.solver import answer_sets, fact, solving
+from asp.solving import KeptControl, State, answer_sets, fact, solving
 
 MOST_ASSUMED = 6
 """How many unobserved events and distrusted reports are assumed of one step at most."""

@@ -1,6 +1,22 @@
 """Refinement: from a coarse description to a fine one that is tightly coupled to it (P 3.3)."""
 
-from asp.refinement.reading import load_refinement
+from asp.refinement.observation import TRUE
+from asp.refinement.reading import load_refinement, read_refinement, refined_name
 from asp.refinement.refinement import Refinement, load
+from asp.refinement.refining import shared_places
+from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant, zoom_strong
 
-__all__ = ["Refinement", "load", "load_refinement"]
+__all__ = [
+    "TRUE",
+    "Refinement",
+    "Transition",
+    "fine_constants",
+    "fine_goal",
+    "load",
+    "load_refinement",
+    "read_refinement",
+    "refined_name",
+    "relevant",
+    "shared_places",
+    "zoom_strong",
+]

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from asp.language import syntax
-from asp.language.functions import functions
-from asp.language.signature import Problems
+from asp.language import Problems, functions, syntax
 from asp.refinement.language import Components, Counterpart, TestsStatement
 from asp.refinement.vocabulary import Vocabulary
 

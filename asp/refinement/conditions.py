@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
-from asp.language import syntax
+from asp.language import atom_text, syntax
 from asp.language import variable_sorts as roles
-from asp.language.writer import atom_text
 from asp.refinement.effects import effects_of, key
 from asp.refinement.renaming import Renaming
 from asp.refinement.rewriting import Rewriting

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
-from asp.language import syntax
+from asp.language import syntax, text_of
 from asp.language import variable_sorts as roles
-from asp.language.writer import text_of
 from asp.refinement.vocabulary import COARSE, COMPONENT, FINE, Vocabulary
 
 

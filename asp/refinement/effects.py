@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from asp.language import syntax
-from asp.language.writer import atom_text
+from asp.language import atom_text, syntax
 
 Effect = tuple[syntax.Literal, syntax.Body]
 

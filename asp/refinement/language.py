@@ -12,10 +12,16 @@ from lark import Lark, Token, v_args
 from lark.exceptions import UnexpectedInput
 from lark.tree import Meta
 
-from asp.language import syntax
+from asp.language import (
+    ToSyntax,
+    Words,
+    check_section_words,
+    comments_of,
+    place_of,
+    syntax,
+    syntax_error,
+)
 from asp.language import variable_sorts as roles
-from asp.language.parser import ToSyntax, comments_of, place_of
-from asp.language.syntax_errors import Words, check_section_words, syntax_error
 
 _WORDS = Words(
     frozenset({"REFINES", "MAGNIFY", "COMPONENTS", "COUNTERPARTS", "FACTS", "LAWS", "TESTS"}),

@@ -12,9 +12,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import singledispatch
 
-from asp.language import syntax
+from asp.language import syntax, text_of
 from asp.language import variable_sorts as roles
-from asp.language.writer import text_of
 from asp.refinement.conditions import lifted, refined_condition
 from asp.refinement.renaming import Renaming
 from asp.refinement.rewriting import Rewriting

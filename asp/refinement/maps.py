@@ -9,10 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from asp.language import syntax
+from asp.language import Problems, arguments, name, syntax
 from asp.language import variable_sorts as roles
-from asp.language.literals import arguments, name
-from asp.language.signature import Problems
 from asp.refinement.language import Components, Magnification
 from asp.refinement.vocabulary import Vocabulary
 

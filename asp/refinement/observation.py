@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from asp.language import syntax
-from asp.language.checker import variable_domains
-from asp.language.signature import Problems, Signature
-from asp.language.writer import condition_text
+from asp.language import Problems, Signature, condition_text, syntax, variable_domains
 from asp.refinement.language import TestsStatement
 from asp.refinement.refining import shared_places
 from asp.refinement.vocabulary import COMPONENT, Vocabulary

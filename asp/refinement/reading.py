@@ -5,8 +5,7 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
-from asp.language.errors import SourceError
-from asp.language.loading import read_domain, text_of
+from asp.language import SourceError, read_domain, read_text
 from asp.refinement.language import Refines, parse_fine
 from asp.refinement.refinement import Refinement, load
 
@@ -35,7 +34,7 @@ def read_refinement(name_or_path: str) -> tuple[str, str]:
             f"{name_or_path}: no such refinement; give the path of a {SUFFIX} file or one of "
             f"{', '.join(packaged_refinements())}"
         )
-    return str(path), text_of(path)
+    return str(path), read_text(path)
 
 
 def packaged_refinements() -> tuple[str, ...]:

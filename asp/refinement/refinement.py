@@ -8,15 +8,27 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import product
 
-from asp.language import syntax
-from asp.language.checker import check
-from asp.language.description import Description
-from asp.language.errors import SourceError
-from asp.language.literals import arguments, atom, complement, ground, is_positive, name
-from asp.language.loading import MOST_TEXTS, analyse, parse_description
-from asp.language.parser import parse
-from asp.language.signature import Problems, Signature, signature_of
-from asp.language.stratification import check_cycles, may_have_cycles
+from asp.language import (
+    MOST_TEXTS,
+    Description,
+    Problems,
+    Signature,
+    SourceError,
+    analyse,
+    arguments,
+    atom,
+    check,
+    check_cycles,
+    complement,
+    ground,
+    is_positive,
+    may_have_cycles,
+    name,
+    parse,
+    parse_description,
+    signature_of,
+    syntax,
+)
 from asp.refinement.completeness import check_complete
 from asp.refinement.facts import Facts
 from asp.refinement.language import parse_fine

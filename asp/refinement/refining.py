@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from asp.language import syntax
+from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
-from asp.language.signature import Problems
-from asp.language.writer import text_of
 from asp.refinement.declarations import declarations, section
 from asp.refinement.laws import KEPT, LIFTED, REFINED, Result, refine
 from asp.refinement.rewriting import Rewriting

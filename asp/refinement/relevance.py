@@ -6,11 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 
-from asp.language import syntax
+from asp.language import Problems, arguments, name, signature_of, syntax, variable_domains
 from asp.language import variable_sorts as roles
-from asp.language.checker import variable_domains
-from asp.language.literals import arguments, name
-from asp.language.signature import Problems, signature_of
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, count
 
-from asp.language import syntax
+from asp.language import syntax, variable_domains
 from asp.language import variable_sorts as roles
-from asp.language.checker import variable_domains
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
 

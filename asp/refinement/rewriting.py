@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from asp.language import syntax
-from asp.language.signature import Problems
+from asp.language import Problems, syntax
 from asp.refinement.vocabulary import Vocabulary
 
 

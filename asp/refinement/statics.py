@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from asp.language import syntax
+from asp.language import Signature, syntax
 from asp.language import variable_sorts as roles
-from asp.language.signature import Signature
-from asp.solving.solver import first_model, ground
-from asp.translation.rules import rule, term_text
+from asp.solving import first_model, ground
+from asp.translation import rule, term_text
 
 
 def true_statics(source: syntax.Source, signature: Signature) -> frozenset[str]:

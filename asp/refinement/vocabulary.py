@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from asp.language import syntax
-from asp.language.signature import Problems, Signature
-from asp.language.spelling import suggestion
+from asp.language import Problems, Signature, suggestion, syntax
 from asp.refinement.language import Components, Counterpart, Magnification
 
 PREFIX = "fine_"

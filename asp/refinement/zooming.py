@@ -8,12 +8,19 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from asp.language import syntax
+from asp.language import (
+    Problems,
+    Signature,
+    arguments,
+    atom,
+    complement,
+    is_positive,
+    restrict,
+    signature_of,
+    syntax,
+    variable_domains,
+)
 from asp.language import variable_sorts as roles
-from asp.language.checker import variable_domains
-from asp.language.literals import arguments, atom, complement, is_positive
-from asp.language.restriction import restrict
-from asp.language.signature import Problems, Signature, signature_of
 from asp.refinement.facts import Facts
 from asp.refinement.refinement import Refinement
 from asp.refinement.relevance import Transition, relevant

@@ -1,1 +1,52 @@
 """Solving programs with clingo, within a budget, in one call or over many."""
+
+from asp.solving.budget import UNLIMITED, BudgetError, LimitError, Limits, current, deciding, up_to
+from asp.solving.cache import Answers, Recent
+from asp.solving.clock import Reading, preparation, reasoning_clock
+from asp.solving.preference import preferring
+from asp.solving.session import KeptControl, State, goal_externals
+from asp.solving.signals import undisturbed
+from asp.solving.solver import (
+    answer_sets,
+    core,
+    fact,
+    first_model,
+    ground,
+    is_satisfiable,
+    optimal_model,
+    select,
+    solving,
+    symbol,
+    theory,
+)
+
+__all__ = [
+    "UNLIMITED",
+    "Answers",
+    "BudgetError",
+    "KeptControl",
+    "LimitError",
+    "Limits",
+    "Reading",
+    "Recent",
+    "State",
+    "answer_sets",
+    "core",
+    "current",
+    "deciding",
+    "fact",
+    "first_model",
+    "goal_externals",
+    "ground",
+    "is_satisfiable",
+    "optimal_model",
+    "preferring",
+    "preparation",
+    "reasoning_clock",
+    "select",
+    "solving",
+    "symbol",
+    "theory",
+    "undisturbed",
+    "up_to",
+]

@@ -11,11 +11,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from asp.language import syntax
+from asp.language import (
+    Function,
+    Signature,
+    excluding_place,
+    functions,
+    named,
+    syntax,
+    without_exogenous,
+)
 from asp.language import variable_sorts as roles
-from asp.language.functions import Function, excluding_place, functions
-from asp.language.restriction import named, without_exogenous
-from asp.language.signature import Signature
 from asp.translation.executability import allowing
 from asp.translation.program_parts import ACTION, BASE, BEFORE, NOW, OPEN, STATE, STEP, Rule
 from asp.translation.rules import term_text

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from asp.language import syntax
-from asp.language.functions import Function
+from asp.language import Function, syntax
 
 
 def allowing(

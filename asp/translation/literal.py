@@ -10,12 +10,8 @@ from __future__ import annotations
 
 from itertools import chain, count
 
-from asp.language import syntax
+from asp.language import Signature, analyse, ground, syntax, variable_domains
 from asp.language import variable_sorts as roles
-from asp.language.checker import variable_domains
-from asp.language.literals import ground
-from asp.language.loading import analyse
-from asp.language.signature import Signature
 from asp.translation.rules import condition, rule, term_text
 
 _HEADER = """\

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from asp.language import syntax
-from asp.language.signature import Signature
+from asp.language import Signature, syntax
 
 
 def rule(head: str, body: Iterable[str]) -> str:

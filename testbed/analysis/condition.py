@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from asp.language.loading import read_domain
+from asp.language import read_domain
 from testbed.config import ExperimentConfig, load_config
 from testbed.config.models import RANDOM_RATE, Observability, ScenarioSettings
 from testbed.experiment.wording import in_words, listed

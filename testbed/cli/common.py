@@ -48,7 +48,7 @@ def say(line: str) -> None:
 @contextmanager
 def input_errors() -> Iterator[None]:
     """Turn what a user can get wrong into one line per error and the exit code for it."""
-    from asp.language.errors import SourceError
+    from asp.language import SourceError
     from testbed.config.errors import ConfigError
     from testbed.experiment.errors import ServingError, StoreError, WorkerError
 

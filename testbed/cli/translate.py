@@ -28,10 +28,10 @@ def command(
 
     Of a refinement it is the program of the refined description with its theory of observation.
     """
-    from asp.language.loading import read_domain
+    from asp.language import read_domain
     from asp.refinement import load_refinement
-    from asp.translation.literal import translate as translated
-    from asp.translation.literal import translate_source
+    from asp.translation import translate as translated
+    from asp.translation import translate_source
     from testbed.experiment.run_folder import naming
 
     with input_errors():

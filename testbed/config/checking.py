@@ -7,13 +7,9 @@ from contextlib import contextmanager
 
 import asp
 from asp import Description
-from asp.language.errors import SourceError
-from asp.language.literals import atom, complement
-from asp.language.loading import read_domain
-from asp.language.robots import check_one_robot
-from asp.language.spelling import suggestion
-from asp.reasoning.diagnosis.inconsistency import cannot_hold, never_together
-from asp.translation.literal import translate
+from asp.language import SourceError, atom, check_one_robot, complement, read_domain, suggestion
+from asp.reasoning.diagnosis import cannot_hold, never_together
+from asp.translation import translate
 from testbed.config.errors import ConfigError
 from testbed.config.grounds import grounds
 from testbed.config.levels import ground_findings, map_findings, settings_findings

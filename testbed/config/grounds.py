@@ -8,9 +8,8 @@ from functools import cache
 from pathlib import Path
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language.loading import read_domain
-from asp.refinement import Refinement, load
-from asp.refinement.reading import read_refinement
+from asp.language import read_domain
+from asp.refinement import Refinement, load, read_refinement
 from testbed.config.models import ExperimentConfig
 
 

@@ -7,12 +7,8 @@ from itertools import islice, product
 from pathlib import Path
 
 from asp.domains.levels import LEVELS
-from asp.language import literals
-from asp.language.literals import atom
-from asp.language.signature import Signature
-from asp.language.spelling import suggestion
-from asp.refinement import Refinement
-from asp.refinement.reading import refined_name
+from asp.language import Signature, atom, literals, suggestion
+from asp.refinement import Refinement, refined_name
 from testbed.config.models import Drawing, ExperimentConfig
 from testbed.config.places import Key
 from testbed.config.scripts import moment_findings

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 import asp
-from asp.language.spelling import suggestion
+from asp.language import suggestion
 from testbed.config.checking import Robots, check
 from testbed.config.composing import compose
 from testbed.config.errors import ConfigError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asp.language.spelling import suggestion
+from asp.language import suggestion
 
 SUFFIX = ".yaml"
 

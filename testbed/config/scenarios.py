@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from asp.language.spelling import suggestion
+from asp.language import suggestion
 from testbed.config.models import NONE, ExperimentConfig, ScenarioSettings
 from testbed.config.words import Finding
 

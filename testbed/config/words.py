@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from asp.language import literals
-from asp.language.spelling import suggestion
+from asp.language import literals, suggestion
 from testbed.config.places import Key
 
 Finding = tuple[Key, str]

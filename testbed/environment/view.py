@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from gymnasium import spaces
 
-from asp.language.spelling import suggestion
+from asp.language import suggestion
 from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import Core
 from testbed.environment.observation import (

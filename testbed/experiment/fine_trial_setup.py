@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from agents.adversary.base import Adversary
 from agents.adversary.random import Random
-from asp.language.literals import arguments, complement
+from asp.language import arguments, complement
 from testbed.config.grounds import Ground
 from testbed.environment.core import Core
 from testbed.environment.fine import fine_core, fine_world

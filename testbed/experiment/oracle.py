@@ -11,13 +11,16 @@ from functools import lru_cache
 from heapq import heappop, heappush
 from itertools import count
 
-from asp.language.description import Description
-from asp.language.grounding import ground_description
-from asp.language.literals import atom
-from asp.language.restriction import narrowed, restrict
-from asp.language.signature import Signature
-from asp.language.syntax import Source
-from asp.reasoning.planning.relevance import Independence
+from asp.language import (
+    Description,
+    Signature,
+    Source,
+    atom,
+    ground_description,
+    narrowed,
+    restrict,
+)
+from asp.reasoning.planning import Independence
 from testbed.world.compiled.world import World
 
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import asp
 import testbed
-from asp.refinement.reading import read_refinement
+from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
 from testbed.experiment.store import PROVENANCE, replace_text
 

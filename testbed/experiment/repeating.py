@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from asp.language.description import Description, Trigger
+from asp.language import Description, Trigger
 from testbed.config.models import ExperimentConfig
 
 

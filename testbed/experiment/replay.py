@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Iterable
 from pathlib import Path
 
-from asp.language.spelling import suggestion
+from asp.language import suggestion
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
 from testbed.experiment.narration import Say, teller_of

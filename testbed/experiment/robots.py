@@ -13,7 +13,7 @@ from agents.intentional.reference import Logician
 from agents.intentional.refined import EitherRobot
 from agents.traditional import TraditionalRobot
 from agents.traditional.reference import Planner
-from asp.language.spelling import suggestion
+from asp.language import suggestion
 from testbed.protocol.robot import Robot
 
 ROBOTS: Mapping[str, Callable[[], Robot]] = {

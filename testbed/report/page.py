@@ -10,8 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asp.language.comments import scenario_notes
-from asp.language.loading import read_domain
+from asp.language import read_domain, scenario_notes
 from testbed.analysis.condition import condition, left_out
 from testbed.analysis.counting import Apart, eventful, pairs_apart
 from testbed.analysis.summary import write_summary

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Protocol
 
-from asp.language.description import Description
+from asp.language import Description
 
 
 class Dynamics(Protocol):

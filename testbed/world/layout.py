@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from itertools import permutations
 from typing import TypeAlias
 
+from asp.language import Description
 from asp.language import literals as text
-from asp.language.description import Description
 
 Pair: TypeAlias = tuple[str, str]
 Adjacency: TypeAlias = Mapping[str, frozenset[str]]

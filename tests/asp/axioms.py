@@ -11,9 +11,9 @@ from functools import cache
 import clingo
 from clingo import Symbol
 
-from asp.language.loading import read_domain
-from asp.solving.solver import theory
-from asp.translation.literal import translate
+from asp.language import read_domain
+from asp.solving import theory
+from asp.translation import translate
 
 _NUMBER = re.compile(r"% \((\d+|[a-z])\) \S")
 _END_OF_RULE = re.compile(r"\.[ \t]*\n")

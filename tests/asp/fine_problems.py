@@ -8,13 +8,9 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import product
 
-from asp.language import syntax
-from asp.language.functions import functions, subject
-from asp.language.literals import arguments
-from asp.language.signature import Problems, Signature, signature_of
-from asp.reasoning.fine_planning.reference import FineStart
-from asp.refinement import Refinement
-from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant
+from asp.language import Problems, Signature, arguments, functions, signature_of, subject, syntax
+from asp.reasoning.fine_planning import FineStart
+from asp.refinement import Refinement, Transition, fine_constants, fine_goal, relevant
 from testbed.world.matched.world import SparseWorld
 from tests.asp.refinement.levels import coarse_world
 

@@ -8,7 +8,7 @@ import clingo
 from clingo import Symbol
 
 from asp import load_description
-from asp.solving.solver import fact, ground
+from asp.solving import fact, ground
 from tests.asp.axioms import domain_text, theory_text
 from tests.asp.stories import lines, theories_for
 

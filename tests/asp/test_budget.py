@@ -6,9 +6,20 @@ import clingo
 import pytest
 
 import asp.reasoning.planning.large.outcomes
-from asp.reasoning.planning.incremental import Plans
-from asp.solving.budget import BudgetError, LimitError, Limits, TimeLimitError, deciding, up_to
-from asp.solving.solver import answer_sets, first_model, ground, is_satisfiable, optimal_model
+from asp.reasoning.planning import Plans
+from asp.solving import (
+    BudgetError,
+    LimitError,
+    Limits,
+    answer_sets,
+    deciding,
+    first_model,
+    ground,
+    is_satisfiable,
+    optimal_model,
+    up_to,
+)
+from asp.solving.budget import TimeLimitError
 
 # The solver would need hours to see that more pigeons than holes are impossible.
 PIGEONS = """

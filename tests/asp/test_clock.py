@@ -5,13 +5,12 @@ from collections.abc import Iterable, Sequence
 
 import pytest
 
-from asp.language.loading import read_domain
-from asp.reasoning.planning.incremental import Plans
+from asp.language import read_domain
+from asp.reasoning.planning import Operator, Plans
 from asp.reasoning.planning.large import search
-from asp.reasoning.planning.large.operators import Operator
 from asp.reasoning.planning.large.state_sets import Space
-from asp.solving.budget import Limits, TimeLimitError, deciding
-from asp.solving.clock import preparation, reasoning_clock
+from asp.solving import Limits, deciding, preparation, reasoning_clock
+from asp.solving.budget import TimeLimitError
 
 SLOW_S = 3.0
 OFFICE = read_domain("office")[1]

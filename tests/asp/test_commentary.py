@@ -2,8 +2,7 @@
 
 import pytest
 
-from asp.language.comments import scenario_notes
-from asp.language.loading import load_description, read_domain
+from asp.language import load_description, read_domain, scenario_notes
 
 TEXT = """\
 scenarios

@@ -10,18 +10,15 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LevelSize
-from asp.language.functions import functions
-from asp.language.literals import arguments
-from asp.language.loading import analyse
+from asp.language import analyse, arguments, functions
+from asp.reasoning.fine_planning import FinePlanner, FineStart
 from asp.reasoning.fine_planning.abstraction import Narrower
-from asp.reasoning.fine_planning.incremental import FinePlanner
 from asp.reasoning.fine_planning.large.function_values import valued
 from asp.reasoning.fine_planning.large.relaxed_reachability import Relaxed
 from asp.reasoning.fine_planning.large.value_pruning import confined
-from asp.reasoning.fine_planning.reference import FineStart
 from asp.reasoning.fine_planning.relevant_constants import in_play, loose
 from asp.refinement import Refinement, load, load_refinement
-from asp.translation.program_parts import ACTION
+from asp.translation import ACTION
 from testbed.world.matched.world import SparseWorld
 from tests.asp.fine_problems import drawn_goal, drawn_state
 from tests.asp.refinement.levels import level, of_size

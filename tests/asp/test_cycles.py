@@ -5,10 +5,16 @@ from __future__ import annotations
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
-from asp.language.loading import analyse, packaged_domains, read_domain
-from asp.language.parser import parse
-from asp.language.signature import Problems, signature_of
-from asp.language.stratification import check_cycles, may_have_cycles
+from asp.language import (
+    Problems,
+    analyse,
+    check_cycles,
+    may_have_cycles,
+    parse,
+    read_domain,
+    signature_of,
+)
+from asp.language.loading import packaged_domains
 from tests.asp.refinement.levels import level
 
 SIGNATURE = """\

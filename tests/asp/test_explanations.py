@@ -10,7 +10,7 @@ import pytest
 from clingo import Symbol
 
 from asp import load_description
-from asp.solving.solver import fact, first_model, select
+from asp.solving import fact, first_model, select
 from testbed.world.compiled.world import World
 from tests.asp.preferring import ground_story
 from tests.asp.stories import CART, GATE_OPEN, GOAL, lines

@@ -8,10 +8,9 @@ import random
 import pytest
 
 from asp.domains.levels import LevelSize
-from asp.reasoning.fine_planning.incremental import FinePlanner
-from asp.reasoning.fine_planning.reference import NoPlan, physical, plain_plan
-from asp.refinement import Refinement
-from asp.refinement.zooming import zoom_strong
+from asp.reasoning.fine_planning import FinePlanner, NoPlan, physical
+from asp.reasoning.fine_planning.reference import plain_plan
+from asp.refinement import Refinement, zoom_strong
 from tests.asp.fine_problems import FineProblem, drawn_problem, first_shortest, signature
 from tests.asp.refinement.levels import level, of_size
 

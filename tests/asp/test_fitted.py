@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LevelSize
-from asp.reasoning.fine_planning.incremental import FinePlanner
-from asp.reasoning.fine_planning.reference import NoPlan
+from asp.reasoning.fine_planning import FinePlanner, NoPlan
 from asp.refinement import Refinement, load, load_refinement
 from tests.asp.fine_problems import drawn_goal, drawn_problem, drawn_state, first_shortest
 from tests.asp.refinement.levels import level, of_size

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from asp.language import syntax
+from asp.language import analyse, syntax
 from asp.language import variable_sorts as roles
-from asp.language.loading import analyse
 from asp.reasoning.fine_planning.guarded_fluents import comes_true_only_while
 
 HAND = """

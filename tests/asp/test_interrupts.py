@@ -15,7 +15,7 @@ import pytest
 PROGRAM = """
 import os, signal, sys
 import clingo
-from asp.solving.solver import answer_sets, first_model, ground
+from asp.solving import answer_sets, first_model, ground
 
 PIGEONS = '''
 {{ crowd }}.
@@ -87,8 +87,8 @@ def test_an_interrupt_at_any_place_leaves_a_control_usable(
 SWITCHING = """
 import os, signal
 import clingo
-from asp.solving.session import KeptControl
-from asp.solving.solver import fact, first_model
+from asp.solving import KeptControl
+from asp.solving import fact, first_model
 
 ATOMS = [fact("light", number) for number in range(6)]
 kept = KeptControl("#external light(0..5). #show light/1.", "order", [], [], n=1)

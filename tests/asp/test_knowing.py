@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.domains.levels import LevelSize, level_text
-from asp.reasoning.fine_knowledge.incremental import Quick
-from asp.reasoning.fine_knowledge.reference import Inferred, Known, Theory
+from asp.reasoning.fine_knowledge import Known, Quick, Theory
+from asp.reasoning.fine_knowledge.reference import Inferred
 from asp.refinement import load, load_refinement
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language.literals import arguments, name
+from asp.language import arguments, name
 from asp.refinement import Refinement, load
 from asp.refinement.statics import true_statics
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from asp.solving.solver import ground, select
+from asp.solving import ground, select
 from tests.asp.axioms import Without, domain_text, lettered, theory_text
 from tests.asp.stories import CART, failed, lines
 

@@ -10,9 +10,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError
-from asp.language.description import Description
-from asp.language.loading import parse_description
-from asp.reasoning.planning.large.operators import Encoding
+from asp.language import Description, parse_description
+from asp.reasoning.planning import Encoding
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from benchmarks.offices import office
 from benchmarks.search import Search

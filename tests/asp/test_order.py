@@ -9,8 +9,7 @@ import pytest
 from clingo import Symbol
 
 from asp import load_description
-from asp.solving.preference import preferring
-from asp.solving.solver import fact, ground, symbol
+from asp.solving import fact, ground, preferring, symbol
 from tests.asp.axioms import domain_text, lettered, theory_text
 from tests.asp.stories import CART, GATE_OPEN, GOAL, failed, lines, theories_for
 

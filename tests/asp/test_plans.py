@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pytest
 
 from asp import load_description
-from asp.solving.solver import first_model, select
+from asp.solving import first_model, select
 from testbed.world.compiled.world import World
 from tests.asp.preferring import ground_story
 from tests.asp.stories import (

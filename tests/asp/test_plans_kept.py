@@ -8,15 +8,14 @@ from contextlib import suppress
 
 import pytest
 
-from asp.language.description import Description
-from asp.language.loading import analyse, parse_description, read_domain
-from asp.reasoning.planning.incremental import Plans
-from asp.reasoning.planning.large.operators import Encoding
+from asp.language import Description, analyse, parse_description, read_domain
+from asp.reasoning.planning import Encoding, Independence, Plans
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.problem_program import MOST_LEVELS, NarrowPrograms, candidates
 from asp.reasoning.planning.large.search import Spaces
-from asp.reasoning.planning.relevance import Independence, symmetric_pairs
-from asp.solving.budget import Limits, TimeLimitError, deciding
+from asp.reasoning.planning.relevance import symmetric_pairs
+from asp.solving import Limits, deciding
+from asp.solving.budget import TimeLimitError
 from benchmarks.offices import office
 from testbed.world.compiled.world import World
 

@@ -8,14 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp.language.loading import parse_description, read_domain
+from asp.language import parse_description, read_domain
+from asp.reasoning.planning import Encoding, Plans
 from asp.reasoning.planning import incremental as plans
 from asp.reasoning.planning import shared_program as shared
-from asp.reasoning.planning.incremental import Plans
 from asp.reasoning.planning.large import search
-from asp.reasoning.planning.large.operators import Encoding
 from asp.reasoning.planning.large.search import Spaces
-from asp.solving.cache import Recent
+from asp.solving import Recent
 from benchmarks.offices import office
 
 OFFICE = read_domain("office")[1]

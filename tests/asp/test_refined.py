@@ -8,13 +8,11 @@ from typing import cast
 
 import pytest
 
-from asp.language.loading import analyse
+from asp.language import analyse
+from asp.reasoning.fine_planning import FinePlanner, FineStart, Horizons, NoPlan, fine_planner
 from asp.reasoning.fine_planning.horizon import Horizon
-from asp.reasoning.fine_planning.horizon_cache import Horizons
-from asp.reasoning.fine_planning.incremental import FinePlanner, fine_planner
-from asp.reasoning.fine_planning.reference import FineStart, NoPlan
 from asp.refinement import Refinement, load, load_refinement
-from asp.translation.compact import NotCompactError
+from asp.translation import NotCompactError
 from tests.asp.fine_problems import drawn_goal, drawn_state, first_shortest
 from tests.asp.refinement.levels import level
 from tests.asp.refinement.locked import locked_texts

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from asp.language.loading import parse_description
-from asp.reasoning.planning.large.operators import Encoding
+from asp.language import parse_description
+from asp.reasoning.planning import Encoding
 from asp.reasoning.planning.large.search import Spaces
 from benchmarks.offices import office
 from testbed.world.compiled.world import World

@@ -15,15 +15,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asp.solving.budget import Limits, TimeLimitError, deciding
-from asp.solving.solver import (
+from asp.solving import (
+    Limits,
     answer_sets,
     core,
+    deciding,
     first_model,
     ground,
     is_satisfiable,
     optimal_model,
 )
+from asp.solving.budget import TimeLimitError
 
 pytestmark = pytest.mark.versions
 

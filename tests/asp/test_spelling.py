@@ -2,7 +2,8 @@
 
 import pytest
 
-from asp.language.spelling import nearest, suggestion
+from asp.language import suggestion
+from asp.language.spelling import nearest
 
 
 @pytest.mark.parametrize(

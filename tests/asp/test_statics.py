@@ -2,7 +2,8 @@
 
 import pytest
 
-from asp.language.loading import analyse, packaged_domains, parse_description, read_domain
+from asp.language import analyse, parse_description, read_domain
+from asp.language.loading import packaged_domains
 from asp.refinement.statics import true_statics
 from tests.asp.refinement.levels import level
 from tests.asp.stories import CART

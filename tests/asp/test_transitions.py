@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from asp.language.loading import parse_description
+from asp.language import parse_description
 from asp.reasoning.successors import Branch, Transitions
-from asp.translation.literal import translate
+from asp.translation import translate
 from testbed.world.compiled.world import World
 
 TEXT = (Path(__file__).parent / "cart.al").read_text(encoding="utf-8")

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from asp import SourceError, load_description, parse_description
-from asp.language.loading import read_domain
-from asp.translation.literal import translate
+from asp.language import read_domain
+from asp.translation import translate
 from testbed.world.compiled.world import World
 from tests.asp.axioms import THEORIES, domain_text, theory_text
 from tests.asp.cases_of_candidates import CASES as CANDIDATES

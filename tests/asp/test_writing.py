@@ -8,10 +8,8 @@ from typing import Any
 
 import pytest
 
-from asp.language import syntax
-from asp.language.loading import packaged_domains, read_domain
-from asp.language.parser import parse
-from asp.language.writer import text_of
+from asp.language import parse, read_domain, syntax, text_of
+from asp.language.loading import packaged_domains
 from tests.asp.refinement.levels import level
 from tests.asp.stories import CART
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from agents.shared.knowledge import goal_facts
-from asp.solving.solver import answer_sets, fact, ground, theory
+from asp.solving import answer_sets, fact, ground, theory
 from benchmarks import joint_growth
 from benchmarks.joint_growth import SIDES, draw, measure
 from benchmarks.vanished import Vanished

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from clingo.ast import AST, ASTType, parse_string
 
-from asp.solving.solver import theory
+from asp.solving import theory
 from benchmarks import mutation, statements
 from benchmarks.exercised import EXERCISED
 from benchmarks.mutants import ROOT, check_killers

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from asp.language.loading import load_description, parse_description
+from asp.language import load_description, parse_description
 from benchmarks.offices import MAPS, office
 from testbed.world.compiled.world import World
 

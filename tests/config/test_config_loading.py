@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 import asp
-from asp.language.loading import load_description
+from asp.language import load_description
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.models import AdversarySettings, Limits, Observability
 from testbed.config.packaged import find_config

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asp.domains.levels import level_text
-from asp.language.loading import read_domain
+from asp.language import read_domain
 from asp.refinement import Refinement, load
 from testbed.environment.core import FINISH, NONE, WAIT, Core
 from testbed.environment.fine import RandomStart, fine_core, fine_world

@@ -5,7 +5,7 @@ import pytest
 
 from asp import load_description, parse_description
 from asp.domains.levels import level_text
-from asp.language.loading import read_domain
+from asp.language import read_domain
 from asp.refinement import load
 from testbed.environment.core import Core
 from testbed.environment.fine import fine_core

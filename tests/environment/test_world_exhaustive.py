@@ -9,7 +9,7 @@ from itertools import product
 import pytest
 
 from asp import load_description
-from asp.translation.literal import translate
+from asp.translation import translate
 from testbed.world.compiled.world import World
 from tests.environment import diagram
 

@@ -10,7 +10,7 @@ from hypothesis import assume, event, example, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError, parse_description
-from asp.translation.literal import translate
+from asp.translation import translate
 from testbed.world.compiled.world import World
 from tests.environment import diagram
 

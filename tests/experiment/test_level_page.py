@@ -11,7 +11,7 @@ from testbed.experiment.digest import digest
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import PROVENANCE, TrialWriter, read_records, write_config
-from testbed.studies.levels.__main__ import main
+from papers.levels.__main__ import main
 from testbed.studies.levels.published import NO_ZOOM, ZOOM
 from testbed.text.markdown import WIDTH, paragraph
 from tests.experiment.samples import a_level_record

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LEVELS, level_text
-from asp.language.literals import name
+from asp.language import name
 from asp.refinement import load
 from benchmarks.own import Own
 from testbed.environment.fine import fine_world

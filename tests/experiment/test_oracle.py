@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from asp.domains.levels import level_text
-from asp.language.grounding import ground_description
-from asp.language.loading import analyse
+from asp.language import analyse, ground_description
 from testbed.environment.goals import RandomGoal
 from testbed.experiment.domains import load_world
 from testbed.experiment.oracle import Oracle, minimal_actions, minimal_units, shortest_plan

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.language.loading import read_domain
+from asp.language import read_domain
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot

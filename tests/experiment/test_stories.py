@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.language.literals import arguments
+from asp.language import arguments
 from testbed.config import load_config
 from testbed.experiment.record import Activity, TrialRecord
 from testbed.experiment.runner import run_trials

@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from itertools import product
 
-from asp.language import syntax
+from asp.language import (
+    Signature,
+    arguments,
+    atom,
+    complement,
+    ground,
+    name,
+    syntax,
+    variable_domains,
+)
 from asp.language import variable_sorts as roles
-from asp.language.checker import variable_domains
-from asp.language.literals import arguments, atom, complement, ground, name
-from asp.language.signature import Signature
-from asp.refinement import Refinement
-from asp.refinement.observation import TRUE
+from asp.refinement import TRUE, Refinement
 
 _TEST, _CAN_TEST = "test_", "can_test_"
 

@@ -6,8 +6,8 @@ from collections.abc import Collection, Iterable
 from itertools import chain
 
 from agents.intentional.executor.compiled import means_of
-from asp.language.literals import arguments, atom, complement
-from asp.reasoning.fine_knowledge.reference import Known
+from asp.language import arguments, atom, complement
+from asp.reasoning.fine_knowledge import Known
 from asp.refinement import Refinement
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from agents.intentional.executor.coarse_model import State
 from agents.intentional.executor.state import Mind
 from agents.intentional.executor.step_numbers import Calendar
-from asp.language.literals import atom, complement
+from asp.language import atom, complement
 from testbed.protocol.messages import Event, Percept
 
 

@@ -12,21 +12,17 @@ from agents.intentional.executor.action_laws import (
     conditions,
     direct_effects,
 )
-from asp.language.functions import Function, functions, subject
-from asp.language.literals import name
-from asp.reasoning.fine_knowledge.incremental import Quick
-from asp.reasoning.fine_knowledge.reference import Theory
-from asp.reasoning.fine_planning.horizon_cache import Horizons
-from asp.reasoning.fine_planning.incremental import (
+from asp.language import Function, functions, name, subject
+from asp.reasoning.fine_knowledge import Quick, Theory
+from asp.reasoning.fine_planning import (
     MOST_STEPS,
     FinePlanner,
+    Horizons,
     LiteralPlanner,
     fine_planner,
 )
-from asp.refinement import Refinement
-from asp.refinement.refining import shared_places
-from asp.solving.cache import Recent
-from asp.solving.clock import preparation
+from asp.refinement import Refinement, shared_places
+from asp.solving import Recent, preparation
 
 MOST_REFINEMENTS = 16
 """Of how many refinements this is kept: those that were used last."""

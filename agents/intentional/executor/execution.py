@@ -6,9 +6,9 @@ from collections.abc import Generator, Iterable, Sequence
 
 from agents.intentional.executor.sensing import Looking
 from agents.intentional.executor.state import Mind
-from asp.language.literals import arguments, atom, complement, is_positive
-from asp.refinement.zooming import Transition, fine_goal, relevant
-from asp.solving.budget import LimitError, deciding
+from asp.language import arguments, atom, complement, is_positive
+from asp.refinement import Transition, fine_goal, relevant
+from asp.solving import LimitError, deciding
 from testbed.protocol.messages import Percept
 
 Steps = Generator[str, Percept, bool]

@@ -6,7 +6,7 @@ from collections.abc import Collection, Generator, Iterable
 from typing import TypeVar
 
 from agents.intentional.executor.state import Mind
-from asp.language.literals import arguments, atom, complement, is_positive
+from asp.language import arguments, atom, complement, is_positive
 from testbed.protocol.messages import Percept
 
 T = TypeVar("T")

@@ -9,10 +9,9 @@ from agents.intentional.executor.coarse_model import CoarseDiagram
 from agents.intentional.executor.compiled import means_of
 from agents.intentional.executor.trace import Tally
 from agents.shared.limits import limits_of
-from asp.language.literals import arguments, atom, is_positive, name
-from asp.reasoning.fine_planning.reference import FineStart, NoPlan
-from asp.refinement import Refinement
-from asp.refinement.zooming import fine_constants
+from asp.language import arguments, atom, is_positive, name
+from asp.reasoning.fine_planning import FineStart, NoPlan
+from asp.refinement import Refinement, fine_constants
 from testbed.protocol.messages import Percept, Task
 
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from msgspec import structs
 
-from asp.solving.clock import Reading, reasoning_clock
+from asp.solving import Reading, reasoning_clock
 from testbed.protocol.messages import FineTrace
 
 

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import clingo
 from clingo import Symbol
 
-from asp.language.literals import atom, is_positive
-from asp.solving.session import KeptControl, State
-from asp.solving.solver import fact
+from asp.language import atom, is_positive
+from asp.solving import KeptControl, State, fact
 
 Happening = tuple[int, str]
 """An exogenous action at a step."""

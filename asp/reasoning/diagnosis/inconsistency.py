@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from clingo import Symbol
 
-from asp.language.literals import atom, is_positive
-from asp.solving.solver import core, fact, ground, optimal_model, select, theory
+from asp.language import atom, is_positive
+from asp.solving import core, fact, ground, optimal_model, select, theory
 
 
 def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...] | None:

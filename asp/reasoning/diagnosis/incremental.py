@@ -17,10 +17,15 @@ from asp.reasoning.diagnosis.encoding import (
     externals,
     observations,
 )
-from asp.solving.cache import Recent
-from asp.solving.preference import preferring
-from asp.solving.session import KeptControl, goal_externals
-from asp.solving.solver import answer_sets, is_satisfiable, theory
+from asp.solving import (
+    KeptControl,
+    Recent,
+    answer_sets,
+    goal_externals,
+    is_satisfiable,
+    preferring,
+    theory,
+)
 
 _FIRST_HORIZON = 16
 _FEW, _MANY = 4, 16

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 
-from asp.language.literals import arguments, atom, complement, ground, is_positive, name
+from asp.language import arguments, atom, complement, ground, is_positive, name
 from asp.reasoning.fine_knowledge.reference import Known
 from asp.reasoning.fine_knowledge.simple_laws import SimpleLaws
 from asp.refinement import Refinement

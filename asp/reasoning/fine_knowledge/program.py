@@ -10,11 +10,9 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
-from asp.language import syntax
+from asp.language import Signature, ground, syntax
 from asp.language import variable_sorts as roles
-from asp.language.literals import ground
-from asp.language.signature import Signature
-from asp.translation.rules import condition, rule, term_text
+from asp.translation import condition, rule, term_text
 
 Laws = Collection[syntax.StateConstraint]
 

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 
 from clingo import Symbol
 
-from asp.language.literals import arguments, atom, is_positive
-from asp.language.restriction import narrowed, restrict
+from asp.language import arguments, atom, is_positive, narrowed, restrict
 from asp.reasoning.fine_knowledge.program import inference_program
 from asp.refinement import Refinement
-from asp.solving.cache import Recent
-from asp.solving.solver import fact, first_model, ground, theory
+from asp.solving import Recent, fact, first_model, ground, theory
 
 _REMEMBERED = 64
 

@@ -6,12 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import product
 
-from asp.language import syntax
+from asp.language import Signature, arguments, ground, name, syntax, variable_domains
 from asp.language import variable_sorts as roles
-from asp.language.checker import variable_domains
-from asp.language.literals import arguments, ground, name
-from asp.language.signature import Signature
-from asp.refinement.refining import shared_places
+from asp.refinement import shared_places
 
 
 class SimpleLaws:

@@ -8,11 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
-from asp.language import syntax
-from asp.language.literals import arguments, ground, renamed
-from asp.language.signature import Signature
-from asp.translation.compact import compact
-from asp.translation.program_parts import BASE, OPEN, STATE, STEP, Rule, plain
+from asp.language import Signature, arguments, ground, renamed, syntax
+from asp.translation import BASE, OPEN, STATE, STEP, Rule, compact, plain
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,8 @@ from itertools import chain
 import clingo
 from clingo import Function, Number, Symbol
 
-from asp.language.literals import atom, is_positive
-from asp.solving.clock import preparation
-from asp.solving.solver import ground, solving, symbol, theory
+from asp.language import atom, is_positive
+from asp.solving import ground, preparation, solving, symbol, theory
 
 MOST_LEVELS = 32_767  # of decisions, that clasp tells apart
 

@@ -7,11 +7,16 @@ from collections.abc import Iterable
 from functools import lru_cache, partial
 from itertools import chain
 
-from asp.language import syntax
-from asp.language.functions import functions, subject
-from asp.language.literals import arguments, ground
-from asp.language.restriction import narrowed, restrict
-from asp.language.signature import Signature
+from asp.language import (
+    Signature,
+    arguments,
+    functions,
+    ground,
+    narrowed,
+    restrict,
+    subject,
+    syntax,
+)
 from asp.reasoning.fine_planning.abstraction import Narrow, Narrower
 from asp.reasoning.fine_planning.horizon_cache import Horizons
 from asp.reasoning.fine_planning.large.problem_program import Problem
@@ -25,7 +30,7 @@ from asp.reasoning.fine_planning.reference import (
     plain_plan,
 )
 from asp.reasoning.fine_planning.restricted_domain import FineDomain
-from asp.translation.compact import NotCompactError
+from asp.translation import NotCompactError
 
 _MOST_NARROWED = 1_000
 LARGEST_KEPT = 2_000  # constants times steps of a control

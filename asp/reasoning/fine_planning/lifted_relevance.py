@@ -12,12 +12,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from asp.language import syntax
+from asp.language import Signature, arguments, named, syntax, variable_domains, without_exogenous
 from asp.language import variable_sorts as roles
-from asp.language.checker import variable_domains
-from asp.language.literals import arguments
-from asp.language.restriction import named, without_exogenous
-from asp.language.signature import Signature
 from asp.reasoning.fine_planning.guarded_fluents import comes_true_only_while
 
 Law = syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition

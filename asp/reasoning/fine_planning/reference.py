@@ -9,12 +9,9 @@ from itertools import product
 
 from clingo import Symbol
 
-from asp.language import literals, syntax
-from asp.language.functions import Function, functions, subject
-from asp.language.signature import Signature
-from asp.solving.solver import fact, first_model, ground, select, theory
-from asp.translation.literal import translate_source
-from asp.translation.rules import term_text
+from asp.language import Function, Signature, functions, literals, subject, syntax
+from asp.solving import fact, first_model, ground, select, theory
+from asp.translation import term_text, translate_source
 
 FinePlan = tuple[str, ...]
 """Concrete actions, in order."""

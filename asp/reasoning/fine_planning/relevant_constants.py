@@ -11,11 +11,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from asp.language.literals import arguments
+from asp.language import arguments
 from asp.reasoning.fine_planning.large.function_values import Valued
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach
 from asp.reasoning.fine_planning.large.value_pruning import Values
-from asp.translation.program_parts import ACTION, STATE, STEP, Rule
+from asp.translation import ACTION, STATE, STEP, Rule
 
 _VARIABLE = re.compile(r"\b[A-Z]\w*")
 _SORT = re.compile(r"(\w+)\((\w+)\)")

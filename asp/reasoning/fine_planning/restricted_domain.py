@@ -6,8 +6,7 @@ from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
 
-from asp.language.functions import Function
-from asp.language.literals import arguments
+from asp.language import Function, arguments
 from asp.reasoning.fine_planning.abstraction import Narrow, Narrower
 from asp.reasoning.fine_planning.horizon import Horizon
 from asp.reasoning.fine_planning.large.function_values import Valued, valued
@@ -15,8 +14,8 @@ from asp.reasoning.fine_planning.large.problem_program import Problem, fitted_pl
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
 from asp.reasoning.fine_planning.large.value_pruning import Values, confined
 from asp.reasoning.fine_planning.relevant_constants import in_play, loose
-from asp.translation.program_parts import BASE
-from asp.translation.program_parts import confined as worded
+from asp.translation import BASE
+from asp.translation import confined as worded
 
 
 class FineDomain:

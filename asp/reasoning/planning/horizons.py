@@ -13,16 +13,13 @@ from itertools import pairwise
 
 from clingo import Symbol
 
-from asp.language.description import Description
-from asp.language.literals import arguments
+from asp.language import Description, arguments
 from asp.reasoning.planning.large.operators import Encoding
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.problem_program import MOST_LEVELS, NarrowPrograms
 from asp.reasoning.planning.large.search import Bounds, Spaces
 from asp.reasoning.planning.shared_program import SharedPrograms, horizon_of
-from asp.solving.budget import LimitError, current
-from asp.solving.session import State
-from asp.solving.solver import fact
+from asp.solving import LimitError, State, current, fact
 
 MOST_STATES = 2**24
 """The largest number of states of which sets are made: bits of memory for each set."""

@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from asp.language.grounding import ground_description
-from asp.language.literals import arguments, renamed
-from asp.language.loading import analyse, parse_description
-from asp.language.restriction import narrowed, restrict, without_exogenous
+from asp.language import (
+    analyse,
+    arguments,
+    ground_description,
+    narrowed,
+    parse_description,
+    renamed,
+    restrict,
+    without_exogenous,
+)
 from asp.reasoning.planning.horizons import Planner
 from asp.reasoning.planning.relevance import Independence, symmetric_pairs
-from asp.solving.cache import Recent
-from asp.solving.clock import preparation
-from asp.solving.session import State
-from asp.translation.literal import translate_source
+from asp.solving import Recent, State, preparation
+from asp.translation import translate_source
 
 MOST_PARTS = 16
 """Of how many parts of a domain planners are kept: those that were used last."""

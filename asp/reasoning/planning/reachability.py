@@ -7,12 +7,20 @@ from collections.abc import Iterable, Iterator
 import clingo
 from clingo import Symbol
 
-from asp.language.description import Causal, Constraint, Description
-from asp.language.literals import atom, is_positive
+from asp.language import Causal, Constraint, Description, atom, is_positive
 from asp.reasoning.planning.incremental import Plans
-from asp.solving.cache import Answers
-from asp.solving.session import KeptControl, State
-from asp.solving.solver import answer_sets, core, fact, ground, is_satisfiable, symbol, theory
+from asp.solving import (
+    Answers,
+    KeptControl,
+    State,
+    answer_sets,
+    core,
+    fact,
+    ground,
+    is_satisfiable,
+    symbol,
+    theory,
+)
 
 _MOST_STATES = 2_000
 

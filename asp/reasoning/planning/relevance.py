@@ -13,11 +13,16 @@ from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 from itertools import pairwise
 
-from asp.language import syntax
-from asp.language.description import Description
-from asp.language.literals import arguments, atom, complement, is_positive
-from asp.language.restriction import named
-from asp.language.signature import Signature
+from asp.language import (
+    Description,
+    Signature,
+    arguments,
+    atom,
+    complement,
+    is_positive,
+    named,
+    syntax,
+)
 
 
 class Independence:

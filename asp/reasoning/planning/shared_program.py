@@ -7,11 +7,9 @@ from collections.abc import Iterable, Sequence
 import clingo
 from clingo import Symbol
 
-from asp.language.description import Description
+from asp.language import Description
 from asp.reasoning.planning.large.problem_program import SHORTEST, candidates
-from asp.solving.cache import Recent
-from asp.solving.session import KeptControl, State, goal_externals
-from asp.solving.solver import fact, is_satisfiable, solving
+from asp.solving import KeptControl, Recent, State, fact, goal_externals, is_satisfiable, solving
 
 MOST_LENGTHS = 40
 """Of how many lengths of plans controls are kept: those that were used last.

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
+from asp.language import Description
 from asp.language import literals as text
-from asp.language.description import Description
 from testbed.environment.core import Core
 from testbed.world.layout import Layout, layout, pairs
 

@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from typing import TypeAlias
 
+from asp.language import Trigger
 from asp.language import literals as text
-from asp.language.description import Trigger
 from testbed.environment.core import NONE
 from testbed.experiment.record import TrialRecord
 from testbed.world.compiled.world import World

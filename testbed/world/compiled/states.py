@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from asp.language.description import Description
+from asp.language import Description
 from testbed.world.closure import Closure, Rule, UnknownFluentError, Vocabulary
 from testbed.world.errors import StateError
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from asp.language.description import Description
+from asp.language import Description
 from testbed.world.closure import Rule
 from testbed.world.compiled.states import StateSpace
 from testbed.world.errors import NotExecutableError, UnknownActionError

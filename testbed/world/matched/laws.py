@@ -6,9 +6,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from asp.language import syntax
-from asp.language.checker import variable_domains
-from asp.language.signature import Signature
+from asp.language import Signature, syntax, variable_domains
 from testbed.world.matched.facts import Facts, GroundAtom, GroundLiteral, Truth
 from testbed.world.matched.joins import (
     Arg,

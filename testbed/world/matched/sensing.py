@@ -11,10 +11,8 @@ from functools import lru_cache
 from itertools import product
 from typing import Self
 
-from asp.language import syntax
+from asp.language import Signature, ground, syntax
 from asp.language import variable_sorts as roles
-from asp.language.literals import ground
-from asp.language.signature import Signature
 from testbed.world.matched.facts import Facts, GroundAtom, atom_of_text, text_of_atom
 from testbed.world.matched.laws import Instance, Pattern, Reader
 from testbed.world.matched.world import SparseWorld

@@ -10,11 +10,8 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
+from asp.language import Description, Signature, ground_description, syntax
 from asp.language import literals as text
-from asp.language import syntax
-from asp.language.description import Description
-from asp.language.grounding import ground_description
-from asp.language.signature import Signature
 from testbed.world.closure import UnknownFluentError
 from testbed.world.errors import StateError
 from testbed.world.matched.change import Change

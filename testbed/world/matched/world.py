@@ -11,9 +11,7 @@ from functools import lru_cache
 from itertools import product
 from typing import Self
 
-from asp.language import syntax
-from asp.language.loading import analyse
-from asp.language.signature import Signature
+from asp.language import Signature, analyse, syntax
 from testbed.world.errors import NotExecutableError, UnknownActionError
 from testbed.world.matched.change import Change
 from testbed.world.matched.facts import (

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from msgspec import structs
 
-from asp.language.loading import load_description, read_domain
+from asp.language import load_description, read_domain
 from testbed.protocol.messages import Decision, Event, Percept, Task
 from testbed.protocol.robot import Robot
 from testbed.world.compiled.world import World

@@ -14,8 +14,8 @@ from agents.intentional.controller import IntentionalRobot
 from agents.shared import sessions as tools
 from agents.shared.knowledge import knowledge
 from agents.shared.sessions import Tools, tools_of
-from asp.language.loading import parse_description
-from asp.solving.cache import Recent
+from asp.language import parse_description
+from asp.solving import Recent
 from testbed.experiment.oracle import minimal_actions
 from testbed.protocol.messages import Task
 from testbed.protocol.robot import Robot

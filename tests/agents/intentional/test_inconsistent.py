@@ -7,8 +7,8 @@ import pytest
 from agents.shared.diagnosis import InconsistentHistoryError
 from agents.shared.history import History
 from agents.shared.knowledge import goal_facts
-from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict
-from asp.solving.solver import fact
+from asp.reasoning.diagnosis import cannot_hold, conflict
+from asp.solving import fact
 from tests.agents.intentional.test_reports import CART, Make, Mind, both
 
 

@@ -16,8 +16,8 @@ from agents.intentional.reference import Logician
 from agents.shared.diagnosis import InconsistentHistoryError
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import goal_facts, knowledge
-from asp.language.literals import complement
-from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict
+from asp.language import complement
+from asp.reasoning.diagnosis import cannot_hold, conflict
 from tests.agents.intentional.test_joint_lives import ONE_BOOK, WORLD
 
 OFFICE = knowledge("office", ONE_BOOK)

@@ -13,7 +13,7 @@ from agents.intentional.reference import Logician
 from agents.shared.diagnosis import Explained
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge
-from asp.language.loading import parse_description
+from asp.language import parse_description
 from benchmarks.offices import office
 from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import Place, Wish, live, place

@@ -14,7 +14,7 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.memory import PACE
-from asp.reasoning.diagnosis.long_histories.compression import Pace
+from asp.reasoning.diagnosis import Pace
 from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,

@@ -13,7 +13,7 @@ from msgspec import structs
 from agents.intentional.abstraction import Leaned, LeanRobot
 from agents.intentional.controller import IntentionalRobot
 from asp.domains.levels import level_text
-from asp.language.loading import parse_description
+from asp.language import parse_description
 from testbed.protocol.messages import Decision, Event, Task
 from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import OFFICE, Place, Wish, live

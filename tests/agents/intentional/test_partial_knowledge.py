@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reference import Logician
-from asp.language.loading import parse_description
+from asp.language import parse_description
 from testbed.protocol.messages import Decision
 from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import Place, Wish, live, place

@@ -17,10 +17,8 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from agents.shared.sessions import tools_of
-from asp.reasoning.planning.incremental import Plans
-from asp.reasoning.planning.reachability import Reach
-from asp.solving.budget import Limits
-from asp.solving.solver import ground, select, theory
+from asp.reasoning.planning import Plans, Reach
+from asp.solving import Limits, ground, select, theory
 from testbed.protocol.messages import Decision, Event, Percept, Task
 from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, DOMAIN, SOURCE, WORLD, Wish, live

@@ -12,7 +12,8 @@ from agents.intentional.incremental import KeptLogician
 from agents.intentional.reference import Logician
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
-from asp.solving.budget import Limits, TimeLimitError, deciding
+from asp.solving import Limits, deciding
+from asp.solving.budget import TimeLimitError
 
 SOURCE = (Path(__file__).parents[2] / "asp" / "cart.al").read_text(encoding="utf-8")
 CART = knowledge("cart", SOURCE)

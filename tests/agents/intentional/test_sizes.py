@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from asp.language.loading import parse_description
+from asp.language import parse_description
 from benchmarks.offices import book_names, office
 from testbed.world.compiled.world import World
 from tests.agents.intentional.lives import Place, Wish, live

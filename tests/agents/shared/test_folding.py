@@ -13,11 +13,9 @@ from agents.shared.believing import Believer
 from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge, knowledge
 from agents.shared.memory import PACE
-from asp.reasoning.diagnosis.encoding import Account, Assumed, Past
+from asp.reasoning.diagnosis import Account, Assumed, Pace, Past, Windows
 from asp.reasoning.diagnosis.long_histories import frontier
-from asp.reasoning.diagnosis.long_histories.compression import Pace
 from asp.reasoning.diagnosis.long_histories.frontier import Frontier
-from asp.reasoning.diagnosis.long_histories.suffix_explanations import Windows
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.agents.shared.wandering import Habits, wander
 

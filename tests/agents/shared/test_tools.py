@@ -13,10 +13,8 @@ from agents.intentional.checking import CheckingRobot, to_be_sure
 from agents.shared import sessions as tools
 from agents.shared.knowledge import knowledge
 from agents.shared.sessions import Tools, tools_of
-from asp.language.description import Description
-from asp.language.loading import MOST_TEXTS, parse_description
-from asp.solving.cache import Recent
-from asp.solving.session import KeptControl
+from asp.language import MOST_TEXTS, Description, parse_description
+from asp.solving import KeptControl, Recent
 from testbed.protocol.messages import Task
 from tests.agents.intentional.lives import OFFICE, live
 

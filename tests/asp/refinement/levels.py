@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.refinement import Refinement, load
-from asp.refinement.zooming import Transition
+from asp.refinement import Refinement, Transition, load
 from testbed.world.compiled.world import World
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from asp.language.loading import read_domain
+from asp.language import read_domain
 
 _FINE = """\
 magnify

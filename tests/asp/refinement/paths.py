@@ -8,12 +8,10 @@ from functools import cache
 
 import clingo
 
-from asp.language import syntax
-from asp.language.literals import arguments, atom, complement, is_positive
-from asp.language.signature import Problems, signature_of
+from asp.language import Problems, arguments, atom, complement, is_positive, signature_of, syntax
 from asp.refinement import Refinement
-from asp.solving.solver import first_model, ground, solving, symbol
-from asp.translation.literal import translate_source
+from asp.solving import first_model, ground, solving, symbol
+from asp.translation import translate_source
 
 _TRUE = 1  # the literal that every program of clingo has for what is true
 _ONE_ACTION = """

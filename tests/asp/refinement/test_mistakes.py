@@ -7,9 +7,8 @@ from pathlib import Path
 import pytest
 
 from asp import SourceError
-from asp.language.loading import read_domain
-from asp.refinement import load, load_refinement
-from asp.refinement.reading import read_refinement
+from asp.language import read_domain
+from asp.refinement import load, load_refinement, read_refinement
 
 COARSE = read_domain("level")[1]
 FINE = read_refinement("level.fine")[1]

@@ -10,7 +10,7 @@ import pytest
 from asp import parse_description
 from asp.domains.levels import LevelSize, level_text
 from asp.refinement import load
-from asp.translation.literal import translate
+from asp.translation import translate
 from testbed.world.compiled.world import World
 from tests.asp.diagrams import after
 from tests.asp.refinement.levels import of_size

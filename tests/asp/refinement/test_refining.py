@@ -11,11 +11,10 @@ import pytest
 
 from asp import parse_description
 from asp.domains.levels import LevelSize, level_text
-from asp.language.loading import analyse
-from asp.refinement import Refinement, load, load_refinement
+from asp.language import analyse
+from asp.refinement import Refinement, load, load_refinement, shared_places
 from asp.refinement.language import parse_fine
-from asp.refinement.refining import shared_places
-from asp.translation.literal import translate_source
+from asp.translation import translate_source
 from testbed.world.compiled.world import World
 from tests.asp.diagrams import warnings_of
 from tests.asp.refinement.levels import level, of_size

@@ -8,23 +8,31 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp.language import syntax
-from asp.language.grounding import ground_description
+from asp.language import (
+    Problems,
+    Signature,
+    arguments,
+    atom,
+    complement,
+    ground,
+    ground_description,
+    is_positive,
+    restrict,
+    signature_of,
+    syntax,
+)
 from asp.language.instances import Instances
-from asp.language.literals import arguments, atom, complement, ground, is_positive
-from asp.language.restriction import restrict
-from asp.language.signature import Problems, Signature, signature_of
-from asp.refinement import Refinement, load_refinement
-from asp.refinement.zooming import (
+from asp.refinement import (
+    Refinement,
     Transition,
     fine_constants,
     fine_goal,
+    load_refinement,
     relevant,
-    zoom_coarse,
     zoom_strong,
-    zoom_weak,
 )
-from asp.translation.literal import translate_source
+from asp.refinement.zooming import zoom_coarse, zoom_weak
+from asp.translation import translate_source
 from testbed.world.compiled.world import World
 from tests.asp.diagrams import warnings_of
 from tests.asp.refinement.levels import level, transitions

@@ -8,8 +8,7 @@ import pytest
 
 from asp import parse_description
 from asp.domains.levels import level_text
-from asp.language.grounding import ground_description
-from asp.language.loading import read_domain
+from asp.language import ground_description, read_domain
 from asp.refinement import load
 from testbed.world.closure import UnknownFluentError
 from testbed.world.compiled.world import World

@@ -8,7 +8,7 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import write_config
-from testbed.report.__main__ import main
+from papers.__main__ import main
 
 SVG = "{http://www.w3.org/2000/svg}"
 RUNS = {

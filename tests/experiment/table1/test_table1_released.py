@@ -11,7 +11,7 @@ from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records, write_config
-from testbed.studies.table1.__main__ import main
+from papers.table1.__main__ import main
 from testbed.studies.table1.published import SCENARIOS
 from testbed.studies.table1.runs import Run, read_run, released_weights
 

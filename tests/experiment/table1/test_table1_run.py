@@ -13,7 +13,7 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records, write_config
-from testbed.studies.table1.__main__ import main
+from papers.table1.__main__ import main
 from testbed.studies.table1.pairing import pairs_of
 
 SMALL = ["limit=4", "repeats=2", "scenario_settings={}"]

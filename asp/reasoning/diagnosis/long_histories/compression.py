@@ -10,7 +10,7 @@ from asp.reasoning.diagnosis.long_histories.frontier import Frontier
 from asp.reasoning.diagnosis.long_histories.prefix_explanations import steps
 from asp.reasoning.diagnosis.long_histories.suffix_explanations import MOST_ENTRIES, Windows
 from asp.reasoning.successors import Transitions
-from asp.solving.session import State
+from asp.solving import State
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from asp.language.literals import atom, is_positive
+from asp.language import atom, is_positive
 from asp.reasoning.diagnosis.encoding import Record
 from asp.reasoning.diagnosis.long_histories.prefix_explanations import Prefix
 from asp.reasoning.successors import Branch, Transitions
-from asp.solving.session import State
+from asp.solving import State
 
 REMEMBERED = 4_000
 _WORK_OF_A_STEP, _WORK_OF_A_CALL = 16, 2

@@ -20,10 +20,15 @@ from asp.reasoning.diagnosis.encoding import (
 from asp.reasoning.diagnosis.long_histories.frontier import Frontier
 from asp.reasoning.diagnosis.long_histories.prefix_explanations import steps
 from asp.reasoning.diagnosis.long_histories.suffix import MOST_MORE, Question
-from asp.solving.preference import preferring
-from asp.solving.session import KeptControl, goal_externals
-from asp.solving.signals import undisturbed
-from asp.solving.solver import answer_sets, fact, theory
+from asp.solving import (
+    KeptControl,
+    answer_sets,
+    fact,
+    goal_externals,
+    preferring,
+    theory,
+    undisturbed,
+)
 
 LENGTH = 24
 """How many steps the end of a history may have."""

@@ -6,10 +6,9 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from asp.language.functions import Function
-from asp.language.literals import arguments, ground, name
+from asp.language import Function, arguments, ground, name
 from asp.reasoning.fine_planning.large.relaxed_reachability import Relaxed
-from asp.translation.program_parts import ACTION
+from asp.translation import ACTION
 
 
 @dataclass(frozen=True)

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import clingo
 from clingo import Number
 
-from asp.language.literals import atom, is_positive
+from asp.language import atom, is_positive
 from asp.reasoning.fine_planning.horizon import MOST_LEVELS, parts, read
-from asp.solving.solver import ground, solving, theory
+from asp.solving import ground, solving, theory
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 import clingo
 from clingo import Number
 
-from asp.language.literals import is_positive
+from asp.language import is_positive
 from asp.reasoning.fine_planning.large.relaxed_rules import Clauses, Graph, Spread
-from asp.solving.clock import preparation
-from asp.solving.solver import theory
+from asp.solving import preparation, theory
 
 
 class Relaxed:

@@ -11,8 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from asp.language.description import Description
-from asp.language.literals import atom, complement, is_positive
+from asp.language import Description, atom, complement, is_positive
 from asp.reasoning.planning.large.outcomes import Laws, NotEncodableError
 from asp.reasoning.planning.large.variables import Law
 

@@ -22,7 +22,7 @@ from asp.reasoning.planning.large.variables import (
     truth_of,
     unknown_in,
 )
-from asp.solving.budget import current
+from asp.solving import current
 
 MOST_BRANCHES = 50_000
 """How many combinations of values are looked at, all actions of a description together."""

@@ -11,10 +11,19 @@ from collections.abc import Iterable, Iterator, Sequence
 import clingo
 from clingo import Symbol
 
-from asp.language.description import Description
-from asp.solving.session import State, goal_externals
-from asp.solving.solver import fact, ground, is_satisfiable, select, solving, symbol, theory
-from asp.translation.literal import AWARENESS
+from asp.language import Description
+from asp.solving import (
+    State,
+    fact,
+    goal_externals,
+    ground,
+    is_satisfiable,
+    select,
+    solving,
+    symbol,
+    theory,
+)
+from asp.translation import AWARENESS
 
 SHORTEST = clingo.Function("shortest")
 MOST_LEVELS = 32_767

@@ -14,8 +14,7 @@ from math import prod
 
 from asp.reasoning.planning.large.operators import Encoding
 from asp.reasoning.planning.large.state_sets import Space, StateSet
-from asp.solving.cache import Recent
-from asp.solving.clock import preparation
+from asp.solving import Recent, preparation
 
 MOST_SPACES = 16
 """How many spaces of an encoding are kept: those that were used last."""

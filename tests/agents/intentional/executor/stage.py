@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 
-from asp.language.literals import complement, name
+from asp.language import complement, name
 from asp.refinement import Refinement
 from testbed.environment.fine import fine_world
 from testbed.protocol.messages import Decision, Event, FineTrace, Percept, Task

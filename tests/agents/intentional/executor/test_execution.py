@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from agents.intentional.executor.state import Mind
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
-from asp.language.loading import read_domain
+from asp.language import read_domain
 from asp.refinement import Refinement, load
 from asp.solving.budget import OUT_OF_TIME, TimeLimitError
 from testbed.protocol.messages import Task

@@ -12,10 +12,10 @@ from agents.intentional.executor import compiled as means
 from agents.intentional.executor.compiled import Means, means_of
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
+from asp.reasoning.fine_planning import Horizons
 from asp.reasoning.fine_planning.horizon import Horizon
-from asp.reasoning.fine_planning.horizon_cache import Horizons
 from asp.refinement import Refinement, load
-from asp.solving.cache import Recent
+from asp.solving import Recent
 from tests.agents.intentional.executor.stage import TEXTS, play
 
 GOAL = ["loc(object1,room2)"]

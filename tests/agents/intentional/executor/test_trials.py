@@ -9,10 +9,8 @@ from agents.adversary.base import AdversaryView
 from agents.adversary.random import Random
 from agents.intentional.refined import EitherRobot
 from asp.domains.levels import LEVELS, level_text
-from asp.language.literals import complement
-from asp.language.loading import read_domain
-from asp.refinement import load
-from asp.refinement.reading import read_refinement
+from asp.language import complement, read_domain
+from asp.refinement import load, read_refinement
 from testbed.environment.fine import RandomStart, fine_core, fine_world
 from testbed.environment.rules import Observability, Rules
 from testbed.environment.situation import Ending

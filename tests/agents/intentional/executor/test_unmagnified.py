@@ -10,10 +10,10 @@ import pytest
 
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
-from asp.language.loading import read_domain
-from asp.reasoning.fine_planning.incremental import FinePlanner
+from asp.language import read_domain
+from asp.reasoning.fine_planning import FinePlanner
 from asp.refinement import Refinement, load
-from asp.translation.compact import NotCompactError
+from asp.translation import NotCompactError
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
 
 
