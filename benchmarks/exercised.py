@@ -7,14 +7,14 @@ from collections.abc import Mapping
 _LIVES = "tests/agents/intentional/test_kept.py"
 _PREFERENCES = "tests/agents/intentional/test_preferences.py"
 _REPORTS = "tests/agents/intentional/test_reports.py"
-_AXIOMS = "tests/asp/test_axioms.py"
-_EXPLANATIONS = "tests/asp/test_explanations.py"
+_AXIOMS = "tests/asp/theories/test_axioms.py"
+_EXPLANATIONS = "tests/asp/reasoning/diagnosis/test_explanations.py"
 _FOLDING = "tests/agents/shared/test_folding.py"
 _GOES_ON = "test_it_goes_on_where_some_smallest_explanation_lets_it"
 _JOINT = "tests/agents/intentional/test_joint.py"
 _JOINT_LIVES = "tests/agents/intentional/test_joint_lives.py"
-_PLANS = "tests/asp/test_plans.py"
-_PLANS_KEPT = "tests/asp/test_plans_kept.py"
+_PLANS = "tests/asp/reasoning/planning/test_plans.py"
+_PLANS_KEPT = "tests/asp/reasoning/planning/test_incremental_plans.py"
 _THE_END = f"{_FOLDING}::test_the_end_of_a_history_is_explained_without_what_was_folded"
 _REASONS = "tests/agents/intentional/test_reasons.py"
 
@@ -25,21 +25,24 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     ),
     "defaults": (_AXIOMS, _PREFERENCES),
     "diagnosis": (_EXPLANATIONS, _PREFERENCES, _REPORTS),
-    "fine_inference": ("tests/asp/test_knowing.py",),
-    "fine_planning": ("tests/asp/test_fine_planning.py", "tests/asp/test_fine_plans.py"),
+    "fine_inference": ("tests/asp/reasoning/fine_knowledge/test_fine_knowledge.py",),
+    "fine_planning": (
+        "tests/asp/reasoning/fine_planning/test_fine_planning.py",
+        "tests/asp/reasoning/fine_planning/test_fine_plans.py",
+    ),
     "history": (_AXIOMS, _REPORTS),
     "intentions": (_REPORTS, _AXIOMS, "tests/agents/intentional/test_persistence.py"),
     "joint": (_JOINT, _JOINT_LIVES),
     "kept_diagnosis": (_REPORTS, _THE_END, _PREFERENCES, _FOLDING, _LIVES),
-    "kept_fine": ("tests/asp/test_refined.py",),
-    "kept_fitted": ("tests/asp/test_fitted.py",),
+    "kept_fine": ("tests/asp/reasoning/fine_planning/test_incremental_fine_plans.py",),
+    "kept_fitted": ("tests/asp/reasoning/fine_planning/test_problem_program.py",),
     "kept_following": (_PLANS_KEPT, _LIVES),
     "kept_planning": (_PLANS_KEPT,),
     "kept_successors": (f"{_REASONS}::test_nor_where_some_fluents_are_defined",),
-    "kept_transition": ("tests/asp/test_transitions.py",),
+    "kept_transition": ("tests/asp/reasoning/test_successors.py",),
     "kept_window": (_FOLDING,),
-    "misreadings": ("tests/asp/test_misreadings.py",),
-    "order": (_EXPLANATIONS, "tests/asp/test_order.py"),
+    "misreadings": ("tests/asp/reasoning/diagnosis/test_misreadings.py",),
+    "order": (_EXPLANATIONS, "tests/asp/theories/test_order.py"),
     "persistence": ("tests/agents/intentional/test_persistence.py",),
     "planning": (_REPORTS, _PREFERENCES, _PLANS, _LIVES),
     "reach": (

@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from papers.levels.__main__ import main as levels_page
+from papers.table1.__main__ import main as table1_page
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.coverage import Coverage, coverage_of
@@ -13,8 +15,6 @@ from testbed.experiment.plan import plan_trials, planned_trials
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import write_config
 from testbed.experiment.wording import listed, place
-from papers.levels.__main__ import main as levels_page
-from papers.table1.__main__ import main as table1_page
 from tests.experiment.samples import a_level_record, a_record
 
 LEVELS = ["levels=[L3,L1]", "limit=3"]

@@ -15,7 +15,7 @@ from agents.shared.knowledge import Knowledge, knowledge
 from asp.solving import Limits, deciding
 from asp.solving.budget import TimeLimitError
 
-SOURCE = (Path(__file__).parents[2] / "asp" / "cart.al").read_text(encoding="utf-8")
+SOURCE = (Path(__file__).parents[2] / "asp" / "reasoning" / "cart.al").read_text(encoding="utf-8")
 CART = knowledge("cart", SOURCE)
 START = ("at(left)", "-at(right)", "-shut", "-lit")
 Happening = tuple[int, str]

@@ -12,7 +12,7 @@ from asp.domains.levels import LevelSize, level_text
 from asp.refinement import load
 from asp.translation import translate
 from testbed.world.compiled.world import World
-from tests.asp.diagrams import after
+from tests.asp.reasoning.diagrams import after
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts
 

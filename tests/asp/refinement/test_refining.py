@@ -16,7 +16,7 @@ from asp.refinement import Refinement, load, load_refinement, shared_places
 from asp.refinement.language import parse_fine
 from asp.translation import translate_source
 from testbed.world.compiled.world import World
-from tests.asp.diagrams import warnings_of
+from tests.asp.reasoning.diagrams import warnings_of
 from tests.asp.refinement.levels import level, of_size
 from tests.asp.refinement.locked import locked_texts
 

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from testbed.cli import app
-from tests.asp.diagrams import warnings_of
+from tests.asp.reasoning.diagrams import warnings_of
 
 RUNNER = CliRunner()
 

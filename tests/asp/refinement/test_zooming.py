@@ -34,7 +34,7 @@ from asp.refinement import (
 from asp.refinement.zooming import zoom_coarse, zoom_weak
 from asp.translation import translate_source
 from testbed.world.compiled.world import World
-from tests.asp.diagrams import warnings_of
+from tests.asp.reasoning.diagrams import warnings_of
 from tests.asp.refinement.levels import level, transitions
 
 HERE = Path(__file__).parent

@@ -1,0 +1,236 @@
+"""The fine planner in domains of all sorts, what it refuses, and what it keeps."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+from typing import cast
+
+import pytest
+
+from asp.language import analyse
+from asp.reasoning.fine_planning import FinePlanner, FineStart, Horizons, NoPlan, fine_planner
+from asp.reasoning.fine_planning.horizon import Horizon
+from asp.refinement import Refinement, load, load_refinement
+from asp.translation import NotCompactError
+from tests.asp.reasoning.fine_planning.fine_problems import drawn_goal, drawn_state, first_shortest
+from tests.asp.refinement.levels import level
+from tests.asp.refinement.locked import locked_texts
+
+HERE = Path(__file__).parents[2] / "refinement"
+DOMAINS = {
+    "tabletop": load_refinement(str(HERE / "tabletop.fine")),
+    "assistant": load_refinement(str(HERE / "assistant.fine")),
+    "locked": load(*locked_texts()),
+    "L2": level("L2"),
+}
+LIMIT = 6
+
+
+def _planner(refinement: Refinement, most: int = 32) -> FinePlanner:
+    return FinePlanner(refinement.weak, refinement.weak_signature, most)
+
+
+@pytest.mark.parametrize("name", DOMAINS)
+def test_the_plan_is_the_first_shortest_that_a_search_finds(name: str) -> None:
+    draw, planner = random.Random(21), _planner(DOMAINS[name])
+    for _ in range(30):
+        start, goal = drawn_state(DOMAINS[name], draw), drawn_goal(DOMAINS[name], draw)
+        found = planner.plan(start, goal, LIMIT)
+        expected = first_shortest(DOMAINS[name], start, goal, LIMIT)
+        assert (None if isinstance(found, NoPlan) else found) == expected, (start, goal)
+
+
+ROW = FineStart(
+    frozenset(
+        {"fine_loc(rob1,room1_1)", "fine_loc(object2_1,room2_1)", "fine_loc(object2_2,room2_1)"}
+    ),
+    tuple(
+        tuple(f"fine_loc({part},{cell})" for cell in ("room1_2", "room3_2"))
+        for part in ("object1_1", "object1_2")
+    ),
+)
+
+
+def _zoom(refinement: Refinement, *wholes: str) -> frozenset[str]:
+    return frozenset(wholes).union(*(refinement.components[whole] for whole in wholes))
+
+
+def test_of_places_where_a_thing_may_be_the_nearest_is_searched() -> None:
+    plan = _planner(level("L2")).plan(ROW, ("in_hand(rob1,object1)",), LIMIT)
+    assert plan == ("fine_move(rob1,room1_2)", "fine_pickup(rob1,object1_1)")
+
+
+def test_a_goal_beyond_the_limit_is_told_from_one_out_of_reach() -> None:
+    planner, goal = _planner(level("L2")), ("loc(rob1,room3)",)
+    assert planner.plan(ROW, goal, 3) is NoPlan.BEYOND_LIMIT
+    # Without the room between there is no way.
+    zoomed = _zoom(level("L2"), "rob1", "room1", "room3")
+    assert planner.plan(ROW, goal, 3, zoomed) is NoPlan.OUT_OF_REACH
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        ("in_hand(rob1,object1)", "in_hand(rob1,object2)"),
+        ("loc(rob1,room1)", "loc(rob1,room3)"),
+        ("loc(object2,room2)", "-fine_loc(object2_1,room2_1)", "-fine_loc(object2_2,room2_2)"),
+    ],
+)
+def test_what_no_state_satisfies_is_out_of_reach(goal: tuple[str, ...]) -> None:
+    assert _planner(level("L2")).plan(ROW, goal, 10**6) is NoPlan.OUT_OF_REACH
+
+
+def test_nothing_out_of_reach_is_reached_by_a_search_of_all_states() -> None:
+    draw, planner, told = random.Random(5), _planner(level("L1")), 0
+    for _ in range(150):
+        start, goal = drawn_state(level("L1"), draw), drawn_goal(level("L1"), draw)
+        if planner.plan(start, goal, 2) is NoPlan.OUT_OF_REACH:
+            assert first_shortest(level("L1"), start, goal, 1_000) is None
+            told += 1
+    assert told
+
+
+def test_what_is_nowhere_is_out_of_reach() -> None:
+    nowhere = FineStart(ROW.true, ((),))
+    planner = _planner(level("L2"))
+    assert planner.plan(nowhere, ("in_hand(rob1,object1)",), LIMIT) is NoPlan.OUT_OF_REACH
+
+
+def test_what_cannot_be_reached_without_its_place_is_out_of_reach() -> None:
+    zoomed = _zoom(level("L2"), "rob1", "room1", "object2")
+    planner = _planner(level("L2"))
+    assert planner.plan(ROW, ("in_hand(rob1,object2)",), LIMIT, zoomed) is NoPlan.OUT_OF_REACH
+
+
+def test_what_is_held_is_put_down_wherever_that_is() -> None:
+    start = FineStart(frozenset({"fine_in_hand(rob1,object2_1)"}))
+    planner, zoomed = _planner(level("L2")), _zoom(level("L2"), "rob1", "object2")
+    plan = planner.plan(start, ("-in_hand(rob1,object2)",), LIMIT, zoomed)
+    assert plan == ("fine_put_down(rob1,object2_1)",)
+
+
+def test_a_goal_that_holds_needs_no_action() -> None:
+    assert _planner(level("L2")).plan(ROW, ("loc(rob1,room1)",), LIMIT) == ()
+
+
+def test_a_goal_about_what_is_zoomed_out_is_refused() -> None:
+    zoomed = _zoom(level("L2"), "rob1", "room1")
+    with pytest.raises(ValueError, match="room3"):
+        _planner(level("L2")).plan(ROW, ("loc(rob1,room3)",), LIMIT, zoomed)
+
+
+def test_candidates_are_values_of_what_always_has_one() -> None:
+    odd = FineStart(ROW.true, (("fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)"),))
+    with pytest.raises(ValueError, match="always has one"):
+        _planner(level("L2")).plan(odd, ("in_hand(rob1,object1)",), LIMIT)
+
+
+def test_what_is_no_fluent_is_refused() -> None:
+    odd = FineStart(ROW.true | {"fine_lok(rob1,room1_1)"})
+    with pytest.raises(ValueError, match="no inertial fluent"):
+        _planner(level("L2")).plan(odd, ("loc(rob1,room2)",), LIMIT)
+
+
+def test_problems_that_differ_in_names_share_what_is_kept() -> None:
+    planner = _planner(level("L2"))
+    for one, other in (("room1", "room2"), ("room2", "room3")):
+        start = FineStart(frozenset({f"fine_loc(rob1,{one}_1)"}))
+        plan = planner.plan(
+            start, (f"loc(rob1,{other})",), LIMIT, _zoom(level("L2"), "rob1", one, other)
+        )
+        assert plan == (f"fine_move(rob1,{one}_2)", f"fine_move(rob1,{other}_1)")
+    assert planner.kept == 1
+
+
+def test_no_more_is_kept_than_was_asked_for() -> None:
+    planner = _planner(level("L2"), most=1)
+    for _ in range(2):
+        for room in ("room2", "room3"):
+            assert planner.plan(ROW, (f"loc(rob1,{room})",), LIMIT)
+            assert planner.kept == 1
+
+
+def test_plans_are_the_same_where_little_is_kept() -> None:
+    draw, planner = random.Random(3), _planner(level("L2"))
+    forgetful = FinePlanner(level("L2").weak, level("L2").weak_signature, horizons=Horizons(1))
+    for _ in range(20):
+        start, goal = drawn_state(level("L2"), draw), drawn_goal(level("L2"), draw)
+        assert forgetful.plan(start, goal, LIMIT) == planner.plan(start, goal, LIMIT)
+
+
+class TestHorizons:
+    """Of description and length alone, made by name."""
+
+    def test_those_not_used_for_longest_go_first(self) -> None:
+        horizons, made = Horizons(12), list[None]()
+        asked = [("a", 2), ("a", 4), ("a", 2), ("b", 3), ("a", 2), ("a", 4)]
+        for description, length in asked:
+            horizons.get(description, length, 2, lambda: cast(Horizon, made.append(None)))
+            assert horizons.size <= 12
+        # a, 4 had to go for b, 3, and came back.
+        assert len(made) == 4
+        assert horizons.size == 12
+
+    def test_one_too_large_is_kept_alone(self) -> None:
+        horizons = Horizons(12)
+        for length in (1, 2, 20):
+            horizons.get("a", length, 1, lambda: cast(Horizon, None))
+        assert (len(horizons), horizons.size) == (1, 20)
+
+    def test_those_of_one_description_are_forgotten(self) -> None:
+        horizons = Horizons(12)
+        for description in ("a", "b"):
+            horizons.get(description, 1, 1, lambda: cast(Horizon, None))
+        horizons.forget("a")
+        assert len(horizons) == 1
+
+
+LAMP = """
+sorts
+  lamp = {lamp1}.
+fluents
+  inertial lit(lamp).
+  inertial dark(lamp).
+actions
+  agent light(lamp).
+  agent quench(lamp).
+laws
+  light(L)  causes lit(L).
+  quench(L) causes -lit(L).
+  dark(L)  if -lit(L).
+  -dark(L) if lit(L).
+"""
+
+
+def test_laws_about_what_is_false_are_translated_literally() -> None:
+    source, signature = analyse(LAMP)
+    with pytest.raises(NotCompactError, match="line 13"):
+        FinePlanner(source, signature)
+    planner = fine_planner(source, signature)
+    assert planner.plan(FineStart(frozenset({"lit(lamp1)"})), ("dark(lamp1)",), LIMIT) == (
+        "quench(lamp1)",
+    )
+    assert planner.plan(FineStart(frozenset({"dark(lamp1)"})), ("dark(lamp1)",), LIMIT) == ()
+
+
+BROKEN = """
+sorts
+  lamp = {lamp1}.
+fluents
+  inertial lit(lamp).
+  inertial broken(lamp).
+actions
+  agent light(lamp).
+  agent mend(lamp).
+laws
+  light(L) causes lit(L).
+  light(L) causes -lit(L) if broken(L).
+  mend(L)  causes -broken(L).
+"""
+
+
+def test_no_plan_has_an_action_whose_effects_contradict_each_other() -> None:
+    planner = FinePlanner(*analyse(BROKEN))
+    start = FineStart(frozenset({"broken(lamp1)"}))
+    assert planner.plan(start, ("lit(lamp1)",), LIMIT) == ("mend(lamp1)", "light(lamp1)")

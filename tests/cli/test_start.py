@@ -1,0 +1,43 @@
+"""What a command loads before it refuses what it was given: nothing that only playing needs."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+HEAVY = {"gymnasium", "jinja2", "matplotlib", "pettingzoo", "polars", "rich", "scipy", "zenoh"}
+LOADED = """
+import atexit, json, sys
+atexit.register(lambda: print(json.dumps(sorted({name.partition(".")[0] for name in sys.modules}))))
+from testbed.cli import main
+sys.argv = ["testbed", *sys.argv[1:]]
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    "mistyped",
+    [
+        "rnu quickstart",
+        "run quikstart",
+        "run quickstart scenarios=[77]",
+        "check quikstart",
+        "report no_such_folder",
+        "export no_such_folder",
+        "replay no_such_folder",
+        "translate no_such_domain",
+    ],
+)
+def test_what_is_mistyped_is_refused_before_anything_heavy_is_imported(mistyped: str) -> None:
+    root = str(Path(__file__).parents[2])
+    path = os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])
+    command = [sys.executable, "-c", LOADED, *mistyped.split()]
+    done = subprocess.run(
+        command, check=False, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": path}
+    )
+    assert done.returncode == 2, done.stderr
+    assert "Traceback" not in done.stderr
+    assert set(json.loads(done.stdout)).isdisjoint(HEAVY)

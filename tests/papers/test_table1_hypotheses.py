@@ -1,0 +1,250 @@
+"""Hypotheses over pairs made by hand, the released draw among them, and the page's frame."""
+
+from pathlib import Path
+
+import pytest
+
+from papers.table1.document import Sources, document
+from papers.table1.evidence import closeness
+from papers.table1.hypotheses import (
+    Hypothesis,
+    both,
+    compared,
+    hypotheses,
+    weigh,
+)
+from papers.table1.released import released
+from testbed.config import load_config
+from testbed.experiment.digest import digest
+from testbed.experiment.domains import load_world
+from testbed.experiment.errors import StoreError
+from testbed.experiment.record import Activity, Attempt, TrialRecord, encode
+from testbed.experiment.store import read_records, write_config
+from testbed.studies.table1.pairing import Pair, Side
+from testbed.studies.table1.published import MEASURES, PUBLISHED, SCENARIOS
+from testbed.studies.table1.runs import read_run, told_name, told_order
+from tests.experiment.samples import a_record
+from tests.studies.table1.made import a_pair, a_side
+
+NEAR_FIRST = Path(__file__).parents[2] / "examples" / "near-first.al"
+GOAL = ["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book1)"]
+HELD, PLACED, BARE = "in_hand(rob1,book1)", "loc(book2,library)", "loc(book2,kitchen)"
+LATE = ("move(rob1,kitchen)", "move(rob1,library)")
+
+
+def _pair(trial: str, state: str, right: bool, before: tuple[str, ...] = LATE[:1]) -> Pair:
+    base = a_side(right, actions=2 if right else 1)
+    return a_pair("3", a_side(trial=trial, before=before), base, state=state)
+
+
+PAIRS = [
+    _pair("a", f"{HELD} {BARE}", right=True),
+    _pair("b", f"{HELD} {PLACED}", right=False),
+    _pair("c", BARE, right=True, before=LATE),
+    _pair("d", f"{PLACED} {BARE}", right=False, before=LATE),
+    a_pair("3", a_side(trial="e"), intended="3"),
+]
+WEIGHTS = {"a": 3.0, "b": 0.0, "c": 0.5, "d": 0.5}
+
+
+@pytest.mark.parametrize(
+    ("name", "accuracy"),
+    [
+        ("as played", 2 / 4),
+        ("released draw", (3.0 + 0.5) / 4.0),
+        ("starts: something in hand", 1 / 2),
+        ("starts: nothing in hand", 1 / 2),
+        ("starts: nothing in place", 2 / 2),
+        ("starts: something in place", 0 / 2),
+        ("event beside the first action", 1 / 2),
+        ("event beside a later action", 1 / 2),
+    ],
+)
+def test_each_hypothesis_weighs_the_random_pairs_in_its_own_way(name: str, accuracy: float) -> None:
+    found = {own.name: own.weighed for own in hypotheses(PAIRS, GOAL, WEIGHTS)}
+    row = {row.name: row for row in found[name].table.rows}["3"]
+    assert row.baseline is not None
+    assert row.baseline.value == pytest.approx(accuracy)
+
+
+def test_which_pairs_are_left_is_told_by_the_start() -> None:
+    found = {own.name: own.weighed for own in hypotheses(PAIRS[:3], GOAL, WEIGHTS)}
+    left = {name: own.table.rows[2].pairs for name, own in found.items()}
+    assert left["as played"] == 3
+    assert (left["starts: something in hand"], left["starts: nothing in hand"]) == (2, 1)
+    assert (left["starts: something in place"], left["starts: nothing in place"]) == (1, 2)
+    assert (left["event beside the first action"], left["event beside a later action"]) == (2, 1)
+
+
+def test_a_run_of_its_own_is_shown_under_either_draw() -> None:
+    plain, weighed = both("other", PAIRS[:4], WEIGHTS)
+    assert (plain.name, weighed.name) == ("other", "other; released draw")
+    assert (plain.weighed.worth, weighed.weighed.worth) == (4.0, pytest.approx(16 / 9.5))
+
+
+def _as_published(name: str, factor: float = 1.0, state: str = "s") -> Pair:
+    """A pair whose ratios are the published ones, times a factor."""
+    values = {m: factor * PUBLISHED[name].ratios[m] for m in MEASURES}
+    return a_pair(name, base=a_side(PUBLISHED[name].baseline == 1.0, **values), state=state)
+
+
+def _two(first: list[Pair], second: list[Pair]) -> str:
+    ways = {"near": first, "far": second}
+    return compared(
+        [Hypothesis(n, weigh(own, lambda _: 1.0)) for n, own in ways.items()], False, False
+    )
+
+
+def test_the_nearest_one_is_named_with_what_stays_outside_of_it() -> None:
+    """In each row 20 pairs, of which TP gets all right or none."""
+    exact = [_as_published(name, 1.0, f"s{n}") for name in SCENARIOS for n in range(20)]
+    page = " ".join(_two(exact, [_as_published(name, 2.0) for name in SCENARIOS]).split())
+    assert "Most published values, 18 of 20, lie inside with `near`" in page
+    assert "row 3 accuracy (0.00, published 0.72), row 4 accuracy (0.00, published 0.73)" in page
+    weights = "800 pairs in these shares are 54 in row 2, 23 in row 5."
+    assert weights in page
+
+
+def test_of_as_many_inside_the_one_at_a_smaller_distance_is_nearer() -> None:
+    near, far = [_as_published("5", 1.5)], [_as_published("5", 3.0)]
+    assert "with `near`" in _two(near, far)
+    assert "with `far`" in _two(far, near)
+
+
+def test_more_values_inside_are_nearer_than_a_smaller_distance() -> None:
+    """Of 0.2 and 3 times the published values the mean is far off, the interval holds them."""
+    wide = [_as_published("5", 0.2, "s1"), _as_published("5", 3.0, "s2")]
+    tight = [_as_published("5", 1.1, "s1"), _as_published("5", 1.1, "s2")]
+    ours, theirs = (closeness(weigh(own, lambda _: 1.0).table) for own in (wide, tight))
+    assert ours.inside > theirs.inside
+    assert ours.distance > theirs.distance
+    assert "with `near`" in _two(wide, tight)
+    assert "with `far`" in _two(tight, wide)
+
+
+@pytest.mark.parametrize("with_told", [True, False])
+def test_the_nearest_of_several_comes_with_a_caution(with_told: bool) -> None:
+    made = [Hypothesis("made", weigh([_as_published("5")], lambda _: 1.0))]
+    page = " ".join(compared(made, False, with_told).split())
+    nearest = page.split("Most published values")[1]
+    assert "The best of several looks a little better than it is." in nearest
+
+
+def test_the_table_shows_what_is_asked_of_each_row() -> None:
+    pairs = [
+        a_pair("2", base=a_side(plans=3)),
+        a_pair("3", base=a_side(False)),
+        a_pair("3"),
+        a_pair("5", a_side(actions=4, execution_units=10), a_side(False, execution_units=2)),
+    ]
+    page = compared([Hypothesis("made", weigh(pairs, lambda _: 1.0))], True, True)
+    (line,) = (line for line in page.splitlines() if line.startswith("| made"))
+    cells = line.strip("| ").split(" | ")
+    assert cells[:7] == ["made", "50%", "-", "3.00", "0.20", "0.25", "0 25 50 0 25%"]
+    assert "`told`: in the released simulator" in page
+    assert "runs in a variant of the domain" in page
+
+
+def test_the_released_draw_stands_beside_the_published_rows_with_marks() -> None:
+    weighed = weigh([_as_published("1"), _as_published("2", 2.0)], lambda _: 1.0)
+    page = released(weighed, 0)
+    lines = page.splitlines()
+    first = next(n for n, line in enumerate(lines) if line.startswith("| 1 "))
+    assert lines[first].split(" | ")[1:3] == ["50%", "100.0 [2.5, 100.0]"]
+    assert lines[first + 1] == "|   published | 7% | 100 | 1.00 | 1.00 | 1.00 |"
+    assert lines[first + 3] == "|   published | 7% | 100 | 2.63 * | 5.10 * | 3.61 * |"
+    assert "Of 1000 pairs so drawn 1000 are of scenarios 1 to 5." in page
+    assert "as certain as 2 pairs of equal weight" in " ".join(page.split())
+    assert "did not meet the same" not in page
+    assert "In 3 pairs they did not meet the same" in " ".join(released(weighed, 3).split())
+
+
+def _records(pairs: int) -> list[TrialRecord]:
+    start = ["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,kitchen)"]
+    plan = ["pickup(rob1,book2)", "move(rob1,library)", "put_down(rob1,book2)"]
+    return [
+        a_record(
+            f"{robot}{number}",
+            pair=str(number),
+            robot=robot,
+            scenario="random",
+            initial=start,
+            minimal_actions=3,
+            minimal_units=25,
+            steps=5,
+            actions=[Attempt(2 + n, action, True) for n, action in enumerate(plan)],
+            activities=[Activity(1, 1, plan)] if robot == "intentional" else [],
+            plans=1,
+            action_count=3,
+            execution_units=25,
+        )
+        for number in range(pairs)
+        for robot in ("intentional", "traditional")
+    ]
+
+
+def _folder(folder: Path, pairs: int, *overrides: str) -> Path:
+    write_config(folder, load_config("table1", ["scenarios=[random]", *overrides]))
+    (folder / "trials.jsonl").write_bytes(b"".join(map(encode, _records(pairs))))
+    return folder
+
+
+def test_the_page_lists_commands_and_digests_of_all_its_runs(tmp_path: Path) -> None:
+    main = _folder(tmp_path / "main", 3)
+    other = _folder(tmp_path / "other", 2, "name=told-library-kitchen-office2-office1")
+    later = _folder(tmp_path / "later", 1, "name=later", "adversary.rate=0.3")
+    near = _folder(tmp_path / "near", 1, "name=near-first", f"domain={NEAR_FIRST}")
+    runs = [read_run(folder) for folder in (main, later, other, near)]
+    page = document(Sources(runs[0], None, runs[1], (runs[2],), (runs[3],)))
+    for folder, name in (
+        (main, "table1"),
+        (other, "told-library-kitchen-office2-office1"),
+        (later, "later"),
+    ):
+        assert f"| `runs/{name}` | `{digest(read_records(folder))}` |" in page
+    assert (
+        "$ python -m benchmarks.told runs/table1 runs/told-library-kitchen-office2-office1"
+        " --order library kitchen office2 office1\n" in page
+    )
+    assert "--later runs/later --variant runs/near-first --told runs/told-library-kit" in page
+    near_run = "name=near-first domain=examples/near-first.al 'scenarios=[random]' --workers"
+    assert f"$ testbed run table1 {near_run}" in page
+    assert "| near-first; released draw | " in page
+    assert "testbed run table1 name=told" not in page
+    assert "| rate 0.3 | " in page
+    assert "| told, library, kitchen, office2, office1 | " in page
+
+
+def test_the_variant_of_the_domain_differs_in_the_order_of_two_lines() -> None:
+    packaged = load_world("office").description.source.splitlines()
+    lines = NEAR_FIRST.read_text(encoding="utf-8").splitlines()
+    comment = len(lines) - len(packaged)
+    assert all(line.startswith("%") for line in lines[:comment])
+    move = next(n for n, line in enumerate(packaged) if "agent     move(" in line)
+    packaged[move], packaged[move + 1] = packaged[move + 1], packaged[move]
+    assert lines[comment:] == packaged
+
+
+def test_a_told_run_of_other_pairs_is_refused(tmp_path: Path) -> None:
+    main, other = _folder(tmp_path / "main", 2), _folder(tmp_path / "other", 3, "name=told")
+    assert told_order(read_run(other)) == []
+    with pytest.raises(StoreError, match="its pairs are not those of"):
+        document(Sources(read_run(main), told=(read_run(other),)))
+
+
+@pytest.mark.parametrize("name", ["near-first", "told-kitchen", "told-", "retold"])
+def test_a_run_of_another_name_was_told_nothing(tmp_path: Path, name: str) -> None:
+    other = read_run(_folder(tmp_path / "other", 1, f"name={name}"))
+    with pytest.raises(StoreError, match=f"name: {name} is not that of a run of benchmarks/told"):
+        told_order(other)
+
+
+def test_the_name_of_a_told_run_says_its_order(tmp_path: Path) -> None:
+    for order in ([], ["library", "office1", "kitchen", "office2"]):
+        folder = _folder(tmp_path / f"{len(order)}", 1, f"name={told_name(order)}")
+        assert told_order(read_run(folder)) == order
+
+
+def test_sides_made_by_hand_are_whole() -> None:
+    assert isinstance(a_side(), Side)
+    assert set(a_side().measures) >= set(MEASURES)
