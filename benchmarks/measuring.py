@@ -16,8 +16,8 @@ from asp.solving import Answers
 
 T = TypeVar("T")
 
-_ANSWERS = ("asp.kept", "agents.")
-_NO_ANSWER = ("agents.shared.knowledge",)
+_ANSWERS = ("asp.reasoning", "asp.solving", "agents.")
+_NO_ANSWER = ("agents.shared.knowledge", "asp.solving.solver")
 
 
 def timed(call: Callable[[], T]) -> tuple[float, T]:
