@@ -18,7 +18,7 @@ from benchmarks.mutants import check_killers, killers
 from benchmarks.sheets import Row, Sheet, gathered
 from benchmarks.statements import Statement, statements, theories
 
-CASES = Path(__file__).parent.parent / "tests" / "asp"
+CASES = Path(__file__).parent.parent / "tests" / "asp" / "theories"
 SAMPLE = 12
 QUICK = ("reach", "conflict")
 """Theories whose tests find within seconds what is left out: one rule of each is in the sample."""
