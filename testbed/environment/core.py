@@ -120,7 +120,7 @@ class Core:
             step=now.step,
             visible=list(self.visible),
             attempted=now.answer if attempted else None,
-            happened=None if now.happened is None else self.execution.told(now.happened),
+            happened=now.happened,
             events=list(now.told),
             goal_holds=now.goal_holds,
         )

@@ -34,15 +34,12 @@ class Execution(Protocol):
     def notices(self, state: int, fluents: frozenset[str], /) -> bool:
         """Whether the robot is where it could tell whether one of the fluents holds."""
 
-    def told(self, happened: bool, /) -> bool | None:
-        """What the robot is told of whether its attempt took effect; None: nothing."""
-
     def closed_to_events(self, state: int, action: str, /) -> str | None:
         """Why nothing exogenous happens beside the action, if so."""
 
 
 class Exact:
-    """What is possible takes effect, and the robot is told whether it was."""
+    """What is possible takes effect."""
 
     def __init__(self, world: Dynamics, robot: str) -> None:
         self._world = world
@@ -66,9 +63,6 @@ class Exact:
 
     def notices(self, state: int, fluents: frozenset[str], /) -> bool:
         return not fluents.isdisjoint(map(text.atom, self.visible(state)))
-
-    def told(self, happened: bool, /) -> bool | None:
-        return happened
 
     def closed_to_events(self, _state: int, _action: str, /) -> str | None:
         return None

@@ -21,7 +21,7 @@ changes what holds at the coarse resolution."""
 
 
 class Tested:
-    """What an action did has to be tested: the robot is not told.
+    """What holds after an action has to be tested: the robot sees only whether it took effect.
 
     A test of something about the robot itself is always right. `coarse` are the names of the
     fluents of the coarse resolution. Raises ValueError for statistics that are none.
@@ -77,9 +77,6 @@ class Tested:
         if any(test is not None and self._sensing.can(state, test) for test in tests):
             return True
         return not fluents.isdisjoint(map(text.atom, self.visible(state)))
-
-    def told(self, _happened: bool, /) -> bool | None:
-        return None
 
     def closed_to_events(self, state: int, action: str, /) -> str | None:
         if not self._paced or self._changes_the_coarse(state, action):

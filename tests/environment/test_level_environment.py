@@ -72,7 +72,7 @@ def test_the_robot_observes_what_a_test_shows_and_nothing_else() -> None:
     assert {fluents[i]: int(seen[i]) for i in np.flatnonzero(seen)} == {
         "fine_loc(object1_1,room1_1)": 1
     }
-    assert env.infos[ROBOT]["percept"].happened is None
+    assert env.infos[ROBOT]["percept"].happened is True
     everything = env.observe(ADVERSARY)["observation"][: len(fluents)]
     assert np.abs(everything).all()
 

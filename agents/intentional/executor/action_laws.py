@@ -75,6 +75,20 @@ class Tests:
         binding = _bound(_fluent(law), atom(fluent), robot, domains)
         return None if binding is None else _instance(law.action, binding)
 
+    def is_possible(self, fluent: str, true: Collection[str]) -> bool:
+        """Whether a fluent can be tested where fluents are known to be true."""
+        test = self.of(fluent)
+        if test is None:
+            return False
+        needed = ground(f"{_CAN_TEST}{name(fluent)}", arguments(test))
+        bound = ((law, _bound(law.head.atom, needed, {}, d), d) for law, d, _ in self._abilities)
+        return any(
+            True
+            for law, given, domains in bound
+            if given is not None
+            for _ in _matches(law.body, given, domains, true, self._signature)
+        )
+
     def possible(self, true: Collection[str], things: Collection[str]) -> Iterator[str]:
         """The fluents about these things that can be tested where fluents are known to be true.
 

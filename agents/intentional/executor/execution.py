@@ -89,7 +89,8 @@ class Execution:
         self._looking.hear(percept)
         outcome: list[str] = []
         for effect in expected:
-            outcome += [(yield from self._looking.outcome(effect, percept))]
+            came_out = yield from self._looking.outcome(effect, percept)
+            outcome += [] if came_out is None else [came_out]
         mind.pending = ()
         mind.assume(outcome)
         self._looking.commit(literal for literal in outcome if mind.tests.of(literal) is not None)

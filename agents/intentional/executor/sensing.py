@@ -70,13 +70,20 @@ class Looking:
             if fluent in doubtful and fluent in mind.belief.known.true:
                 yield from self._test(fluent)
 
-    def outcome(self, effect: str, percept: Percept) -> Asking[str]:
+    def outcome(self, effect: str, percept: Percept) -> Asking[str | None]:
         """The effect if it came about, as far as that can be observed; else its complement.
 
-        A test that shows nothing was not possible: the robot is not where it wanted to be.
+        Where the attempt took no effect, what cannot be observed is as it was: nothing is tested
+        that could show nothing, and nothing is returned. Otherwise a test that shows nothing was
+        not possible: the robot is not where it wanted to be.
         """
+        failed = percept.happened is False
         if self._mind.tests.of(effect) is None:
-            return complement(effect) if complement(effect) in percept.visible else effect
+            if complement(effect) in percept.visible:
+                return complement(effect)
+            return None if failed and effect not in percept.visible else effect
+        if failed and not self._mind.can_test(effect):
+            return None
         holds = yield from self._read(effect)
         return effect if holds == is_positive(effect) else complement(effect)
 

@@ -71,6 +71,10 @@ class Mind:
         """The fluents about these things that can be tested now, by what is known and believed."""
         return self.tests.possible(self.belief.known.true | self.plain, things)
 
+    def can_test(self, fluent: str) -> bool:
+        """Whether a fluent of which there is a test can be tested now, by what is known."""
+        return self.tests.is_possible(fluent, self.belief.known.true | self.plain)
+
     def is_value(self, fluent: str) -> bool:
         """Whether a coarse fluent is one of several of which one always holds, as of places."""
         return self.means.is_value(self.refinement.counterpart(fluent)[0][0])

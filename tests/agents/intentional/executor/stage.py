@@ -116,7 +116,8 @@ class _Stage:
         self.state = self._world.successor(self.state, [*effective, *happening])
         seen = self._outcome(nth) if is_test else ()
         told = [Event(step=step, action=e) for e in events if self._faults.reported]
-        return self.percept(step + 1, seen, events=told)
+        attempt = None if action == "wait" else (action, bool(effective or seen))
+        return self.percept(step + 1, seen, told, attempt=attempt)
 
     def percept(
         self,
@@ -124,10 +125,17 @@ class _Stage:
         seen: Iterable[str],
         events: Sequence[Event] = (),
         goal_holds: bool | None = None,
+        attempt: tuple[str, bool] | None = None,
     ) -> Percept:
-        visible = [*seen, *self._world.visible(self.state, self._robot)]
+        attempted, happened = attempt or (None, None)
         return Percept(
-            trial="play", step=step, visible=visible, events=list(events), goal_holds=goal_holds
+            trial="play",
+            step=step,
+            visible=[*seen, *self._world.visible(self.state, self._robot)],
+            attempted=attempted,
+            happened=happened,
+            events=list(events),
+            goal_holds=goal_holds,
         )
 
     def _outcome(self, nth: Nth) -> tuple[str, ...]:
