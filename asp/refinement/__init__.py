@@ -4,6 +4,7 @@ from asp.refinement.observation import TRUE
 from asp.refinement.reading import load_refinement, read_refinement, refined_name
 from asp.refinement.refinement import Refinement, load
 from asp.refinement.refining import shared_places
+from asp.refinement.statics import true_statics
 from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant, zoom_strong
 
 __all__ = [
@@ -18,5 +19,6 @@ __all__ = [
     "refined_name",
     "relevant",
     "shared_places",
+    "true_statics",
     "zoom_strong",
 ]

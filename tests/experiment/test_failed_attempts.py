@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -20,9 +20,9 @@ ROBOTS = ("intentional", "intentional-nozoom")
 
 @dataclass(frozen=True)
 class Walk:
-    """A domain with its refinement: the move that fails, its effect, and how it is tested anywhere.
+    """A domain with its refinement: a move and its effect; an action of the hand and its effect.
 
-    `grasp` and `held` are another action and its effect, which can be tested anywhere as it is.
+    What the hand holds can be tested anywhere; with statements of `further` the move's effect, too.
     """
 
     domain: str
@@ -30,15 +30,15 @@ class Walk:
     goal: str
     move: str
     place: str
-    anywhere: str
     grasp: str
     held: str
+    further: Mapping[str, str]
 
     def played(
-        self, folder: Path, robot: str, failing: str, anywhere: bool = False
+        self, folder: Path, robot: str, failing: str, statement: str = ""
     ) -> Iterator[tuple[Moment, Moment]]:
         """Each step with the one that follows, of trials in which an action fails mostly."""
-        own = Own(folder, self.domain, self.refinement + self.anywhere * anywhere)
+        own = Own(folder, self.domain, self.refinement + statement)
         trials = own.play(
             draw={"goal": [self.goal], "holding": 0.0},
             statistics={failing: 0.3},
@@ -60,9 +60,12 @@ def _level(label: str) -> Walk:
         goal="loc(object,room)",
         move="fine_move",
         place="fine_loc",
-        anywhere="  R tests fine_loc(R, C) if robot(R).\n",
         grasp="fine_pickup",
         held="fine_in_hand",
+        further={
+            "anywhere": "R tests fine_loc(R, C) if robot(R).",
+            "beside": "R tests fine_loc(T, C) if robot(R), fine_loc(R, D), fine_next_to(D, C).",
+        },
     )
 
 
@@ -74,9 +77,13 @@ WALKS = {
         goal="stands(tool,bed)",
         move="fine_walk",
         place="fine_stands",
-        anywhere="  H tests fine_stands(H, C) if helper(H).\n",
         grasp="fine_lift",
         held="fine_carries",
+        further={
+            "anywhere": "H tests fine_stands(H, C) if helper(H).",
+            "beside": "H tests fine_stands(X, C) if"
+            " helper(H), fine_stands(H, D), fine_beside(D, C).",
+        },
     ),
 }
 
@@ -99,22 +106,40 @@ def test_no_test_is_made_that_can_show_nothing(walk: str, robot: str, tmp_path: 
 
 @pytest.mark.parametrize("robot", ROBOTS)
 @pytest.mark.parametrize("walk", WALKS)
-@pytest.mark.parametrize("move", [True, False])
+@pytest.mark.parametrize("further", ["", "anywhere", "beside"])
 def test_what_can_be_tested_from_where_the_robot_is_is_tested(
-    walk: str, robot: str, move: bool, tmp_path: Path
+    walk: str, robot: str, further: str, tmp_path: Path
 ) -> None:
     here = WALKS[walk]
-    failing, effect = (here.move, here.place) if move else (here.grasp, here.held)
-    steps = list(here.played(tmp_path, robot, failing, anywhere=move))
+    failing, effect = (here.move, here.place) if further else (here.grasp, here.held)
+    steps = list(here.played(tmp_path, robot, failing, here.further.get(further, "")))
     following = [pair for pair in pairwise(steps) if pair[0][0].happened is False]
     assert following
     for (one, _), (test, after) in following:
         action = one.decision.action
         assert name(action) == failing
         inside = arguments(action)
-        about = inside if not move else (inside[0], *inside)
+        about = (inside[0], *inside) if further else inside
         assert test.decision.action == ground(f"test_{effect}", about)
         assert after.percept.visible == ["-" + ground(effect, inside)]
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
+@pytest.mark.parametrize("walk", WALKS)
+def test_what_can_be_tested_from_beside_is_looked_for_from_there(
+    walk: str, robot: str, tmp_path: Path
+) -> None:
+    """Where only the own cell can be tested, no two tests in a row are of different cells."""
+    here = WALKS[walk]
+    steps = list(here.played(tmp_path, robot, here.grasp, here.further["beside"]))
+    looks = [
+        (one.decision.action, following.decision.action)
+        for one, following in steps
+        if name(one.decision.action) == name(following.decision.action) == f"test_{here.place}"
+    ]
+    named = [(arguments(one), arguments(other)) for one, other in looks]
+    assert any(one[:2] == other[:2] and one != other for one, other in named)
+    assert all(after.percept.visible for one, after in steps if _is_test(one))
 
 
 WATERED = (

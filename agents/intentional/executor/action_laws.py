@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import product
 
 from asp.language import (
@@ -16,7 +16,7 @@ from asp.language import (
     variable_domains,
 )
 from asp.language import variable_sorts as roles
-from asp.refinement import TRUE, Refinement
+from asp.refinement import TRUE, Refinement, true_statics
 
 _TEST, _CAN_TEST = "test_", "can_test_"
 
@@ -65,6 +65,7 @@ class Tests:
         self._abilities = [
             (law, _domains(law, self._signature), self._tests[_tested(law)][0]) for law in abilities
         ]
+        self._statics = _statics((law.body for law, _, _ in self._abilities), refinement)
 
     def of(self, fluent: str) -> str | None:
         """The test of a fluent; None where there is none."""
@@ -81,6 +82,7 @@ class Tests:
         if test is None:
             return False
         needed = ground(f"{_CAN_TEST}{name(fluent)}", arguments(test))
+        true = self._statics.union(true)
         bound = ((law, _bound(law.head.atom, needed, {}, d), d) for law, d, _ in self._abilities)
         return any(
             True
@@ -94,6 +96,7 @@ class Tests:
 
         What is about the robot itself is left out: that it knows by its own actions.
         """
+        true = self._statics.union(true)
         for ability, domains, test in self._abilities:
             for can_test in self._instances(ability, domains, true, things):
                 names = [term.name for term in test.action.args]
@@ -152,6 +155,15 @@ def direct_effects(refinement: Refinement) -> Mapping[str, frozenset[str]]:
 def _domains(law: syntax.Statement, signature: Signature) -> Domains:
     found = variable_domains(law, signature)
     return {variable: dict.fromkeys(members) for variable, members in found.items()}
+
+
+def _statics(bodies: Iterable[syntax.Body], refinement: Refinement) -> frozenset[str]:
+    """The true statics that bodies of laws of the strong refinement are about."""
+    signature = refinement.strong_signature
+    named = {literal.atom.name for body in bodies for literal in roles.literals(body)}
+    if not any(s.kind == "static" for s in map(signature.symbols.get, named) if s is not None):
+        return frozenset()
+    return frozenset(s for s in true_statics(refinement.strong, signature) if name(s) in named)
 
 
 def _tested(law: syntax.StateConstraint) -> str:
