@@ -75,10 +75,11 @@ class Percept(Part, frozen=True, kw_only=True):
 
     ``visible`` are the literals it sees now, ``doubtful`` those of them that rest on tests which
     may have been wrong; ``attempted`` and ``happened`` its attempt at the previous step and whether
-    it took effect (both None at step 1), ``failing`` whether the attempt was carried out in vain:
-    it need not have been impossible; ``events`` the exogenous actions that it is told of now, each
-    with the earlier step at which it is said to have happened; ``goal_holds`` is False after a
-    ``finish`` that the goal did not bear out, None when nothing is said about the goal.
+    it took effect (both None where it attempted nothing), ``failing`` whether the attempt was
+    carried out in vain: it need not have been impossible; ``events`` the exogenous actions that it
+    is told of now, each with the earlier step at which it is said to have happened; ``goal_holds``
+    is False after a ``finish`` that the goal did not bear out, None when nothing is said about the
+    goal.
     """
 
     trial: str
