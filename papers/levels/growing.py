@@ -80,7 +80,7 @@ def _grown(works: Mapping[str, Work]) -> str:
     text = (
         f"At {name} an abstract action takes {times(_divided(last.plans, last.abstract))} refined "
         f"plans, at {FIRST} {times(_divided(first.plans, first.abstract))}: a new one is made "
-        "where a test failed, or an object was not where the plan assumed it "
+        "where an action or a test failed, or an object was not where the plan assumed it "
         "([Execution](execution.md)). "
     )
     ours = _larger(_divided(last.plans, first.plans), _divided(last.seconds, first.seconds))
