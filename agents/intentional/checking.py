@@ -16,7 +16,7 @@ import msgspec
 
 from agents.intentional.controller import IntentionalRobot
 from agents.shared.knowledge import knowledge
-from asp.language import Description, Literals, atom, complement
+from asp.language import Description, Literal, Literals, complement
 from asp.solving import deciding
 from testbed.protocol.messages import Decision, Percept, Task
 from testbed.protocol.robot import Robot
@@ -53,7 +53,7 @@ def to_be_sure(task: Task) -> Task:
     prefix = _free_prefix(task.source)
     names, laws = dict[str, str](), list[str]()
     for number, literal in enumerate(dict.fromkeys(task.goal), start=1):
-        views = list(_views(description, literal))
+        views = list(_views(description, Literal.parse(literal)))
         if views:
             name = names[literal] = f"{prefix}{number}"
             laws += (f"{name} if {', '.join(view)}." for view in views)
@@ -72,7 +72,7 @@ def to_be_sure(task: Task) -> Task:
     )
 
 
-def _views(description: Description, literal: str) -> Iterator[Literals]:
+def _views(description: Description, literal: Literal) -> Iterator[Literals]:
     """Conditions under which the robot sees that a literal is true.
 
     It sees the literal itself, or all conditions of a state constraint from which it follows: a
@@ -86,17 +86,17 @@ def _views(description: Description, literal: str) -> Iterator[Literals]:
                 yield _together(*law.body, *(part for each in conditions for part in each))
 
 
-def _sights(description: Description, literal: str) -> list[Literals]:
+def _sights(description: Description, literal: Literal) -> list[Literals]:
     """Conditions under which the robot sees whether a literal is true."""
     robot = description.robots[0]
     return [
         statement.body
         for statement in description.sees
-        if (statement.robot, statement.fluent) == (robot, atom(literal))
+        if (statement.robot, statement.fluent) == (robot, literal.atom)
     ]
 
 
-def _together(*literals: str | Literals) -> Literals:
+def _together(*literals: Literal | Literals) -> Literals:
     parts = ((part,) if isinstance(part, str) else part for part in literals)
     return tuple(dict.fromkeys(literal for part in parts for literal in part))
 

@@ -6,7 +6,18 @@ from asp.language.description import Causal, Constraint, Description, Literals, 
 from asp.language.errors import SourceError
 from asp.language.functions import Function, excluding_place, functions, subject
 from asp.language.grounding import ground_description
-from asp.language.literals import arguments, atom, complement, ground, is_positive, name, renamed
+from asp.language.literals import (
+    Action,
+    Fluent,
+    Literal,
+    arguments,
+    atom,
+    complement,
+    ground,
+    is_positive,
+    name,
+    renamed,
+)
 from asp.language.loading import (
     MOST_TEXTS,
     analyse,
@@ -27,10 +38,13 @@ from asp.language.writer import atom_text, condition_text, text_of
 
 __all__ = [
     "MOST_TEXTS",
+    "Action",
     "Causal",
     "Constraint",
     "Description",
+    "Fluent",
     "Function",
+    "Literal",
     "Literals",
     "Problems",
     "Signature",

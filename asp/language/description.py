@@ -6,16 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-Literals = tuple[str, ...]
-"""Ground literals as ASP text, without blanks: `loc(book1,kitchen)`, `-locked(library)`."""
+from asp.language.literals import Action, Fluent, Literal
+
+Literals = tuple[Literal, ...]
 
 
 @dataclass(frozen=True)
 class Causal:
     """`action causes head if body`."""
 
-    action: str
-    head: str
+    action: Action
+    head: Literal
     body: Literals
 
 
@@ -23,7 +24,7 @@ class Causal:
 class Constraint:
     """`head if body`."""
 
-    head: str
+    head: Literal
     body: Literals
 
 
@@ -31,7 +32,7 @@ class Constraint:
 class Executability:
     """`impossible actions if body`: all of the actions together."""
 
-    actions: tuple[str, ...]
+    actions: tuple[Action, ...]
     body: Literals
 
 
@@ -40,7 +41,7 @@ class Sees:
     """The robot sees whether the fluent holds, in every state that satisfies the body."""
 
     robot: str
-    fluent: str
+    fluent: Fluent
     body: Literals
 
 
@@ -48,8 +49,8 @@ class Sees:
 class Shows:
     """The outcome of the action shows the fluent, if the resulting state satisfies the body."""
 
-    action: str
-    fluent: str
+    action: Action
+    fluent: Fluent
     body: Literals
 
 
@@ -61,7 +62,7 @@ class Default:
     """
 
     name: str
-    head: str
+    head: Literal
     body: Literals
     exceptions: tuple[Literals, ...]
 
@@ -76,8 +77,8 @@ class Trigger:
     """
 
     scenario: str
-    event: str
-    upon: str | None
+    event: Action
+    upon: Action | None
     drawn: str
     pool: Literals
     body: Literals
@@ -94,24 +95,24 @@ class Description:
     name: str
     source: str
     sorts: Mapping[str, tuple[str, ...]]
-    statics: frozenset[str]
-    inertial: tuple[str, ...]
-    defined: tuple[str, ...]
-    agent_actions: tuple[str, ...]
-    exogenous_actions: tuple[str, ...]
+    statics: frozenset[Literal]
+    inertial: tuple[Fluent, ...]
+    defined: tuple[Fluent, ...]
+    agent_actions: tuple[Action, ...]
+    exogenous_actions: tuple[Action, ...]
     causal: tuple[Causal, ...]
     constraints: tuple[Constraint, ...]
     executability: tuple[Executability, ...]
     sees: tuple[Sees, ...]
     shows: tuple[Shows, ...]
     costs: Mapping[str, int]
-    initially: tuple[tuple[str, ...], ...]
+    initially: tuple[tuple[Fluent, ...], ...]
     defaults: tuple[Default, ...]
     triggers: tuple[Trigger, ...]
     scenarios: tuple[str, ...]
 
     @cached_property
-    def fluents(self) -> tuple[str, ...]:
+    def fluents(self) -> tuple[Fluent, ...]:
         return self.inertial + self.defined
 
     @cached_property

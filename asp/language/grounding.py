@@ -13,12 +13,13 @@ from asp.language.description import (
     Default,
     Description,
     Executability,
+    Literals,
     Sees,
     Shows,
     Trigger,
 )
 from asp.language.instances import Binding, Instances, atom_of, instances_of, literal_of, value_of
-from asp.language.literals import ground
+from asp.language.literals import Fluent, Literal
 from asp.language.signature import Signature
 
 
@@ -55,9 +56,9 @@ class _Grounder:
     def source(self) -> syntax.Source:
         return self.instances.source
 
-    def symbols(self, kind: syntax.SymbolKind) -> tuple[str, ...]:
+    def symbols(self, kind: syntax.SymbolKind) -> tuple[Literal, ...]:
         return tuple(
-            ground(declaration.name, args)
+            Literal.of(declaration.name, args)
             for declaration in self.instances.signature.symbols.values()
             if declaration.kind == kind
             for args in product(
@@ -113,8 +114,8 @@ class _Grounder:
         }
         return {action: stated.get(action, 0) for action in self.symbols("agent")}
 
-    def initially(self) -> tuple[tuple[str, ...], ...]:
-        groups: dict[tuple[object, ...], list[str]] = {}
+    def initially(self) -> tuple[tuple[Fluent, ...], ...]:
+        groups: dict[tuple[object, ...], list[Fluent]] = {}
         for number, statement in enumerate(self.source.each(syntax.InitiallyStatement)):
             for binding in self.instances.bindings(statement):
                 others = (v for name, v in binding.items() if name != statement.variable.name)
@@ -123,7 +124,7 @@ class _Grounder:
 
     def defaults(self) -> tuple[Default, ...]:
         """The defaults but those to which an exception applies whatever the state."""
-        exceptions: dict[str, list[tuple[str, ...]]] = {}
+        exceptions: dict[str, list[Literals]] = {}
         for statement in self.source.each(syntax.ExceptionStatement):
             for binding, body in self.instances.of(statement):
                 exceptions.setdefault(self._name(statement.of, binding), []).append(body)
@@ -137,7 +138,7 @@ class _Grounder:
     def _name(self, default: syntax.DefaultStatement | None, binding: Binding) -> str:
         assert default is not None, "the checker has found every default"
         variables = variable_domains(default, self.instances.signature)
-        return ground(default.name, (binding[variable] for variable in variables))
+        return Literal.of(default.name, (binding[variable] for variable in variables))
 
     def triggers(self) -> tuple[Trigger, ...]:
         return tuple(

@@ -8,7 +8,8 @@ from itertools import product
 
 from asp.language import syntax
 from asp.language.checker import variable_domains
-from asp.language.literals import ground
+from asp.language.description import Literals
+from asp.language.literals import Literal
 from asp.language.signature import Signature
 
 Binding = Mapping[str, str]
@@ -24,10 +25,10 @@ class Instances:
 
     source: syntax.Source
     signature: Signature
-    known_statics: frozenset[str]
-    assumed_statics: frozenset[str]
+    known_statics: frozenset[Literal]
+    assumed_statics: frozenset[Literal]
 
-    def of(self, statement: syntax.Statement) -> Iterator[tuple[Binding, tuple[str, ...]]]:
+    def of(self, statement: syntax.Statement) -> Iterator[tuple[Binding, Literals]]:
         """The bindings that the statics and comparisons allow, with what is left of the body."""
         for binding in self.bindings(statement):
             body = self.evaluate(getattr(statement, "body", ()), binding)
@@ -39,9 +40,7 @@ class Instances:
         for values in product(*domains.values()):
             yield dict(zip(domains, values, strict=True))
 
-    def evaluate(
-        self, body: Iterable[syntax.Condition], binding: Binding
-    ) -> tuple[str, ...] | None:
+    def evaluate(self, body: Iterable[syntax.Condition], binding: Binding) -> Literals | None:
         """The fluent literals of a body, or None if a static or a comparison fails."""
         kept = []
         for condition in body:
@@ -75,7 +74,7 @@ class Instances:
     def static_laws(self) -> list[syntax.StateConstraint]:
         return [law for law in self.source.each(syntax.StateConstraint) if self.on_statics(law)]
 
-    def closed_statics(self, assumed: frozenset[str]) -> frozenset[str]:
+    def closed_statics(self, assumed: frozenset[Literal]) -> frozenset[Literal]:
         """The least set with the facts that is closed under the constraints on statics.
 
         A negated static in a body holds where the static is not among the assumed ones.
@@ -99,13 +98,13 @@ class Instances:
 
 def static_truth(
     source: syntax.Source, signature: Signature
-) -> tuple[frozenset[str], frozenset[str]]:
+) -> tuple[frozenset[Literal], frozenset[Literal]]:
     """The statics that are true, and those that the laws leave open (through their own negation).
 
     The alternating fixpoint: what is surely true narrows down what may be, and the other way round.
     """
     instances = Instances(source, signature, frozenset(), frozenset())
-    true: frozenset[str] = frozenset()
+    true: frozenset[Literal] = frozenset()
     while True:
         possible = instances.closed_statics(true)
         surer = instances.closed_statics(possible)
@@ -124,9 +123,10 @@ def value_of(term: syntax.Term, binding: Binding) -> str:
     return binding.get(term.name, term.name)
 
 
-def atom_of(atom: syntax.Atom, binding: Binding) -> str:
-    return ground(atom.name, (value_of(term, binding) for term in atom.args))
+def atom_of(atom: syntax.Atom, binding: Binding) -> Literal:
+    return Literal.of(atom.name, [value_of(term, binding) for term in atom.args])
 
 
-def literal_of(literal: syntax.Literal, binding: Binding) -> str:
-    return ("" if literal.positive else "-") + atom_of(literal.atom, binding)
+def literal_of(literal: syntax.Literal, binding: Binding) -> Literal:
+    atom = atom_of(literal.atom, binding)
+    return atom if literal.positive else atom.complement

@@ -1,19 +1,114 @@
-"""Ground atoms and literals as ASP text: `loc(book1,kitchen)`, `-loc(book1,kitchen)`."""
+"""Ground fluents, actions and literals: text that has its parts, `-loc(book1,kitchen)`."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
+from typing import TypeAlias
+
+_MOST_KEPT = 100_000
+"""Of the literals last made, which are not made a second time."""
+_NAME = r"_*[a-z]\w*"
+_FORM = re.compile(rf"(-?)({_NAME})(?:\(((?:{_NAME}|\d+)(?:,(?:{_NAME}|\d+))*)\))?", re.ASCII)
+
+
+class Literal(str):
+    """A ground literal: a name with constants, positive or negative; a fluent, an action.
+
+    It is the text that ASP reads, without blanks, and compares, sorts and hashes as that. It is
+    made of its parts (`Literal.of`), or where text comes in (`Literal.parse`); it does not change.
+
+    Attributes: `name` (`loc` of `-loc(book1,kitchen)`), `arguments` (`("book1", "kitchen")`), and
+    `is_positive`.
+    """
+
+    __slots__ = ("_complement", "arguments", "is_positive", "name")
+
+    name: str
+    arguments: tuple[str, ...]
+    is_positive: bool
+    _complement: Literal | None
+
+    def __new__(
+        cls, name: str, arguments: tuple[str, ...] = (), is_positive: bool = True
+    ) -> Literal:
+        inside = f"({','.join(arguments)})" if arguments else ""
+        literal = super().__new__(cls, f"{'' if is_positive else '-'}{name}{inside}")
+        set_part = object.__setattr__
+        set_part(literal, "name", name)
+        set_part(literal, "arguments", arguments)
+        set_part(literal, "is_positive", is_positive)
+        set_part(literal, "_complement", None)
+        return literal
+
+    @staticmethod
+    def of(name: str, arguments: Iterable[str] = (), is_positive: bool = True) -> Literal:
+        """The literal with these parts."""
+        return _made(name, tuple(arguments), is_positive)
+
+    @staticmethod
+    def parse(text: str) -> Literal:
+        """The literal with this text. Raises ValueError where the text is that of none."""
+        return text if isinstance(text, Literal) else _parsed(text)
+
+    @property
+    def atom(self) -> Literal:
+        """The literal without its sign."""
+        return self if self.is_positive else self.complement
+
+    @property
+    def complement(self) -> Literal:
+        """The same atom with the other sign."""
+        if self._complement is None:
+            other = _made(self.name, self.arguments, not self.is_positive)
+            object.__setattr__(self, "_complement", other)
+            return other
+        return self._complement
+
+    def renamed(self, names: Mapping[str, str]) -> Literal:
+        """The literal with other names for its constants; one without keeps its own."""
+        return _made(
+            self.name, tuple([names.get(each, each) for each in self.arguments]), self.is_positive
+        )
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a literal does not change: {name!r} cannot be set")
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Literal.of, (self.name, self.arguments, self.is_positive)
+
+
+Fluent: TypeAlias = Literal
+"""A positive literal whose name is that of a fluent."""
+Action: TypeAlias = Literal
+"""A positive literal whose name is that of an action, one of the domain's or of a robot's own."""
+
+
+@lru_cache(maxsize=_MOST_KEPT)
+def _made(name: str, arguments: tuple[str, ...], is_positive: bool) -> Literal:
+    return Literal(name, arguments, is_positive)
+
+
+@lru_cache(maxsize=_MOST_KEPT)
+def _parsed(text: str) -> Literal:
+    found = _FORM.fullmatch(text)
+    if found is None:
+        raise ValueError(f"{text!r} is not a ground literal")
+    sign, name, inside = found.groups()
+    return _made(name, tuple(inside.split(",")) if inside else (), not sign)
 
 
 def complement(literal: str) -> str:
     """The same atom with the other sign."""
+    if isinstance(literal, Literal):
+        return literal.complement
     return literal[1:] if literal.startswith("-") else "-" + literal
 
 
 def atom(literal: str) -> str:
     """The literal without its sign."""
-    return literal.removeprefix("-")
+    return literal.atom if isinstance(literal, Literal) else literal.removeprefix("-")
 
 
 def is_positive(literal: str) -> bool:
@@ -22,7 +117,7 @@ def is_positive(literal: str) -> bool:
 
 def name(literal: str) -> str:
     """The fluent's or action's name: `loc` of `-loc(book1,kitchen)`."""
-    return atom(literal).partition("(")[0]
+    return literal.removeprefix("-").partition("(")[0]
 
 
 @lru_cache(maxsize=100_000)
@@ -32,13 +127,13 @@ def arguments(literal: str) -> tuple[str, ...]:
     return tuple(inner.split(",")) if inner else ()
 
 
-def ground(name: str, args: Iterable[str]) -> str:
+def ground(name: str, args: Iterable[str]) -> Literal:
     """The atom of a name and its argument constants."""
-    inside = ",".join(args)
-    return f"{name}({inside})" if inside else name
+    return Literal.of(name, args)
 
 
 def renamed(literal: str, names: Mapping[str, str]) -> str:
     """The literal or action with other names for its constants; one without keeps its own."""
-    constants = (names.get(constant, constant) for constant in arguments(literal))
-    return ("" if is_positive(literal) else "-") + ground(name(literal), constants)
+    constants = ",".join(names.get(constant, constant) for constant in arguments(literal))
+    sign = "" if is_positive(literal) else "-"
+    return f"{sign}{name(literal)}({constants})" if constants else f"{sign}{name(literal)}"

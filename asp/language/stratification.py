@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from asp.language import syntax
 from asp.language import variable_sorts as roles
 from asp.language.instances import instances_of, literal_of, static_truth
-from asp.language.literals import atom, complement, is_positive, name
+from asp.language.literals import Literal, atom, complement, is_positive, name
 from asp.language.signature import Problems, Signature
 
 Graph = Mapping[str, set[str]]
@@ -25,7 +25,7 @@ def check_cycles(source: syntax.Source, signature: Signature, problems: Problems
     _check_statics(source, signature, problems)
     atoms: dict[str, set[str]] = {}
     literals: dict[str, set[str]] = {}
-    laws: list[tuple[syntax.StateConstraint, str, str]] = []
+    laws: list[tuple[syntax.StateConstraint, Literal, Literal]] = []
     instances = instances_of(source, signature)
     for law in source.each(syntax.StateConstraint):
         for binding, body in instances.of(law):

@@ -20,7 +20,7 @@ from testbed.experiment.record import Activity, At, Explained, TrialRecord
 def digest(records: Iterable[TrialRecord]) -> str:
     """The SHA-256 of the results in the records, in hexadecimal, whatever the records' order."""
     timeless = (record for record in records if not record.deadline)
-    lines = sorted(msgspec.json.encode(_results(record)) for record in timeless)
+    lines = sorted(msgspec.json.encode(_results(record), enc_hook=str) for record in timeless)
     return hashlib.sha256(b"\n".join(lines)).hexdigest()
 
 

@@ -36,7 +36,7 @@ def export(folder: Path) -> tuple[Path, Path]:
         ConfigError: where the stored configuration is not valid any more.
     """
     read_config(folder)
-    trials = frame(msgspec.to_builtins(record) for record in read_records(folder))
+    trials = frame(msgspec.to_builtins(record, enc_hook=str) for record in read_records(folder))
     if not len(trials):
         raise StoreError(f"{folder}: has no trials to export yet")
     paths = folder / PARQUET, folder / CSV
@@ -87,4 +87,4 @@ def flat(trials: pl.DataFrame) -> pl.DataFrame:
 
 
 def _json(value: object) -> str:
-    return msgspec.json.encode(value).decode()
+    return msgspec.json.encode(value, enc_hook=str).decode()

@@ -229,7 +229,7 @@ _decoder = msgspec.json.Decoder(TrialRecord)
 
 def encode(record: TrialRecord) -> bytes:
     """The record as one line of JSON, newline included."""
-    return msgspec.json.encode(record) + b"\n"
+    return msgspec.json.encode(record, enc_hook=str) + b"\n"
 
 
 def check(record: TrialRecord) -> None:
@@ -251,7 +251,7 @@ def decode(line: bytes) -> TrialRecord:
 
 def logical(record: TrialRecord) -> dict[str, object]:
     """The record without times and earlier attempts: what the same seed must give again."""
-    kept = _timeless(msgspec.to_builtins(record))
+    kept = _timeless(msgspec.to_builtins(record, enc_hook=str))
     return kept | {"fine": None if record.fine is None else _timeless(kept["fine"])}
 
 

@@ -72,7 +72,7 @@ def _read(number: int, line: bytes, planned: Mapping[str, TrialSpec]) -> _Line:
 
 
 def _results(record: TrialRecord) -> int:
-    return hash(msgspec.json.encode(logical(record)))
+    return hash(msgspec.json.encode(logical(record), enc_hook=str))
 
 
 def _dropped(lines: Iterable[_Line]) -> dict[int, str]:

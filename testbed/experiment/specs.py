@@ -152,7 +152,9 @@ def playing_order(seed: int, robots: Sequence[str]) -> tuple[str, ...]:
 def _without_files(setting: Setting, domain: str) -> object:
     """The setting as it is hashed: wherever its files lie, and without what is as by default."""
     fine = setting.fine and msgspec.structs.replace(setting.fine, refinement=None)
-    values = msgspec.to_builtins(msgspec.structs.replace(setting, domain=domain, fine=fine))
+    values = msgspec.to_builtins(
+        msgspec.structs.replace(setting, domain=domain, fine=fine), enc_hook=str
+    )
     defaults = {field.name: field.default for field in msgspec.structs.fields(Setting)}
     # msgspec omits a default that is the same object, which an equal number need not be.
     return {name: value for name, value in values.items() if value != defaults[name]}
@@ -180,4 +182,4 @@ def _short_hash(value: object) -> str:
 
 
 def _canonical(value: object) -> bytes:
-    return msgspec.json.encode(value, order="deterministic")
+    return msgspec.json.encode(value, enc_hook=str, order="deterministic")

@@ -229,7 +229,7 @@ class _Envelope(msgspec.Struct):
 
 M = TypeVar("M", bound=Message)
 
-_encoder = msgspec.msgpack.Encoder()
+_encoder = msgspec.msgpack.Encoder(enc_hook=str)
 _envelope = msgspec.msgpack.Decoder(_Envelope)
 # Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
 # once end the interpreter.

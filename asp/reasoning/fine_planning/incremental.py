@@ -131,7 +131,7 @@ class FinePlanner:
 
     def _by_function(self, groups: Iterable[tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
         """The groups of candidates by what they give a value. Raises NotCandidatesError."""
-        found = {}
+        found: dict[str, tuple[str, ...]] = {}
         for group in groups:
             function = subject(group[0], self._functions)
             if function is None:

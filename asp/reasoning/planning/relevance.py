@@ -15,6 +15,8 @@ from itertools import pairwise
 
 from asp.language import (
     Description,
+    Literal,
+    Literals,
     Signature,
     arguments,
     atom,
@@ -72,6 +74,7 @@ class Independence:
     def _moving(self) -> Mapping[str, list[tuple[str, tuple[str, ...]]]]:
         """Of each candidate: what something else makes of it, and under what conditions on it."""
         found: dict[str, list[tuple[str, tuple[str, ...]]]] = {c: [] for c in self.candidates}
+        laws: list[tuple[Literal, Literals, str]]
         laws = [(law.head, law.body, law.action) for law in self._description.causal]
         laws += [(law.head, law.body, "") for law in self._description.constraints]
         for head, body, action in laws:
