@@ -1,7 +1,7 @@
 """A pytest plugin: the tests run without one statement of a theory, named by a variable.
 
-`LEFT_OUT=kept_planning:23 pytest -p benchmarks.leaving_out` leaves out what begins in line 23. In
-processes that a test starts nothing is left out.
+`LEFT_OUT=incremental_planning:16 pytest -p benchmarks.leaving_out` leaves out what begins in line
+16. In processes that a test starts nothing is left out.
 """
 
 from __future__ import annotations

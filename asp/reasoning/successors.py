@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import clingo
 from clingo import Symbol
 
-from asp.solving import KeptControl, State, answer_sets, fact, solving
+from asp.solving import Session, State, answer_sets, fact, solving
 
 MOST_ASSUMED = 6
 """How many unobserved events and distrusted reports are assumed of one step at most."""
@@ -34,8 +34,14 @@ class Transitions:
     """The transition diagram of a domain, one transition at a time."""
 
     def __init__(self, program: str, fluents: Sequence[str], ranks: Iterable[Symbol]) -> None:
-        self._kept = KeptControl(
-            program, "kept_transition", fluents, ranks, n=1, most=MOST_ASSUMED + 1
+        self._kept = Session(
+            program,
+            "incremental_transitions",
+            fluents,
+            ranks,
+            ["reports"],
+            n=1,
+            most=MOST_ASSUMED + 1,
         )
 
     def after(

@@ -4,7 +4,7 @@ from asp.solving.budget import UNLIMITED, BudgetError, LimitError, Limits, curre
 from asp.solving.cache import Answers, Recent
 from asp.solving.clock import Reading, preparation, reasoning_clock
 from asp.solving.preference import preferring
-from asp.solving.session import KeptControl, State, goal_externals
+from asp.solving.session import Session, State, goal_externals
 from asp.solving.signals import undisturbed
 from asp.solving.solver import (
     answer_sets,
@@ -24,11 +24,11 @@ __all__ = [
     "UNLIMITED",
     "Answers",
     "BudgetError",
-    "KeptControl",
     "LimitError",
     "Limits",
     "Reading",
     "Recent",
+    "Session",
     "State",
     "answer_sets",
     "core",

@@ -1,4 +1,4 @@
-"""What the kept controls have in common: literals looked up once, assumptions, externals."""
+"""Multi-shot solving: a program grounded once, asked by assumptions and externals."""
 
 from __future__ import annotations
 
@@ -16,19 +16,23 @@ State = frozenset[str]
 """A complete state of a domain, as the set of its true fluents."""
 
 
-class KeptControl:
-    """A grounded domain with one theory; `holds(F,I)` by fluent and step as solver literals."""
+class Session:
+    """A domain with one theory, grounded once and asked many times.
+
+    `parts` are those of the theory beside its base. Atoms are looked up as solver literals.
+    """
 
     def __init__(
         self,
         program: str,
         theory_name: str,
         fluents: Sequence[str],
-        ranks: Iterable[Symbol],
+        facts: Iterable[Symbol],
+        parts: Iterable[str] = (),
         **constants: int,
     ) -> None:
         with preparation():
-            self.control = ground([program, theory(theory_name)], constants, ranks)
+            self.control = ground([program, theory(theory_name)], constants, facts, parts)
             # The first call prepares the solver, whatever it is asked.
             with undisturbed():
                 self.control.solve()

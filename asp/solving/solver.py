@@ -63,9 +63,12 @@ def _argument(value: Symbol | int | str) -> Symbol:
 
 
 def ground(
-    texts: Iterable[str], constants: Mapping[str, int], facts: Iterable[Statement]
+    texts: Iterable[str],
+    constants: Mapping[str, int],
+    facts: Iterable[Statement],
+    parts: Iterable[str] = (),
 ) -> clingo.Control:
-    """A control with the ground program of the texts and facts.
+    """A control with the ground program of the texts and facts, and of these parts of the texts.
 
     Solving is single-threaded and without randomness: the same texts, constants and facts in the
     same order give the same models. Where a program has `#heuristic` directives, its first model
@@ -74,11 +77,12 @@ def ground(
     texts = tuple(texts)
     arguments = [part for name, value in constants.items() for part in ("-c", f"{name}={value}")]
     control = clingo.Control([*arguments, *_OPTIONS])
-    count_rules(control, texts, constants)
+    parts = ("base", *parts)
+    count_rules(control, (*texts, *parts), constants)
     for text in texts:
         control.add("base", [], text)
     control.add("base", [], "\n".join(f"{atom}." for atom in facts))
-    control.ground([("base", [])])
+    control.ground([(part, []) for part in parts])
     return control
 
 

@@ -37,7 +37,8 @@ def confined(law: Rule) -> Iterator[str]:
     """The texts of a rule where functions may be confined at some steps to some values.
 
     What would give a fluent's function another value then is a constraint; another action is not
-    enabled. What is chosen at step 0 is given instead. See `kept_fitted`.
+    enabled. What is chosen at step 0 is given instead. See `problem` in
+    `incremental_fine_planning`.
     """
     if law.gives is None:
         if law.part != OPEN:

@@ -9,7 +9,7 @@ import clingo
 from clingo import Symbol
 
 from asp.language import atom, is_positive
-from asp.solving import KeptControl, State, fact
+from asp.solving import Session, State, fact
 
 Happening = tuple[int, str]
 """An exogenous action at a step."""
@@ -103,7 +103,7 @@ def distrustable(past: Past) -> Iterator[Happening]:
         yield from ((time, action) for action in record.distrustable)
 
 
-def observations(kept: KeptControl, past: Past) -> list[int] | None:
+def observations(kept: Session, past: Past) -> list[int] | None:
     """Assumptions for everything observed; None where an atom that must be true cannot be."""
     wanted: list[tuple[int | None, bool]] = []
     for time, record in past.records.items():
@@ -129,7 +129,7 @@ def assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:
 
 
 def account(
-    kept: KeptControl,
+    kept: Session,
     model: clingo.Model,
     past: Past,
     events: Sequence[str],

@@ -18,8 +18,8 @@ from asp.reasoning.diagnosis.encoding import (
     observations,
 )
 from asp.solving import (
-    KeptControl,
     Recent,
+    Session,
     answer_sets,
     goal_externals,
     is_satisfiable,
@@ -53,7 +53,7 @@ class Explanations:
         self._events = events
         self._defaults = defaults
         self._ranks = tuple(ranks)
-        self._controls: Recent[tuple[int, int], KeptControl] = Recent(_MOST_CONTROLS)
+        self._controls: Recent[tuple[int, int], Session] = Recent(_MOST_CONTROLS)
 
     def smallest(self, past: Past, fewest: tuple[int, int] = (0, 0)) -> Account | None:
         """The first of the smallest explanations of the past.
@@ -120,16 +120,16 @@ class Explanations:
                 return None
             return account(kept, model, question.past, self._events, self._defaults)
 
-    def _reaching(self, step: int, most: int) -> KeptControl:
+    def _reaching(self, step: int, most: int) -> Session:
         # It depends on the history alone, so that budgets do not depend on earlier histories.
         horizon = _FIRST_HORIZON
         while horizon < step:
             horizon *= 2
         return self._controls.get((horizon, most), lambda: self._made(horizon, most))
 
-    def _made(self, horizon: int, most: int) -> KeptControl:
-        return KeptControl(
-            self._program, "kept_diagnosis", self._fluents, self._ranks, n=horizon, most=most
+    def _made(self, horizon: int, most: int) -> Session:
+        return Session(
+            self._program, "incremental_diagnosis", self._fluents, self._ranks, n=horizon, most=most
         )
 
 
@@ -137,7 +137,7 @@ class Explanations:
 class _Question:
     """A control switched to a past, and assumptions for everything observed."""
 
-    kept: KeptControl
+    kept: Session
     most: int
     past: Past
     given: list[int] | None

@@ -28,7 +28,7 @@ class Horizon:
         ranks.append(Function("ranks", [Number(len(actions))]))
         constants = {"n": length, "ordered": min(length, MOST_LEVELS // (len(actions) + 1))}
         with preparation():
-            self.control = ground([program, theory("kept_fine")], constants, ranks)
+            self.control = ground([program, theory("incremental_fine_planning")], constants, ranks)
             self.control.ground([("open", [])])
             self._initial = _literals(self.control, "holds", 2)
             self._placed = _literals(self.control, "placed", 1)

@@ -11,7 +11,7 @@ from asp.language import Causal, Constraint, Description, atom, is_positive
 from asp.reasoning.planning.incremental import Plans
 from asp.solving import (
     Answers,
-    KeptControl,
+    Session,
     State,
     answer_sets,
     core,
@@ -42,7 +42,7 @@ class Reach:
         self._laws = list(_laws(description))
         self._program = program
         self._plans = plans
-        self._kept: KeptControl | None = None
+        self._kept: Session | None = None
         self._answers: Answers[tuple[State, tuple[str, ...]], bool | None] = Answers(MOST_ANSWERS)
         self._all_from: Answers[State, frozenset[State] | None] = Answers(MOST_ORIGINS)
 
@@ -133,9 +133,11 @@ class Reach:
         return {frozenset(str(shown.arguments[0]) for shown in answer) for answer in found}
 
     @property
-    def _control(self) -> KeptControl:
+    def _control(self) -> Session:
         if self._kept is None:
-            self._kept = KeptControl(self._program, "kept_successors", self._fluents, (), n=1)
+            self._kept = Session(
+                self._program, "incremental_transitions", self._fluents, (), ["successors"], n=1
+            )
         return self._kept
 
 

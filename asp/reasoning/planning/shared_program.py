@@ -8,8 +8,8 @@ import clingo
 from clingo import Symbol
 
 from asp.language import Description
-from asp.reasoning.planning.large.problem_program import SHORTEST, candidates
-from asp.solving import KeptControl, Recent, State, fact, goal_externals, is_satisfiable, solving
+from asp.reasoning.planning.large.problem_program import candidates
+from asp.solving import Recent, Session, State, fact, goal_externals, is_satisfiable, solving
 
 MOST_LENGTHS = 40
 """Of how many lengths of plans controls are kept: those that were used last.
@@ -33,8 +33,8 @@ class SharedPrograms:
         self._actions = description.agent_actions
         self._program = program
         self._facts = tuple(facts)
-        self._planning: Recent[int, KeptControl] = Recent(MOST_LENGTHS)
-        self._following: Recent[int, KeptControl] = Recent(MOST_LENGTHS)
+        self._planning: Recent[int, Session] = Recent(MOST_LENGTHS)
+        self._following: Recent[int, Session] = Recent(MOST_LENGTHS)
 
     def first_plan(
         self,
@@ -44,9 +44,9 @@ class SharedPrograms:
         symmetric: Iterable[tuple[str, str]],
     ) -> tuple[str, ...] | None:
         """The first plan of this length in the order of declaration, or None."""
-        kept = self._planning.get(length, lambda: self._made("kept_planning", length))
+        kept = self._planning.get(length, lambda: self._made("plan", length))
         ordered = (fact("symmetric", *pair) for pair in symmetric)
-        kept.switch_on(SHORTEST, *goal_externals(goal), *ordered)
+        kept.switch_on(*goal_externals(goal), *ordered)
         start = kept.assume_state(state, 0)
         if start is None:
             return None
@@ -56,17 +56,17 @@ class SharedPrograms:
     def succeeds(self, state: State, goal: tuple[str, ...], plan: Sequence[str]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then."""
         horizon = horizon_of(plan)
-        kept = self._following.get(horizon, lambda: self._made("kept_following", horizon))
+        kept = self._following.get(horizon, lambda: self._made("follow", horizon))
         follows = (fact("follows", action, step) for step, action in enumerate(plan))
         kept.switch_on(*goal_externals(goal), *follows)
         start = kept.assume_state(state, 0)
         return start is not None and is_satisfiable(kept.control, start)
 
-    def _made(self, name: str, steps: int) -> KeptControl:
+    def _made(self, part: str, steps: int) -> Session:
         facts = (*self._facts, *candidates([self._actions] * steps))
-        return KeptControl(self._program, name, self._fluents, facts, n=steps)
+        return Session(self._program, "incremental_planning", self._fluents, facts, [part], n=steps)
 
-    def _read(self, kept: KeptControl, model: clingo.Model, length: int) -> tuple[str, ...]:
+    def _read(self, kept: Session, model: clingo.Model, length: int) -> tuple[str, ...]:
         return tuple(
             next(
                 action

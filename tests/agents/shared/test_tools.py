@@ -14,7 +14,7 @@ from agents.shared import sessions as tools
 from agents.shared.knowledge import knowledge
 from agents.shared.sessions import Tools, tools_of
 from asp.language import MOST_TEXTS, Description, parse_description
-from asp.solving import KeptControl, Recent
+from asp.solving import Recent, Session
 from testbed.protocol.messages import Task
 from tests.agents.intentional.lives import OFFICE, live
 
@@ -43,7 +43,7 @@ def test_a_domain_that_is_not_kept_any_more_leaves_no_control(
     kept, controls = list[ref[Tools]](), list[int]()
     for goal in (*GOALS, *GOALS):
         kept.append(_played(goal))
-        controls.append(len(_alive(KeptControl)))
+        controls.append(len(_alive(Session)))
     *gone, last = kept
     assert last() is not None
     assert [tools() for tools in gone] == [None] * len(gone)

@@ -87,11 +87,11 @@ def test_an_interrupt_at_any_place_leaves_a_control_usable(
 SWITCHING = """
 import os, signal
 import clingo
-from asp.solving import KeptControl
+from asp.solving import Session
 from asp.solving import fact, first_model
 
 ATOMS = [fact("light", number) for number in range(6)]
-kept = KeptControl("#external light(0..5). #show light/1.", "order", [], [], n=1)
+kept = Session("#external light(0..5). #show light/1.", "order", [], [], n=1)
 kept.switch_on(*ATOMS[:3])
 real = clingo.Control.assign_external
 left = [0] * {calls} + [1]

@@ -11,7 +11,7 @@ import clingo
 from asp.reasoning.diagnosis.encoding import Past, distrustable
 from asp.reasoning.diagnosis.long_histories.frontier import Frontier
 from asp.reasoning.diagnosis.long_histories.prefix_explanations import Prefix
-from asp.solving import KeptControl, State
+from asp.solving import Session, State
 
 MOST_MORE = 4
 """How many events and distrusted reports a control counts, beyond those of the cheapest entry."""
@@ -25,7 +25,7 @@ class Question:
     which they are complete. `given` are assumptions for all that was observed.
     """
 
-    kept: KeptControl
+    kept: Session
     frontier: Frontier
     end: Past
     most: int

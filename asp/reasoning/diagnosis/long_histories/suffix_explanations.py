@@ -21,7 +21,7 @@ from asp.reasoning.diagnosis.long_histories.frontier import Frontier
 from asp.reasoning.diagnosis.long_histories.prefix_explanations import steps
 from asp.reasoning.diagnosis.long_histories.suffix import MOST_MORE, Question
 from asp.solving import (
-    KeptControl,
+    Session,
     answer_sets,
     fact,
     goal_externals,
@@ -49,12 +49,12 @@ class Windows:
         ranks: Iterable[Symbol],
     ) -> None:
         """`ranks` are the facts rank(A,R) and ranks(M)."""
-        self._program = "\n".join([program, theory("order"), theory("kept_diagnosis")])
+        self._program = "\n".join([program, theory("order")])
         self._fluents = fluents
         self._inertial = inertial
         self._events = events
         self._ranks = [_with_room(rank) for rank in ranks]
-        self._made: KeptControl | None = None
+        self._made: Session | None = None
         self._on: set[int] = set()
 
     def smallest(self, frontier: Frontier, past: Past, fewest: int) -> Account | None:
@@ -150,13 +150,14 @@ class Windows:
         return Account(prefixes[0].followed_by(end.assumed, first), frozenset(), end.state, held)
 
     @property
-    def _kept(self) -> KeptControl:
+    def _kept(self) -> Session:
         if self._made is None:
-            self._made = KeptControl(
+            self._made = Session(
                 self._program,
-                "kept_window",
+                "incremental_diagnosis",
                 self._fluents,
                 self._ranks,
+                ["suffix"],
                 n=LENGTH,
                 most=MOST_MORE,
                 entries=MOST_ENTRIES,

@@ -41,7 +41,9 @@ def fitted_plan(
     """
     length = len(confined) - 1
     facts = (*_given(problem, confined[0]), *_within(confined))
-    control = ground([program, theory("kept_fine"), theory("kept_fitted")], {"n": length}, facts)
+    control = ground(
+        [program, theory("incremental_fine_planning")], {"n": length}, facts, ["problem"]
+    )
     first, *others = parts(length)
     control.ground([first, ("open", []), *others, ("goal", [Number(length)])])
     _prefer(control, actions)

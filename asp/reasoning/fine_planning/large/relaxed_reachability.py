@@ -29,7 +29,7 @@ class Relaxed:
             clauses = Clauses()
             control = clingo.Control(["--warn=none", "-c", "n=1"])
             control.register_observer(clauses)
-            for text in (program, theory("kept_fine")):
+            for text in (program, theory("incremental_fine_planning")):
                 control.add("base", [], text)
             control.ground([("base", [])])
             self.facts = [str(each.symbol) for each in control.symbolic_atoms]

@@ -25,7 +25,6 @@ from asp.solving import (
 )
 from asp.translation import AWARENESS
 
-SHORTEST = clingo.Function("shortest")
 MOST_LEVELS = 32_767
 """As many levels of decisions as clasp tells apart."""
 
@@ -51,10 +50,10 @@ class NarrowPrograms:
         The actions of a step are in the order of declaration. Where there are more of all steps
         than clasp has levels, the first ones are decided first, in a call of their own.
         """
-        facts = [SHORTEST, *goal_externals(goal)]
+        facts = [*goal_externals(goal)]
         facts += (fact("symmetric", *pair) for pair in symmetric)
         while True:
-            plan = self._preferred("kept_planning", state, [*facts, *candidates(steps)], len(steps))
+            plan = self._preferred("plan", state, [*facts, *candidates(steps)], len(steps))
             if plan is None or _choices(steps) <= MOST_LEVELS:
                 return plan
             steps = _after_deciding(steps, plan)
@@ -63,12 +62,12 @@ class NarrowPrograms:
         """Whether the goal holds after some of the plan's actions, all possible until then."""
         facts = [*goal_externals(goal)]
         facts += (fact("follows", action, step) for step, action in enumerate(plan))
-        return is_satisfiable(self._ground("kept_following", state, facts, len(plan)))
+        return is_satisfiable(self._ground("follow", state, facts, len(plan)))
 
     def _preferred(
-        self, name: str, state: State, facts: Iterable[Symbol], length: int
+        self, part: str, state: State, facts: Iterable[Symbol], length: int
     ) -> tuple[str, ...] | None:
-        control = self._ground(name, state, (*self._facts, *facts), length)
+        control = self._ground(part, state, (*self._facts, *facts), length)
         with solving(control) as model:
             if model is None:
                 return None
@@ -77,10 +76,10 @@ class NarrowPrograms:
         return tuple(at[step] for step in range(length))
 
     def _ground(
-        self, name: str, state: State, facts: Iterable[Symbol], length: int
+        self, part: str, state: State, facts: Iterable[Symbol], length: int
     ) -> clingo.Control:
         given = [*self._given(state), *facts]
-        return ground([self._program, theory(name)], {"n": length}, given)
+        return ground([self._program, theory("incremental_planning")], {"n": length}, given, [part])
 
     def _given(self, state: State) -> Iterator[Symbol]:
         zero = clingo.Number(0)
