@@ -32,26 +32,33 @@ class Judge:
     """Answers questions about states of one world, each once."""
 
     def __init__(self, actions: Search, units: Search) -> None:
-        self._actions = actions
-        self._units = units
+        self._actions, self._units = actions, units
+        self._fewest = lru_cache(MOST_ANSWERS)(self._search)
         self.minimal = lru_cache(MOST_ANSWERS)(self._minimal)
 
     def in_reach(self, state: int, goal: Goal, most_states: int) -> bool | None:
         """Whether some plan achieves the goal from the state; None where the budget struck."""
-        reason = self.minimal(state, goal, most_states).reason
+        _, reason = self._fewest(state, goal, most_states)
         return None if reason == "budget" else reason is None
+
+    def _search(
+        self, state: int, goal: Goal, most_states: int
+    ) -> tuple[int | None, MinimalReason | None]:
+        """The fewest actions; where they are not known, why."""
+        try:
+            actions = self._actions(state, goal, most_states)
+        except BudgetError:
+            return None, "budget"
+        return actions, "no plan" if actions is None else None
 
     def _minimal(self, state: int, goal: Goal, most_states: int) -> Minimal:
         """The least that achieves the goal from the state.
 
         Where the budget suffices for the actions and not for the units, only these are unknown.
         """
-        try:
-            actions = self._actions(state, goal, most_states)
-        except BudgetError:
-            return Minimal(None, None, "budget")
+        actions, reason = self._fewest(state, goal, most_states)
         if actions is None:
-            return Minimal(None, None, "no plan")
+            return Minimal(None, None, reason)
         try:
             return Minimal(actions, self._units(state, goal, most_states), None)
         except BudgetError:

@@ -8,6 +8,8 @@ from typing import Any
 import pytest
 
 from testbed.config import load_config
+from testbed.experiment.judge import Judge
+from testbed.experiment.oracle import BudgetError
 from testbed.experiment.runner import run_trials
 from testbed.report import write_report
 
@@ -97,3 +99,19 @@ def test_no_plan_is_another_reason_than_the_budget(run: Run) -> None:
     for trial in trials:
         assert (trial["minimal_reason"], trial["in_reach"]) == ("budget", None)
     assert summary["levels"]["coarse"]["unsolvable"] == 0
+
+
+def test_whether_the_goal_is_in_reach_takes_one_search_and_no_units() -> None:
+    asked: list[int] = []
+
+    def actions(state: int, _goal: tuple[str, ...], most: int) -> int | None:
+        asked.append(state)
+        if state > most:
+            raise BudgetError
+        return state or None
+
+    judge = Judge(actions, lambda *_: pytest.fail("the units are not reported"))
+    for _ in range(2):
+        assert [judge.in_reach(state, (), 1) for state in range(3)] == [False, True, None]
+        assert [judge.minimal(state, (), 1).reason for state in (0, 2)] == ["no plan", "budget"]
+    assert asked == [0, 1, 2]
