@@ -1,0 +1,128 @@
+"""Potential heuristics: a sum of numbers, one for the value of each variable.
+
+F. Pommerening, M. Helmert, G. Röger and J. Seipp, From non-negative to general operator cost
+partitioning (2015). A linear program finds the numbers for which the sum is largest in one state,
+where no change lowers it by more than its action costs, and where no state of the goal has more
+than 0: then it is nowhere more than what it costs to achieve the goal. The changes are all that
+the laws can do in any state, indirect effects and those under conditions like others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
+from math import ceil
+
+import numpy as np
+from scipy.optimize import linprog  # type: ignore[import-untyped]  # scipy ships no types
+from scipy.sparse import coo_array  # type: ignore[import-untyped]  # scipy ships no types
+
+from asp.language import Description, atom, is_positive
+from testbed.experiment.heuristic.changes import Changes, changes
+from testbed.experiment.heuristic.variables import variables
+
+Heuristic = Callable[[int], int]
+"""A lower bound on what it costs to get from a state to the goal."""
+
+LARGEST = 100_000.0
+"""Bounds the numbers: where the goal is out of reach there would be no largest ones."""
+LONGEST = 100_000
+"""Actions of a plan; what the solver's tolerance adds up to along so many is taken off."""
+ROUNDING = 1e-6
+
+
+def blind(_: int) -> int:
+    """The heuristic of which nothing is known."""
+    return 0
+
+
+class Potentials:
+    """The heuristics of a description; its changes are enumerated when they are first needed."""
+
+    def __init__(self, description: Description) -> None:
+        self._description = description
+        self._fluents: dict[str, int] = {
+            fluent: 1 << i for i, fluent in enumerate(description.fluents)
+        }
+        self._variables = variables(description)
+
+    def heuristic(self, state: int, goal: Iterable[str], costs: Mapping[str, int]) -> Heuristic:
+        """One that is as large as possible in `state`, for it and what can be reached from it.
+
+        It is admissible and consistent; `blind` where the changes are too many. What has no cost
+        costs 0, and no cost is negative.
+        """
+        changes = self._changes
+        if changes is None or not changes.cover(state):
+            return blind
+        numbers = self._numbers(changes, state, tuple(goal), costs)
+        if numbers is None:
+            return blind
+        potentials, excess = numbers
+        tables: dict[int, dict[int, float]] = {variable: {} for variable in self._variables}
+        for (variable, value), potential in zip(self._columns, potentials, strict=True):
+            tables[variable][value] = potential
+        looked_up = tuple(tables.items())
+
+        def heuristic(state: int) -> int:
+            # A value that no change has is that of all states from here on.
+            exact = sum(table.get(state & variable, 0.0) for variable, table in looked_up)
+            return max(0, ceil(exact - excess))
+
+        return heuristic
+
+    @cached_property
+    def _changes(self) -> Changes | None:
+        return changes(self._description, self._variables)
+
+    @cached_property
+    def _columns(self) -> dict[tuple[int, int], int]:
+        """The variables of the linear program: what changes, with each value it can have."""
+        found = () if self._changes is None else self._changes.found
+        values = (
+            (effect.variable, value)
+            for _, effects in found
+            for effect in effects
+            for value in (effect.before, effect.after)
+        )
+        return {value: column for column, value in enumerate(dict.fromkeys(values))}
+
+    @cached_property
+    def _lowering(self) -> coo_array:
+        """By how much each change lowers the sum: a row per change."""
+        found = () if self._changes is None else self._changes.found
+        entries = [
+            (row, self._columns[effect.variable, value], sign)
+            for row, (_, effects) in enumerate(found)
+            for effect in effects
+            for value, sign in ((effect.before, 1.0), (effect.after, -1.0))
+        ]
+        rows, columns, signs = zip(*entries, strict=True)
+        return coo_array((signs, (rows, columns)), (len(found), len(self._columns))).tocsr()
+
+    def _numbers(
+        self, changes: Changes, state: int, goal: Sequence[str], costs: Mapping[str, int]
+    ) -> tuple[list[float], float] | None:
+        """The potentials of the columns and what to take off their sum; None: there are none."""
+        if not self._columns:
+            return None
+        most_lowered = np.array([costs.get(action, 0) for action, _ in changes.found], dtype=float)
+        at_start = [state & variable == value for variable, value in self._columns]
+        most = [0.0 if self._agree(goal, *column) else LARGEST for column in self._columns]
+        least = np.full(len(most), -LARGEST)
+        solved = linprog(
+            -np.array(at_start, dtype=float),
+            A_ub=self._lowering,
+            b_ub=most_lowered,
+            bounds=np.column_stack([least, most]),
+            method="highs-ds",
+        )
+        if not solved.success:
+            return None
+        excess = max(0.0, float(np.max(self._lowering @ solved.x - most_lowered)))
+        return solved.x.tolist(), ROUNDING + LONGEST * excess
+
+    def _agree(self, goal: Iterable[str], variable: int, value: int) -> bool:
+        """Whether the variable can have this value where the goal holds."""
+        wanted = ((self._fluents[atom(literal)], is_positive(literal)) for literal in goal)
+        return all(bool(value & own) == truth for own, truth in wanted if variable & own)
