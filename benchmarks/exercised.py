@@ -19,6 +19,7 @@ _THE_END = f"{_FOLDING}::test_the_end_of_a_history_is_explained_without_what_was
 _REASONS = "tests/agents/intentional/test_reasons.py"
 
 EXERCISED: Mapping[str, tuple[str, ...]] = {
+    "awareness": ("tests/asp/translation/test_translation.py",),
     "conflict": (
         "tests/agents/intentional/test_inconsistent.py",
         "tests/agents/intentional/test_inconsistent_lives.py",
@@ -56,6 +57,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
         "tests/agents/traditional/test_told.py",
         "tests/agents/traditional/test_kept_planner.py",
     ),
+    "transitions": ("tests/asp/translation/test_translation.py",),
     "undivided": (f"{_JOINT}::{_GOES_ON}", _JOINT_LIVES),
 }
 """By the theory's name: paths of test files, or of single tests in them."""

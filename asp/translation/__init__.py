@@ -1,13 +1,12 @@
 """Descriptions as answer set programs: the literal translation, and the compact one."""
 
 from asp.translation.compact import NotCompactError, compact
-from asp.translation.literal import AWARENESS, translate, translate_source
+from asp.translation.literal import translate, translate_source
 from asp.translation.program_parts import ACTION, BASE, OPEN, STATE, STEP, Rule, confined, plain
 from asp.translation.rules import condition, rule, term_text
 
 __all__ = [
     "ACTION",
-    "AWARENESS",
     "BASE",
     "OPEN",
     "STATE",

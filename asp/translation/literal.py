@@ -12,33 +12,13 @@ from itertools import chain, count
 
 from asp.language import Signature, analyse, ground, syntax, variable_domains
 from asp.language import variable_sorts as roles
+from asp.solving import theory
 from asp.translation.rules import condition, rule, term_text
 
 _HEADER = """\
 % Steps 0 to n; `-c n=K` on clingo's command line sets another horizon.
 #const n = 1.
 step(0..n)."""
-
-AWARENESS = """\
-% Awareness: initially every inertial fluent is true or false.
-1 { holds(F,0); -holds(F,0) } 1 :- inertial(F).
-"""
-
-_GENERAL = """\
-% Inertia.
-holds(F,I+1)  :- inertial(F), holds(F,I),  not -holds(F,I+1), step(I), I < n.
--holds(F,I+1) :- inertial(F), -holds(F,I), not holds(F,I+1),  step(I), I < n.
-
-% Closed world for defined fluents.
--holds(F,I) :- defined(F), not holds(F,I), step(I).
-
-% An action that is impossible does not occur; neither does one of which nothing says that it does.
--occurs(A,I) :- impossible(A,I).
--occurs(A,I) :- action(A), not occurs(A,I), step(I)."""
-
-_ACTIONS = """\
-action(A) :- agent_action(A).
-action(A) :- exogenous_action(A)."""
 
 
 def translate(text: str, file: str = "<text>") -> str:
@@ -51,7 +31,8 @@ def translate_source(source: syntax.Source, signature: Signature) -> str:
     writer = _Writer(source)
     for statement in source.statements:
         writer.write(statement, _rules(statement, signature))
-    sections = [_HEADER, writer.text(), _signature_rules(signature), _GENERAL, AWARENESS]
+    theories = theory("transitions").rstrip(), theory("awareness")
+    sections = [_HEADER, writer.text(), _signature_rules(signature), *theories]
     return "\n\n".join(section for section in sections if section)
 
 
@@ -206,7 +187,7 @@ def _sorts_of(variable: str, statement: syntax.Statement, signature: Signature) 
 
 
 def _signature_rules(signature: Signature) -> str:
-    """Closed world for statics, and what keeps predicates defined that nothing declares."""
+    """Closed world for statics; predicates that nothing declares are defined all the same."""
     lines = ["% Closed world for statics."]
     for declaration in signature.symbols.values():
         if declaration.kind == "static":
@@ -217,4 +198,4 @@ def _signature_rules(signature: Signature) -> str:
     defined = "#defined inertial/1. #defined defined/1.\n"
     defined += "#defined agent_action/1. #defined exogenous_action/1.\n"
     defined += "#defined occurs/2. #defined impossible/2."
-    return "\n".join(lines) + f"\n\n% Every action.\n{_ACTIONS}\n{defined}"
+    return "\n".join(lines) + f"\n\n{defined}"

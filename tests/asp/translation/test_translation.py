@@ -6,6 +6,7 @@ import re
 from itertools import combinations
 from pathlib import Path
 
+import clingo
 import pytest
 
 from asp import SourceError, load_description, parse_description
@@ -298,3 +299,19 @@ def test_a_default_and_an_exception_are_told_in_one_rule_each() -> None:
     assert "stated_exception(shut(D)) :- D = front, holds(bell,0), door(D).\n" in program
     assert warnings_of(program) == []
     assert states(program) == states(translate(SMALL))
+
+
+def test_what_nothing_derives_is_false_at_every_step() -> None:
+    text = SMALL.replace("  inertial bell.\n", "  inertial bell.\n  defined draught.\n").replace(
+        "  % What cannot be done.\n", "  draught if open(front), bell.\n  % What cannot be done.\n"
+    )
+    control = clingo.Control(["--warn=none", "0"])
+    control.add("base", [], translate(text) + ":- holds(bell,0). :- holds(open(D),0).")
+    control.ground()
+    answers: list[set[str]] = []
+    control.solve(on_model=lambda model: answers.append({*map(str, model.symbols(atoms=True))}))
+    assert len(answers) == 1
+    never = {
+        f"-occurs({action},{i})" for action in ("push(front)", "push(back)", "ring") for i in (0, 1)
+    }
+    assert never | {"-holds(draught,0)", "-holds(draught,1)"} <= answers[0]

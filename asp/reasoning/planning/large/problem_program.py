@@ -23,7 +23,6 @@ from asp.solving import (
     symbol,
     theory,
 )
-from asp.translation import AWARENESS
 
 MOST_LEVELS = 32_767
 """As many levels of decisions as clasp tells apart."""
@@ -35,7 +34,7 @@ class NarrowPrograms:
     def __init__(self, description: Description, program: str, facts: Iterable[Symbol]) -> None:
         """`program` is the description's translation; `facts` hold in all of its problems."""
         self._fluents = description.fluents
-        self._program = program.replace(AWARENESS, "")
+        self._program = program.replace(theory("awareness"), "")
         self._facts = tuple(facts)
 
     def first_plan(
