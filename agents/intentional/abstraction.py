@@ -1,9 +1,9 @@
 """A task without the constants that its goal does not need, in the first names of their classes.
 
-What is true of a constant that is independent of all others (`asp.reasoning.planning.relevance`)
-matters only where it stands in the way. Without those that the goal leaves alone and that never
-stand in the way, a robot decides as it does with them; tasks that differ in names alone become the
-same task, and share what is kept of it in a process.
+What is true of a constant that is independent of all others (`asp.reasoning.relevance`) matters
+only where it stands in the way. Without those that the goal leaves alone and that never stand in
+the way, a robot decides as it does with them; tasks that differ in names alone become the same
+task, and share what is prepared for it in a process.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from msgspec import structs
 
 from agents.intentional.renaming import renamed_decision, renamed_event
 from asp.language import (
-    Description,
+    Signature,
     analyse,
     arguments,
     atom,
@@ -26,7 +26,8 @@ from asp.language import (
     syntax,
     text_of,
 )
-from asp.reasoning.planning import Independence
+from asp.language.variable_sorts import literals
+from asp.reasoning.relevance import Relevance, interchangeable
 from asp.solving import deciding, preparation
 from testbed.protocol.messages import Decision, Percept, Task
 from testbed.protocol.robot import Robot
@@ -53,8 +54,9 @@ class Leaned:
     """
 
     def __init__(self, task: Task) -> None:
-        classes = _independence(task.source, task.domain).classes
-        kept = _needed(task)
+        domain = _domain(task.source, task.domain)
+        classes = domain.classes
+        kept = domain.needed(task)
         self._there = _names(classes, kept)
         left = frozenset(self._there.values())
         members = frozenset(constant for each in classes for constant in each)
@@ -120,54 +122,53 @@ class LeanRobot:
         return self.leaned.decision(self._robot.act(self.leaned.percept(percept)))
 
 
+class _Domain:
+    """What may be left out of the tasks of a domain; `classes` are interchangeable constants."""
+
+    def __init__(self, source: str, file: str) -> None:
+        description, (laws, signature) = parse_description(source, file), analyse(source, file)
+        self.classes = interchangeable(laws, signature)
+        self._members = frozenset(constant for each in self.classes for constant in each)
+        self._inertial = description.inertial
+        self._relevance = Relevance(laws, signature)
+        self._whole = bool(description.defaults) or _may_hinder(
+            laws, signature, self._relevance.obstacles
+        )
+
+    def needed(self, task: Task) -> frozenset[str]:
+        """The members of classes that a task needs, and one of each class at least."""
+        if self._whole:
+            return self._members
+        known = frozenset(map(atom, task.initial))
+        possible = {literal for literal in task.initial if is_positive(literal)}
+        possible.update(fluent for fluent in self._inertial if fluent not in known)
+        spare = self._relevance.spare(possible, task.goal)
+        firsts = (each[0] for each in self.classes if spare.issuperset(each))
+        return (self._members - spare) | frozenset(firsts)
+
+
 @lru_cache(maxsize=16)
-def _independence(source: str, domain: str) -> Independence:
-    file = f"{domain}.al"
+def _domain(source: str, domain: str) -> _Domain:
     with preparation():
-        return Independence(parse_description(source, file), *analyse(source, file))
+        return _Domain(source, f"{domain}.al")
 
 
-def _needed(task: Task) -> frozenset[str]:
-    """The members of classes that the task needs, and one of each class at least."""
-    independence = _independence(task.source, task.domain)
-    description = parse_description(task.source, f"{task.domain}.al")
-    members = frozenset(constant for each in independence.classes for constant in each)
-    if not _may_leave_out(task.source, task.domain):
-        return members
-    known = frozenset(map(atom, task.initial))
-    possible = {literal for literal in task.initial if is_positive(literal)}
-    possible.update(fluent for fluent in description.inertial if fluent not in known)
-    spare = independence.droppable(possible, task.goal)
-    spare -= {constant for literal in task.goal for constant in arguments(literal)}
-    firsts = (each[0] for each in independence.classes if spare.issuperset(each))
-    return (members - spare) | frozenset(firsts)
-
-
-@lru_cache(maxsize=16)
-def _may_leave_out(source: str, domain: str) -> bool:
-    """Whether anything of a domain may be left out."""
-    with preparation():
-        description = parse_description(source, f"{domain}.al")
-        candidates = _independence(source, domain).candidates
-        return not description.defaults and not _may_hinder(description, candidates)
-
-
-def _may_hinder(description: Description, candidates: Collection[str]) -> bool:
-    """Whether others can bring about that a candidate stands in the way of anything else."""
-    made = {law.head for law in description.causal if law.action in description.exogenous_actions}
+def _may_hinder(source: syntax.Source, signature: Signature, obstacles: Collection[str]) -> bool:
+    """Whether others can bring about that something stands in the way, by the names of fluents."""
+    made = {
+        (law.head.atom.name, law.head.positive)
+        for law in source.each(syntax.CausalLaw)
+        if signature.symbols[law.action.name].kind == "exogenous"
+    }
     size = 0
     while len(made) > size:
         size = len(made)
-        made.update(law.head for law in description.constraints if not made.isdisjoint(law.body))
-    own = frozenset(description.agent_actions)
-    return any(
-        constant in candidates and not any(constant in arguments(a) for a in law.actions)
-        for law in description.executability
-        if own.issuperset(law.actions)
-        for literal in law.body
-        if is_positive(literal) and literal in made
-        for constant in arguments(literal)
-    )
+        made.update(
+            (law.head.atom.name, law.head.positive)
+            for law in source.each(syntax.StateConstraint)
+            if any((c.atom.name, c.positive) in made for c in literals(law.body))
+        )
+    return any((name, True) in made for name in obstacles)
 
 
 def _names(classes: Iterable[tuple[str, ...]], kept: Collection[str]) -> dict[str, str]:

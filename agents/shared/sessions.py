@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from agents.shared.knowledge import Knowledge
 from asp.reasoning.diagnosis import Explanations, Windows
-from asp.reasoning.planning import Plans, Reach
+from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.reasoning.successors import Transitions
 from asp.solving import Recent
 
@@ -18,8 +18,8 @@ class Tools:
     transitions: Transitions
     explanations: Explanations
     windows: Windows
-    plans: Plans
-    reach: Reach
+    plans: IncrementalPlanner
+    reach: Reachability
 
 
 MOST_DOMAINS = 16
@@ -39,7 +39,7 @@ def tools_of(knowledge: Knowledge) -> Tools:
 def _made(knowledge: Knowledge) -> Tools:
     description, program, ranks = knowledge.description, knowledge.program, knowledge.ranks
     fluents = description.fluents
-    plans = Plans(description.source, f"{description.name}.al")
+    plans = IncrementalPlanner(description.source, f"{description.name}.al")
     return Tools(
         Transitions(program, fluents, ranks),
         Explanations(
@@ -51,5 +51,5 @@ def _made(knowledge: Knowledge) -> Tools:
         ),
         Windows(program, fluents, description.inertial, description.exogenous_actions, ranks),
         plans,
-        Reach(description, program, plans),
+        Reachability(description, program, plans),
     )

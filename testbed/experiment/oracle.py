@@ -19,8 +19,9 @@ from asp.language import (
     ground_description,
     narrowed,
     restrict,
+    without_exogenous,
 )
-from asp.reasoning.planning import Independence
+from asp.reasoning.relevance import Relevance
 from testbed.experiment.heuristic import Heuristic, Potentials, blind
 from testbed.world.compiled.world import World
 
@@ -123,7 +124,7 @@ class Oracle:
 
     def __init__(self, description: Description, source: Source, signature: Signature) -> None:
         self._name, self._source, self._signature = description.name, source, signature
-        self._independence = Independence(description, source, signature)
+        self._relevance = Relevance(without_exogenous(source, signature), signature)
         self._world = lru_cache(maxsize=64)(self._without)
 
     def minimal_actions(
@@ -146,7 +147,7 @@ class Oracle:
         self, state: Collection[str], goal: Iterable[str]
     ) -> tuple[World, int, list[str]]:
         wanted = tuple(goal)
-        dropped = self._independence.droppable(state, wanted)
+        dropped = self._relevance.spare(state, wanted)
         world = self._world(dropped)
         known = frozenset(world.fluents)
         left = [literal for literal in wanted if atom(literal) in known]

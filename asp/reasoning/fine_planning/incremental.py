@@ -16,12 +16,12 @@ from asp.language import (
     restrict,
     subject,
     syntax,
+    without_exogenous,
 )
 from asp.reasoning.fine_planning.abstraction import Narrow, Narrower
 from asp.reasoning.fine_planning.horizon_cache import Horizons
 from asp.reasoning.fine_planning.large.problem_program import Problem
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach
-from asp.reasoning.fine_planning.lifted_relevance import Sparing
 from asp.reasoning.fine_planning.reference import (
     FinePlan,
     FineStart,
@@ -30,6 +30,7 @@ from asp.reasoning.fine_planning.reference import (
     plain_plan,
 )
 from asp.reasoning.fine_planning.restricted_domain import FineDomain
+from asp.reasoning.relevance import Relevance
 from asp.translation import NotCompactError
 
 _MOST_NARROWED = 1_000
@@ -40,7 +41,7 @@ MOST_STEPS = 100_000  # of constants: some 500 MB of controls
 class FinePlanner:
     """Plans in one refined description, or in parts of it. Making it may raise NotCompactError.
 
-    What a plan can do without is left out (`Sparing`), what is left gets names by position
+    What a plan can do without is left out (`Relevance`), what is left gets names by position
     (`Narrower`), so that problems that differ in names only share controls; of these there is one
     for each length, asked from a lower bound on
     (`asp.reasoning.fine_planning.large.relaxed_reachability`). Problems whose control would be
@@ -64,7 +65,7 @@ class FinePlanner:
         """
         self._constants = signature.constants
         self._functions = functions(source, signature)
-        self._sparing = Sparing(source, signature)
+        self._relevance = Relevance(without_exogenous(source, signature), signature)
         self._narrower = Narrower(source, signature)
         self._narrow = lru_cache(_MOST_NARROWED)(self._narrower.narrow)
         self._most = most
@@ -93,7 +94,7 @@ class FinePlanner:
         for literal in goal:
             if not kept.issuperset(arguments(literal)):
                 raise ValueError(f"{literal}: not about what is planned for")
-        kept -= self._sparing.spare(chain(start.true, *start.candidates), goal)
+        kept -= self._relevance.spare(chain(start.true, *start.candidates), goal)
         return self._search(self._narrow(kept), start.within(kept), goal, limit)
 
     def _search(

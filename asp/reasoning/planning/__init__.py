@@ -1,8 +1,7 @@
 """Shortest plans at the coarse resolution."""
 
-from asp.reasoning.planning.incremental import Plans
+from asp.reasoning.planning.incremental import IncrementalPlanner, Planner
 from asp.reasoning.planning.large.operators import Encoding, Operator, Values
-from asp.reasoning.planning.reachability import Reach
-from asp.reasoning.planning.relevance import Independence
+from asp.reasoning.planning.reachability import Reachability
 
-__all__ = ["Encoding", "Independence", "Operator", "Plans", "Reach", "Values"]
+__all__ = ["Encoding", "IncrementalPlanner", "Operator", "Planner", "Reachability", "Values"]

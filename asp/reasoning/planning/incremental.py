@@ -1,115 +1,179 @@
-"""Shortest plans, looked for in the part of the domain that matters to the goal."""
+"""Shortest plans, looked for in the part of the domain that matters to the goal.
+
+What only large problems need is switched here.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
+from itertools import pairwise
 from pathlib import Path
+from typing import Protocol
 
 from asp.language import (
+    Description,
     analyse,
     arguments,
     ground_description,
     narrowed,
-    parse_description,
     renamed,
     restrict,
     without_exogenous,
 )
-from asp.reasoning.planning.horizons import Planner
-from asp.reasoning.planning.relevance import Independence, symmetric_pairs
+from asp.reasoning.planning.large.operators import Encoding
+from asp.reasoning.planning.large.outcomes import NotEncodableError
+from asp.reasoning.planning.large.search import Spaces
+from asp.reasoning.planning.shortest import ShortestPlans
+from asp.reasoning.relevance import Relevance, interchangeable
 from asp.solving import Recent, State, preparation
 from asp.translation import translate_source
+
+STATE_SET_SEARCH = True
+PROBLEM_PROGRAMS = True
+
+MOST_STATES = 2**24
+"""The largest number of states of which sets are made: bits of memory for each set."""
 
 MOST_PARTS = 16
 """Of how many parts of a domain planners are kept: those that were used last."""
 
 
-class Plans:
-    """Shortest plans of a domain, and what becomes of given ones.
+class Planner(Protocol):
+    """Shortest plans of a domain from complete states, and what becomes of given plans."""
 
-    Constants that a goal can do without are left out (`Independence`); those that are left are
-    renamed to the first of their class, so that problems that differ in names alone share their
-    controls. Both leave the first shortest plan what it is.
+    def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
+        """The first of the shortest plans of at most `limit` actions, or None.
+
+        Earlier actions count before later ones, at one step the action declared first.
+        """
+
+    def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
+        """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
+
+
+class IncrementalPlanner:
+    """A `Planner` that prepares each part of a domain once.
+
+    Constants that a goal can do without are left out (`asp.reasoning.relevance`); those that are
+    left are renamed to the first of their class, so that problems that differ in names alone share
+    what is prepared. Both leave the first shortest plan what it is.
     """
 
     def __init__(self, text: str, file: str) -> None:
         """`text` is an AL_d text, `file` its name in errors. Raises SourceError."""
-        self._source, self._signature = analyse(text, file)
+        source, self._signature = analyse(text, file)
+        self._source = without_exogenous(source, self._signature)
         self._name = Path(file).stem
-        description = parse_description(text, file)
-        self._independence = Independence(description, self._source, self._signature)
-        self._planners: Recent[frozenset[str], Planner] = Recent(MOST_PARTS)
+        self._relevance = Relevance(self._source, self._signature)
+        self._classes = interchangeable(source, self._signature)
+        self._parts: Recent[frozenset[str], ShortestPlans] = Recent(MOST_PARTS)
 
     def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
         Raises LimitError; asked the same again, it goes on where it was.
         """
-        view = _View(self._independence, state, goal)
-        planner = self._planner(view.dropped)
-        pairs = symmetric_pairs(planner.classes, view.state, view.goal)
-        plan = planner.shortest(view.state, view.goal, limit, pairs)
+        view = _View(self._relevance, self._classes, state, goal)
+        part = self._part(view.dropped)
+        pairs = symmetric_pairs(part.classes, view.state, view.goal)
+        plan = part.shortest(view.state, view.goal, limit, pairs)
         return None if plan is None else view.back(plan)
 
     def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
-        view = _View(self._independence, state, (*goal, *plan))
-        planner = self._planner(view.dropped)
-        return planner.succeeds(view.state, view.seen(goal), view.seen(plan))
+        view = _View(self._relevance, self._classes, state, (*goal, *plan))
+        return self._part(view.dropped).succeeds(view.state, view.seen(goal), view.seen(plan))
 
     def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
         """Whether a plan of any length succeeds; None where there is too much to look at.
 
         Raises LimitError.
         """
-        view = _View(self._independence, state, goal)
-        return self._planner(view.dropped).reachable(view.state, view.goal)
+        view = _View(self._relevance, self._classes, state, goal)
+        return self._part(view.dropped).reachable(view.state, view.goal)
 
-    def _planner(self, dropped: frozenset[str]) -> Planner:
-        return self._planners.get(dropped, lambda: self._make_planner(dropped))
+    def _part(self, dropped: frozenset[str]) -> ShortestPlans:
+        return self._parts.get(dropped, lambda: self._make_part(dropped))
 
-    def _make_planner(self, dropped: frozenset[str]) -> Planner:
+    def _make_part(self, dropped: frozenset[str]) -> ShortestPlans:
         with preparation():
-            source = restrict(without_exogenous(self._source, self._signature), dropped)
+            source = restrict(self._source, dropped)
             signature = narrowed(self._signature, dropped)
-            return Planner(
-                ground_description(source, signature, self._name),
+            description = ground_description(source, signature, self._name)
+            return ShortestPlans(
+                description,
                 translate_source(source, signature),
-                [
-                    [constant for constant in members if constant not in dropped]
-                    for members in self._independence.classes
-                ],
+                [[c for c in members if c not in dropped] for members in self._classes],
+                _spaces(description) if STATE_SET_SEARCH else None,
+                PROBLEM_PROGRAMS,
             )
+
+
+def _spaces(description: Description) -> Spaces | None:
+    try:
+        return Spaces(Encoding(description), MOST_STATES)
+    except NotEncodableError:
+        return None
 
 
 class _View:
     """A planning problem without the constants that it can do without, in canonical names."""
 
-    def __init__(self, independence: Independence, state: State, goal: tuple[str, ...]) -> None:
-        spare = independence.droppable(state, goal)
+    def __init__(
+        self,
+        relevance: Relevance,
+        classes: Iterable[tuple[str, ...]],
+        state: State,
+        goal: tuple[str, ...],
+    ) -> None:
+        self._spare = relevance.spare(state, goal)
         self._names: dict[str, str] = {}
-        dropped: list[str] = []
-        for members in independence.classes:
-            kept = [constant for constant in members if constant not in spare]
-            exchangeable = independence.candidates.issuperset(members)
-            names = members if exchangeable else kept
-            self._names.update(zip(kept, names, strict=False))
-            dropped += members[len(kept) :] if exchangeable else (c for c in members if c in spare)
+        dropped = set(self._spare)
+        for members in classes:
+            if relevance.independent.issuperset(members):
+                kept = [constant for constant in members if constant not in self._spare]
+                self._names.update(zip(kept, members, strict=False))
+                dropped.difference_update(members)
+                dropped.update(members[len(kept) :])
         self.dropped = frozenset(dropped)
-        self._spare = spare
         self.state = frozenset(self.seen(state))
         self.goal = self.seen(goal)
 
     def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
         """Those of the literals or actions that the problem is left with, in its names."""
         return tuple(
-            renamed(literal, self._names) for literal in literals if not self._drops(literal)
+            renamed(literal, self._names)
+            for literal in literals
+            if self._spare.isdisjoint(arguments(literal))
         )
 
     def back(self, plan: tuple[str, ...]) -> tuple[str, ...]:
         """The plan in the names of the problem."""
-        self._names = {new: old for old, new in self._names.items()}
-        return tuple(renamed(action, self._names) for action in plan)
+        back = {new: old for old, new in self._names.items()}
+        return tuple(renamed(action, back) for action in plan)
 
-    def _drops(self, literal: str) -> bool:
-        return not self._spare.isdisjoint(arguments(literal))
+
+def symmetric_pairs(
+    classes: Iterable[tuple[str, ...]], state: Collection[str], goal: Collection[str]
+) -> tuple[tuple[str, str], ...]:
+    """Neighbouring constants of a class of which the state and the goal say the same."""
+    true, wanted = _profiles(state), _profiles(goal)
+    nothing: frozenset[str] = frozenset()
+    return tuple(
+        (first, second)
+        for members in classes
+        for first, second in pairwise(members)
+        if true.get(first, nothing) == true.get(second, nothing)
+        and wanted.get(first, nothing) == wanted.get(second, nothing)
+    )
+
+
+def _profiles(literals: Collection[str]) -> Mapping[str, frozenset[str]]:
+    """What is said of each constant, with a blank in its place."""
+    said: dict[str, set[str]] = {}
+    for literal in literals:
+        constants = arguments(literal)
+        for constant in constants:
+            blanked = ",".join("_" if c == constant else c for c in constants)
+            said.setdefault(constant, set()).add(f"{literal.partition('(')[0]}({blanked})")
+    return {constant: frozenset(texts) for constant, texts in said.items()}

@@ -8,7 +8,7 @@ import clingo
 from clingo import Symbol
 
 from asp.language import Causal, Constraint, Description, atom, is_positive
-from asp.reasoning.planning.incremental import Plans
+from asp.reasoning.planning.incremental import IncrementalPlanner
 from asp.solving import (
     Answers,
     Session,
@@ -28,7 +28,7 @@ MOST_ANSWERS, MOST_ORIGINS = 1_000, 16
 """How many answers are remembered, and of how many states what can be reached from there."""
 
 
-class Reach:
+class Reachability:
     """Proves that a goal is out of reach of the agent's own actions, or in reach, where it can.
 
     It is out of reach if no state satisfies it, or if one of its literals can never become true
@@ -37,7 +37,7 @@ class Reach:
     nothing is said of a state with more than some thousand of those.
     """
 
-    def __init__(self, description: Description, program: str, plans: Plans) -> None:
+    def __init__(self, description: Description, program: str, plans: IncrementalPlanner) -> None:
         self._fluents = description.fluents
         self._laws = list(_laws(description))
         self._program = program

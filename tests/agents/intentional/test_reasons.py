@@ -17,7 +17,7 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from agents.shared.sessions import tools_of
-from asp.reasoning.planning import Plans, Reach
+from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.solving import Limits, ground, select, theory
 from testbed.protocol.messages import Decision, Event, Percept, Task
 from testbed.world.compiled.world import World
@@ -233,15 +233,16 @@ def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
     goal: tuple[str, ...], provable: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
-    plans = Plans(CART.description.source, "cart.al")
-    reach = Reach(CART.description, CART.program, plans)
+    plans = IncrementalPlanner(CART.description.source, "cart.al")
+    reach = Reachability(CART.description, CART.program, plans)
     assert reach.out_of_reach(frozenset(["at(left)"]), goal) is provable
 
 
 def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     moved = knowledge("cart", CART.description.source.replace("if lit, -shut", "if at(left)"))
-    reach = Reach(moved.description, moved.program, Plans(moved.description.source, "cart.al"))
+    plans = IncrementalPlanner(moved.description.source, "cart.al")
+    reach = Reachability(moved.description, moved.program, plans)
     assert not reach.out_of_reach(frozenset(["at(left)", "safe"]), ("-safe",))
 
 

@@ -6,7 +6,7 @@ import clingo
 import pytest
 
 import asp.reasoning.planning.large.outcomes
-from asp.reasoning.planning import Plans
+from asp.reasoning.planning import IncrementalPlanner
 from asp.solving import (
     BudgetError,
     LimitError,
@@ -150,10 +150,10 @@ def test_a_description_with_too_many_cases_is_planned_for_without_them(
 ) -> None:
     start = frozenset({"on(c0,c1)", "on(c1,c2)", "on(c2,floor)"})
     goal = ("on(c2,c1)", "on(c1,c0)", "on(c0,floor)")
-    expected = Plans(STACKING, "stacking.al").shortest(start, goal, 9)
+    expected = IncrementalPlanner(STACKING, "stacking.al").shortest(start, goal, 9)
     assert expected is not None
     assert len(expected) == 3
     monkeypatch.setattr(asp.reasoning.planning.large.outcomes, "MOST_BRANCHES", 5)
-    plans = Plans(STACKING, "stacking.al")
+    plans = IncrementalPlanner(STACKING, "stacking.al")
     assert plans.shortest(start, goal, 9) == expected
     assert plans.reachable(start, goal) is None

@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.language import parse_description, read_domain
-from asp.reasoning.planning import Encoding, Plans
+from asp.reasoning.planning import Encoding, IncrementalPlanner
 from asp.reasoning.planning import incremental as plans
-from asp.reasoning.planning import shared_program as shared
+from asp.reasoning.planning import shortest as shared
 from asp.reasoning.planning.large import search
 from asp.reasoning.planning.large.search import Spaces
 from asp.solving import Recent
@@ -55,10 +55,10 @@ def test_the_last_ones_used_are_kept_and_others_made_anew(most: int, keys: list[
 @pytest.mark.parametrize("text", [OFFICE, SHELVED])
 def test_with_little_kept_plans_are_the_same(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert text == OFFICE or "shelved if" in text
-    ample = Plans(text, "office.al")
+    ample = IncrementalPlanner(text, "office.al")
     monkeypatch.setattr(plans, "MOST_PARTS", 1)
     monkeypatch.setattr(shared, "MOST_LENGTHS", 1)
-    scarce = Plans(text, "office.al")
+    scarce = IncrementalPlanner(text, "office.al")
     state = frozenset(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office1)"])
     for goal in GOALS:
         plan = ample.shortest(state, goal, 8)
@@ -66,10 +66,10 @@ def test_with_little_kept_plans_are_the_same(text: str, monkeypatch: pytest.Monk
         assert plan is not None
         assert scarce.succeeds(state, goal, plan)
         assert not scarce.succeeds(state, goal, plan[:-1])
-        assert len(scarce._planners) == 1
-    (planner,) = scarce._planners._kept.values()
-    assert len(planner._shared._planning) <= 1
-    assert len(planner._shared._following) <= 1
+        assert len(scarce._parts) == 1
+    (part,) = scarce._parts._kept.values()
+    assert len(part._planning) <= 1
+    assert len(part._following) <= 1
 
 
 def test_with_one_space_kept_bounds_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 import pytest
 
 from asp.language import read_domain
-from asp.reasoning.planning import Operator, Plans
+from asp.reasoning.planning import IncrementalPlanner, Operator
 from asp.reasoning.planning.large import search
 from asp.reasoning.planning.large.state_sets import Space
 from asp.solving import Limits, deciding, preparation, reasoning_clock
@@ -72,7 +72,7 @@ def test_nested_it_stands_still_once(clock: Clock) -> None:
 
 
 def test_it_stands_still_while_a_space_is_made(slow_spaces: list[Space]) -> None:
-    plans = Plans(OFFICE, "office.al")
+    plans = IncrementalPlanner(OFFICE, "office.al")
     before = reasoning_clock()
     assert plans.reachable(STATE, ("loc(book1,library)",))
     assert len(slow_spaces) == 1
@@ -80,10 +80,12 @@ def test_it_stands_still_while_a_space_is_made(slow_spaces: list[Space]) -> None
 
 
 def test_the_limit_of_a_decision_counts_it_and_it_is_made_once(slow_spaces: list[Space]) -> None:
-    plans, goal = Plans(OFFICE, "office.al"), ("loc(book1,library)", "loc(book2,library)")
+    plans = IncrementalPlanner(OFFICE, "office.al")
+    goal = ("loc(book1,library)", "loc(book2,library)")
     assert plans.succeeds(STATE, goal, ("move(rob1,office2)",)) is False  # reads and encodes
     with pytest.raises(TimeLimitError), deciding(Limits(SLOW_S / 2)):
         plans.shortest(STATE, goal, 20)
     assert len(slow_spaces) == 1
-    assert plans.shortest(STATE, goal, 20) == Plans(OFFICE, "office.al").shortest(STATE, goal, 20)
+    another = IncrementalPlanner(OFFICE, "office.al")
+    assert plans.shortest(STATE, goal, 20) == another.shortest(STATE, goal, 20)
     assert len(slow_spaces) == 2, "one of each"

@@ -53,6 +53,9 @@ class Encoding:
             list(map(len, self.domains)),
         )
         self.operators = tuple(self._operators(description))
+        self._by_action: dict[str, list[Operator]] = {}
+        for operator in self.operators:
+            self._by_action.setdefault(operator.action, []).append(operator)
 
     def values(self, true: Collection[str]) -> tuple[int, ...] | None:
         """The state in which these fluents are true, a value of each variable; None: no state."""
@@ -66,6 +69,14 @@ class Encoding:
         said = {self._fluent(*entry) for entry in enumerate(state)} - {None}
         legal = -1 not in state and said == set(true) and self._laws.hold(state)
         return tuple(state) if legal else None
+
+    def after(self, state: tuple[int, ...], action: str) -> tuple[int, ...] | None:
+        """The state that an agent action leads to; None where it is impossible."""
+        for operator in self._by_action.get(action, ()):
+            if all(state[variable] == value for variable, value in operator.before):
+                changed = dict(operator.after)
+                return tuple(changed.get(variable, value) for variable, value in enumerate(state))
+        return None
 
     def assignment(self, literal: str) -> tuple[int, int, bool]:
         """The variable of a literal, the value it speaks of, and whether it claims or denies it."""

@@ -1,7 +1,7 @@
 """Plans of one problem: a program of its own, with the actions that each step leaves to choose.
 
-Where a search has found how long a plan is and what it may consist of, this grounds a small part of
-what a kept control would hold.
+Where searches have narrowed down what a plan may consist of, this grounds a small part of what a
+program for all problems would hold.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from asp.solving import (
     fact,
     goal_externals,
     ground,
-    is_satisfiable,
     select,
     solving,
     symbol,
@@ -28,7 +27,7 @@ MOST_LEVELS = 32_767
 """As many levels of decisions as clasp tells apart."""
 
 
-class NarrowPrograms:
+class ProblemPrograms:
     """Programs of a description, each for one state and one goal."""
 
     def __init__(self, description: Description, program: str, facts: Iterable[Symbol]) -> None:
@@ -52,33 +51,22 @@ class NarrowPrograms:
         facts = [*goal_externals(goal)]
         facts += (fact("symmetric", *pair) for pair in symmetric)
         while True:
-            plan = self._preferred("plan", state, [*facts, *candidates(steps)], len(steps))
+            plan = self._preferred(state, [*facts, *candidates(steps)], len(steps))
             if plan is None or _choices(steps) <= MOST_LEVELS:
                 return plan
             steps = _after_deciding(steps, plan)
 
-    def succeeds(self, state: State, goal: tuple[str, ...], plan: Sequence[str]) -> bool:
-        """Whether the goal holds after some of the plan's actions, all possible until then."""
-        facts = [*goal_externals(goal)]
-        facts += (fact("follows", action, step) for step, action in enumerate(plan))
-        return is_satisfiable(self._ground("follow", state, facts, len(plan)))
-
     def _preferred(
-        self, part: str, state: State, facts: Iterable[Symbol], length: int
+        self, state: State, facts: Iterable[Symbol], length: int
     ) -> tuple[str, ...] | None:
-        control = self._ground(part, state, (*self._facts, *facts), length)
-        with solving(control) as model:
+        given = [*self._given(state), *self._facts, *facts]
+        texts = [self._program, theory("incremental_planning")]
+        with solving(ground(texts, {"n": length}, given, ["plan"])) as model:
             if model is None:
                 return None
             occurring = select(model.symbols(atoms=True), "occurs", 2)
         at = {step.number: str(action) for action, step in occurring}
         return tuple(at[step] for step in range(length))
-
-    def _ground(
-        self, part: str, state: State, facts: Iterable[Symbol], length: int
-    ) -> clingo.Control:
-        given = [*self._given(state), *facts]
-        return ground([self._program, theory("incremental_planning")], {"n": length}, given, [part])
 
     def _given(self, state: State) -> Iterator[Symbol]:
         zero = clingo.Number(0)

@@ -2,13 +2,13 @@
 
 Breadth-first over sets of states (`asp.reasoning.planning.large.state_sets`), in the space of all
 variables where it is small enough, else in several spaces of some variables each, in which
-everything is at most as far.
+everything is at most as far. In the space of all variables the search gives the plan itself.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 from math import prod
 
@@ -66,8 +66,7 @@ class Search:
             for move in self._space.moves.get(place, ()):
                 image = states & move.mask
                 if image:
-                    image = image << move.shift if move.shift >= 0 else image >> -move.shift
-                    following[move.to] = following.get(move.to, 0) | image
+                    following[move.to] = following.get(move.to, 0) | _shifted(image, move.shift)
         new = {place: states & ~reached.get(place, 0) for place, states in following.items()}
         self._new = {place: states for place, states in new.items() if states}
         more = {place: reached.get(place, 0) | states for place, states in self._new.items()}
@@ -78,16 +77,36 @@ class Search:
 
         Standing still counts as no action: it is what actions do that the space knows nothing of.
         """
+        found = [actions for actions, _ in self._backwards(length, spend)]
+        return [{self._space.actions[action] for action in actions} for actions in found[::-1]]
+
+    def first_plan(self, length: int, spend: Spend) -> tuple[str, ...]:
+        """The first plan in the order of actions, of the length that `distance` found.
+
+        In the space of all variables, where moves are what actions do.
+        """
+        on_the_way = [states for _, states in self._backwards(length, spend)][::-1]
+        ((place, state),) = self._reached[0].items()
+        plan = []
+        for after in [*on_the_way[1:], self._goal][:length]:
+            action, place, state = next(
+                (move.action, move.to, image)
+                for move in self._space.moves[place]
+                if (image := _shifted(state & move.mask, move.shift)) & after.get(move.to, 0)
+            )
+            plan.append(self._space.actions[action])
+        return tuple(plan)
+
+    def _backwards(self, length: int, spend: Spend) -> Iterator[tuple[set[int], StateSet]]:
+        """From the last step to the first: actions on the way to the goal, the states before."""
         while len(self._reached) <= length:
             spend(self._moves(self._new))
             self.advance()
         left: StateSet = _common(self._reached[length], self._goal)
-        found: list[set[str]] = []
         for step in reversed(range(length)):
             spend(self._moves(self._reached[step]))
             actions, left = self._before(self._reached[step], left)
-            found.append({self._space.actions[action] for action in actions})
-        return found[::-1]
+            yield actions, left
 
     def _moves(self, states: StateSet) -> int:
         """How many applications of operators a step from these states takes."""
@@ -102,8 +121,7 @@ class Search:
                 target = after.get(move.to)
                 if not target:
                     continue
-                target = target >> move.shift if move.shift >= 0 else target << -move.shift
-                origin = target & move.mask & states
+                origin = _shifted(target, -move.shift) & move.mask & states
                 if origin:
                     actions.add(move.action)
                     before[place] = before.get(place, 0) | origin
@@ -114,9 +132,15 @@ class Bounds:
     """What searches tell of a planning problem: a least length, and what such plans consist of."""
 
     def __init__(
-        self, spaces: Sequence[Space], state: Sequence[int], goal: Sequence[Condition]
+        self,
+        spaces: Sequence[Space],
+        state: Sequence[int],
+        goal: Sequence[Condition],
+        exact: bool,
     ) -> None:
+        """`exact` if there is one space, of all variables: then `least` is the length of a plan."""
         self._searches = [(space, Search(space, state, goal)) for space in spaces]
+        self.exact = exact
 
     def least(self, limit: int | None, spend: Spend) -> int | None:
         """A length that no plan is shorter than; None if there is no plan of at most `limit`.
@@ -141,6 +165,11 @@ class Bounds:
             frozenset.intersection(*map(frozenset, step)) for step in zip(*allowed, strict=True)
         )
 
+    def first_plan(self, length: int, spend: Spend) -> tuple[str, ...]:
+        """The first of the shortest plans, whose length `least` found in an exact space."""
+        ((_, search),) = self._searches
+        return search.first_plan(length, spend)
+
 
 class Spaces:
     """The spaces in which problems of an encoding are searched."""
@@ -160,7 +189,19 @@ class Spaces:
             return None
         wanted = [self._encoding.assignment(literal) for literal in goal]
         variables = self._chosen([variable for variable, _, _ in wanted])
-        return Bounds([self._space(some) for some in variables], state, wanted)
+        return Bounds([self._space(some) for some in variables], state, wanted, self.exact)
+
+    def succeeds(self, true: Collection[str], goal: Iterable[str], plan: Iterable[str]) -> bool:
+        """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
+        state = self._encoding.values(true)
+        wanted = [self._encoding.assignment(literal) for literal in goal]
+        for action in plan:
+            state = None if state is None else self._encoding.after(state, action)
+            if state is None:
+                return False
+            if all((state[variable] == value) == truth for variable, value, truth in wanted):
+                return True
+        return False
 
     def _space(self, variables: tuple[int, ...]) -> Space:
         return self._kept.get(variables, lambda: self._make_space(variables))
@@ -198,6 +239,10 @@ class Spaces:
             variable for operator in self._encoding.operators for variable, _ in operator.after
         )
         return sorted(range(len(self._sizes)), key=lambda variable: -changed[variable])
+
+
+def _shifted(states: int, by: int) -> int:
+    return states << by if by >= 0 else states >> -by
 
 
 def _meets(some: StateSet, others: StateSet) -> bool:

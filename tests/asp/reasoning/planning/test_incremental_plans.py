@@ -9,11 +9,12 @@ from contextlib import suppress
 import pytest
 
 from asp.language import Description, analyse, parse_description, read_domain
-from asp.reasoning.planning import Encoding, Independence, Plans
+from asp.reasoning.planning import Encoding, IncrementalPlanner
+from asp.reasoning.planning.incremental import symmetric_pairs
 from asp.reasoning.planning.large.outcomes import NotEncodableError
-from asp.reasoning.planning.large.problem_program import MOST_LEVELS, NarrowPrograms, candidates
+from asp.reasoning.planning.large.problem_program import MOST_LEVELS, ProblemPrograms, candidates
 from asp.reasoning.planning.large.search import Spaces
-from asp.reasoning.planning.relevance import symmetric_pairs
+from asp.reasoning.relevance import Relevance
 from asp.solving import Limits, deciding
 from asp.solving.budget import TimeLimitError
 from benchmarks.offices import office
@@ -52,9 +53,12 @@ def _rank(world: World, plan: tuple[str, ...]) -> list[int]:
     return [world.agent_actions.index(action) for action in plan]
 
 
-def _independence(text: str) -> Independence:
-    source, signature = analyse(text, "office.al")
-    return Independence(parse_description(text, "office.al"), source, signature)
+def _relevance(text: str) -> Relevance:
+    return Relevance(*analyse(text, "office.al"))
+
+
+def _planner(text: str) -> IncrementalPlanner:
+    return IncrementalPlanner(text, "office.al")
 
 
 def _some_goal(description: Description, draw: random.Random) -> tuple[str, ...]:
@@ -67,7 +71,7 @@ def _some_goal(description: Description, draw: random.Random) -> tuple[str, ...]
 def test_the_plan_is_the_first_shortest_of_the_whole_domain(text: str) -> None:
     draw = random.Random(7)
     description = parse_description(text, "office.al")
-    world, plans = World(description), Plans(text, "office.al")
+    world, plans = World(description), _planner(text)
     states = list(world.initial_states())
     for _ in range(60):
         state, goal = draw.choice(states), _some_goal(description, draw)
@@ -96,13 +100,13 @@ laws
   impossible switch_off(L) if -on(L).
 """
 
-# The ways in which a plan may be looked for: the sizes of spaces and of kept controls, and levels.
-WAYS = {
-    "searched, kept": {},
-    "searched, a program of its own": {"_MOST_KEPT": 0},
-    "bounded, kept": {"MOST_STATES": 30},
-    "bounded, a program of its own": {"MOST_STATES": 30, "_MOST_KEPT": 0},
-    "hardly bounded": {"MOST_STATES": 1, "_MOST_KEPT": 0},
+# The ways in which a plan may be looked for: the sizes of spaces, and what is switched off.
+WAYS: dict[str, dict[str, int]] = {
+    "searched": {},
+    "bounded, in a program of its own": {"MOST_STATES": 30},
+    "bounded, in a program for all problems": {"MOST_STATES": 30, "PROBLEM_PROGRAMS": False},
+    "hardly bounded": {"MOST_STATES": 1},
+    "without a search": {"STATE_SET_SEARCH": False},
 }
 
 
@@ -114,10 +118,10 @@ def test_every_way_to_the_plan_gives_the_first_shortest(
     books: int, rooms: int, shape: str, way: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in WAYS[way].items():
-        monkeypatch.setattr(f"asp.reasoning.planning.horizons.{name}", value)
+        monkeypatch.setattr(f"asp.reasoning.planning.incremental.{name}", value)
     text = office(books, rooms, shape)
     description = parse_description(text, "office.al")
-    world, plans, draw = World(description), Plans(text, "office.al"), random.Random(11)
+    world, plans, draw = World(description), _planner(text), random.Random(11)
     states = list(world.initial_states())
     for _ in range(15):
         state, goal = draw.choice(states), _some_goal(description, draw)
@@ -138,20 +142,20 @@ def test_a_plan_may_do_nothing_but_make_things_true_or_false(
     way: str, lit: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name, value in WAYS[way].items():
-        monkeypatch.setattr(f"asp.reasoning.planning.horizons.{name}", value)
+        monkeypatch.setattr(f"asp.reasoning.planning.incremental.{name}", value)
     lamps = ("on(a)", "on(b)", "on(c)")
     start, goal = ((), lamps) if lit else (lamps, tuple(f"-{lamp}" for lamp in lamps))
     plan = tuple(f"switch_{'on' if lit else 'off'}({lamp})" for lamp in "abc")
-    assert Plans(LAMPS, "lamps.al").shortest(frozenset(start), goal, 4) == plan
+    assert IncrementalPlanner(LAMPS, "lamps.al").shortest(frozenset(start), goal, 4) == plan
 
 
-@pytest.mark.parametrize("most_kept", [8_000, 0])
+@pytest.mark.parametrize("search", [True, False])
 def test_a_plan_succeeds_where_the_world_says_so(
-    most_kept: int, monkeypatch: pytest.MonkeyPatch
+    search: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", most_kept)
+    monkeypatch.setattr("asp.reasoning.planning.incremental.STATE_SET_SEARCH", search)
     description = parse_description(OFFICE, "office.al")
-    world, plans, draw = World(description), Plans(OFFICE, "office.al"), random.Random(5)
+    world, plans, draw = World(description), _planner(OFFICE), random.Random(5)
     states, outcomes = list(world.initial_states()), set()
     for _ in range(150):
         state, goal = draw.choice(states), _some_goal(description, draw)[:1]
@@ -178,7 +182,7 @@ def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
     description = parse_description(LAMP, "office.al")
     with pytest.raises(NotEncodableError, match="defined"):
         Encoding(description)
-    world, plans, draw = World(description), Plans(LAMP, "office.al"), random.Random(2)
+    world, plans, draw = World(description), _planner(LAMP), random.Random(2)
     states = list(world.initial_states())
     for _ in range(25):
         state, goal = draw.choice(states), _some_goal(description, draw)
@@ -187,12 +191,8 @@ def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
             assert found == _first_shortest(world, state, goal, 7), (world.true_atoms(state), goal)
 
 
-@pytest.mark.parametrize("most_kept", [8_000, 0])
-def test_a_plan_succeeds_too_where_the_goal_is_defined(
-    most_kept: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", most_kept)
-    plans = Plans(LAMP, "office.al")
+def test_a_plan_succeeds_too_where_the_goal_is_defined() -> None:
+    plans = IncrementalPlanner(LAMP, "office.al")
     state = frozenset(["loc(rob1,office2)", "loc(book1,office2)", "loc(book2,office2)"])
     there, back = "move(rob1,kitchen)", "move(rob1,office2)"
     now = state | {"free(rob1,office2)"}
@@ -207,11 +207,10 @@ def test_a_plan_succeeds_too_where_the_goal_is_defined(
 def test_with_few_levels_the_plan_is_chosen_bit_by_bit(
     levels: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", 0)
-    monkeypatch.setattr("asp.reasoning.planning.horizons.MOST_STATES", 1)
+    monkeypatch.setattr("asp.reasoning.planning.incremental.MOST_STATES", 1)
     monkeypatch.setattr("asp.reasoning.planning.large.problem_program.MOST_LEVELS", levels)
     description = parse_description(OFFICE, "office.al")
-    world, plans, draw = World(description), Plans(OFFICE, "office.al"), random.Random(8)
+    world, plans, draw = World(description), _planner(OFFICE), random.Random(8)
     states = list(world.initial_states())
     for _ in range(10):
         state, goal = draw.choice(states), _some_goal(description, draw)
@@ -231,7 +230,7 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
     asked = []
     bounds = Spaces.bounds
     monkeypatch.setattr(Spaces, "bounds", lambda *given: asked.append(given) or bounds(*given))
-    plans = Plans(OFFICE, "office.al")
+    plans = IncrementalPlanner(OFFICE, "office.al")
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
     goal = ("loc(book1,library)", "loc(book2,library)")
     with pytest.raises(TimeLimitError), deciding(Limits(0)):
@@ -244,15 +243,14 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
 
 
 def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("asp.reasoning.planning.horizons._MOST_KEPT", 0)
-    monkeypatch.setattr("asp.reasoning.planning.horizons.MOST_STATES", 30)
+    monkeypatch.setattr("asp.reasoning.planning.incremental.MOST_STATES", 30)
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
     goal = ("loc(book1,library)", "loc(book2,library)")
-    whole = Plans(OFFICE, "office.al").shortest(state, goal, 20)
-    first_plan, interrupted = NarrowPrograms.first_plan, set[int]()
+    whole = IncrementalPlanner(OFFICE, "office.al").shortest(state, goal, 20)
+    first_plan, interrupted = ProblemPrograms.first_plan, set[int]()
 
     def at_second_attempt(
-        self: NarrowPrograms,
+        self: ProblemPrograms,
         state: frozenset[str],
         goal: tuple[str, ...],
         steps: Sequence[Sequence[str]],
@@ -263,8 +261,8 @@ def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPat
             raise TimeLimitError
         return first_plan(self, state, goal, steps, symmetric)
 
-    monkeypatch.setattr(NarrowPrograms, "first_plan", at_second_attempt)
-    plans, found = Plans(OFFICE, "office.al"), None
+    monkeypatch.setattr(ProblemPrograms, "first_plan", at_second_attempt)
+    plans, found = IncrementalPlanner(OFFICE, "office.al"), None
     for _ in range(20):
         with suppress(TimeLimitError):
             found = plans.shortest(state, goal, 20)
@@ -274,33 +272,27 @@ def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_goal_is_out_of_reach_where_all_states_were_looked_at() -> None:
-    plans = Plans(OFFICE, "office.al")
+    plans = IncrementalPlanner(OFFICE, "office.al")
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
     assert plans.reachable(state, ("in_hand(rob1,book1)", "in_hand(rob1,book2)")) is False
     assert plans.reachable(state, ("loc(book1,library)", "loc(book2,library)")) is True
-    assert Plans(LAMP, "office.al").reachable(state, ("locked(library)",)) is None
+    assert IncrementalPlanner(LAMP, "office.al").reachable(state, ("locked(library)",)) is None
 
 
 def test_books_can_be_left_out_but_not_rooms_or_the_robot() -> None:
-    assert _independence(OFFICE).candidates == {"book1", "book2"}
+    assert _relevance(OFFICE).independent == {"book1", "book2"}
 
 
 def test_a_book_that_changes_something_else_cannot_be_left_out() -> None:
-    assert _independence(ALARM).candidates == set()
+    assert _relevance(ALARM).independent == set()
 
 
 def test_a_book_in_the_hand_stands_in_the_way() -> None:
-    independence = _independence(OFFICE)
+    relevance = _relevance(OFFICE)
     state = {"loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office1)"}
-    assert independence.droppable(state, ["loc(book1,library)"]) == {"book2"}
+    assert relevance.spare(state, ["loc(book1,library)"]) == {"book2"}
     held = state | {"in_hand(rob1,book2)"}
-    assert independence.droppable(held, ["loc(book1,library)"]) == set()
-
-
-def test_what_the_goal_wants_and_is_so_stays_so_without_touching_it() -> None:
-    state = {"loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,library)"}
-    goal = ["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book2)"]
-    assert _independence(OFFICE).droppable(state, goal) == {"book2"}
+    assert relevance.spare(held, ["loc(book1,library)"]) == set()
 
 
 def test_neighbours_are_symmetric_where_state_and_goal_say_the_same_of_both() -> None:

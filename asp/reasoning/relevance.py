@@ -1,39 +1,44 @@
-"""Which constants of a lifted description a plan can do without.
+"""Which constants a plan can do without, and which ones may stand for each other.
 
-As `asp.reasoning.planning.relevance` has it: a set X of constants is independent of the rest where
-nothing that is true of X ever changes anything else, except by standing in the way. Here that is
-read off the laws and not off their instances, so that it costs the same however many there are; and
-X is made of groups, of constants that stated statics connect, as a thing and its components.
+A set X of constants is *independent* of the rest where nothing that is true of X ever changes
+anything else, except by standing in the way. Then a plan for a goal that does not mention X stays
+one when the actions that mention X are left out, so that no shortest plan has any; and where
+nothing of X stands in the way now, the shortest plans of the restricted domain are those of the
+whole one. That is read off the laws and not off their instances, so that it costs the same however
+many there are; and X is made of groups, of constants that stated statics connect, as a thing and
+its components.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from functools import cached_property
 
-from asp.language import Signature, arguments, named, syntax, variable_domains, without_exogenous
+from asp.language import Signature, arguments, name, named, syntax, variable_domains
 from asp.language import variable_sorts as roles
-from asp.reasoning.fine_planning.guarded_fluents import comes_true_only_while
+from asp.reasoning.guarded_fluents import comes_true_only_while
 
 Law = syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition
 Group = frozenset[str]
 Domains = Mapping[str, frozenset[str]]
 
 
-class Sparing:
-    """What can be left out of a description when planning in it."""
+class Relevance:
+    """What can be left out of a description when planning in it.
+
+    `independent` are the constants that are independent of all others, `obstacles` the names of
+    fluents by which they may stand in the way.
+    """
 
     def __init__(self, source: syntax.Source, signature: Signature) -> None:
-        self._description = _Lifted(without_exogenous(source, signature), signature)
+        """`source` has the laws that count: without those of exogenous actions, an agent's own."""
+        self._laws = _Laws(source, signature)
         self.independent = self._greatest()
-        self._group = self._description.groups(self.independent)
-        # Names with what stands behind them in a fluent, so that no other name begins like one.
-        self._obstacles = tuple(
-            literal.atom.name + ("(" if literal.atom.args else "")
-            for law in self._description.laws
+        self._group = self._laws.groups(self.independent)
+        self.obstacles = frozenset(
+            literal.atom.name
+            for law in self._laws.all
             if isinstance(law, syntax.ExecutabilityCondition)
-            for literal in self._description.loose(law, self.independent)
+            for literal in self._laws.loose(law, self.independent)
         )
 
     def spare(self, possible: Iterable[str], goal: Iterable[str]) -> frozenset[str]:
@@ -44,46 +49,46 @@ class Sparing:
         """
         needed = {constant for literal in goal for constant in arguments(literal)}
         for fluent in possible:
-            if fluent.startswith(self._obstacles):
+            if name(fluent) in self.obstacles:
                 needed.update(arguments(fluent))
         nothing: Group = frozenset()
         return self.independent.difference(*(self._group.get(c, nothing) for c in needed))
 
     def _greatest(self) -> frozenset[str]:
         """Kinds of constants are taken out until nothing speaks against those that are left."""
-        kinds = self._description.kinds()
+        kinds = self._laws.kinds()
         while True:
             left = frozenset().union(*kinds)
-            against = self._description.against(left)
+            against = self._laws.against(left)
             if not against:
                 return left
             kinds = [kind for kind in kinds if kind.isdisjoint(against)]
 
 
-@dataclass(frozen=True)
-class _Lifted:
-    """Laws whose variables are looked at, not their instances."""
+class _Laws:
+    """The laws of a description whose variables are looked at, not their instances."""
 
-    source: syntax.Source
-    signature: Signature
-
-    @cached_property
-    def laws(self) -> list[Law]:
-        statements = self.source.statements
-        return [s for s in statements if isinstance(s, Law) and not self._static(s)]
+    def __init__(self, source: syntax.Source, signature: Signature) -> None:
+        self._source = source
+        self._signature = signature
+        self.all = [s for s in source.statements if isinstance(s, Law) and not self._is_static(s)]
+        derived = {law.head.atom.name for law in source.each(syntax.StateConstraint)}
+        stated = {n for n, s in signature.symbols.items() if s.kind == "static"} - derived
+        atoms = (fact.literal.atom for fact in source.each(syntax.Fact))
+        self._stated = stated
+        self._facts = [atom for atom in atoms if atom.name in stated]
 
     def kinds(self) -> list[Group]:
         """The constants that no law names, those together that are of the same sorts."""
-        mentioned = {constant for law in self.laws for constant in named(law)}
+        mentioned = {constant for law in self.all for constant in named(law)}
         found: dict[frozenset[str], set[str]] = {}
-        for constant in self.signature.constants - mentioned:
-            sorts = frozenset(s for s, ms in self.signature.sorts.items() if constant in ms)
-            found.setdefault(sorts, set()).add(constant)
+        for constant in self._signature.constants - mentioned:
+            found.setdefault(_sorts(constant, self._signature), set()).add(constant)
         return [frozenset(kind) for kind in found.values()]
 
     def against(self, group: Group) -> Group:
         """Members of the group that the laws tie something else to; none if it is independent."""
-        for law in self.laws:
+        for law in self.all:
             for literal in self.loose(law, group):
                 if not self._may_be_loose(law, literal):
                     loose = self._loose_variables(law, group).intersection(_variables(literal))
@@ -96,18 +101,26 @@ class _Lifted:
         A causal law is about its effect, so that its action is a condition like others.
         """
         loose = self._loose_variables(law, group)
-        conditions = [*roles.literals(law.body)]
+        conditions = [c for c in roles.literals(law.body) if c.atom.name in self._signature.symbols]
         if isinstance(law, syntax.CausalLaw):
             conditions.append(syntax.Literal(law.action, True))
-        return (c for c in conditions if not self._is_sort(c) and loose.intersection(_variables(c)))
+        return (c for c in conditions if loose.intersection(_variables(c)))
+
+    def groups(self, members: Group) -> Mapping[str, Group]:
+        """Of each member those that stated statics connect it with."""
+        found: dict[str, Group] = {member: frozenset([member]) for member in members}
+        for fact in self._facts:
+            together = members.intersection(term.name for term in fact.args)
+            union = frozenset(c for member in together for c in found[member])
+            found.update(dict.fromkeys(union, union))
+        return found
 
     def _may_be_loose(self, law: Law, literal: syntax.Literal) -> bool:
         """Whether a condition on something else can only be in the way."""
-        symbol = self.signature.symbols[literal.atom.name]
-        if not literal.positive or symbol.kind != "inertial":
+        if not literal.positive or self._signature.symbols[literal.atom.name].kind != "inertial":
             return False
         if isinstance(law, syntax.StateConstraint):
-            return comes_true_only_while(literal, law.head, self.source)
+            return comes_true_only_while(literal, law.head, self._source)
         return isinstance(law, syntax.ExecutabilityCondition)
 
     def _loose_variables(self, law: Law, group: Group) -> set[str]:
@@ -124,23 +137,12 @@ class _Lifted:
             tied.update(*(link for link in links if link & tied))
         return possible - tied
 
-    def groups(self, members: Group) -> Mapping[str, Group]:
-        """Of each member those that stated statics connect it with."""
-        found: dict[str, Group] = {member: frozenset([member]) for member in members}
-        for fact in self._facts:
-            together = members.intersection(term.name for term in fact.args)
-            union = frozenset(c for member in together for c in found[member])
-            found.update(dict.fromkeys(union, union))
-        return found
-
     def _links(self, atom: syntax.Atom, domains: Domains, group: Group) -> bool:
         """Whether a condition of a law connects members of the group with members only.
 
         It is a static, and stated: then its true instances are the facts.
         """
-        if atom.name not in self._stated:
-            return False
-        return all(
+        return atom.name in self._stated and all(
             len(group.intersection(t.name for t in fact.args)) in (0, len(fact.args))
             for fact in self._facts
             if fact.name == atom.name
@@ -150,31 +152,34 @@ class _Lifted:
             )
         )
 
-    @cached_property
-    def _stated(self) -> frozenset[str]:
-        """The statics that no law derives."""
-        derived = {law.head.atom.name for law in self.source.each(syntax.StateConstraint)}
-        kinds = self.signature.symbols.items()
-        return frozenset(n for n, s in kinds if s.kind == "static" and n not in derived)
-
-    @cached_property
-    def _facts(self) -> list[syntax.Atom]:
-        """What is stated of statics."""
-        stated = (fact.literal.atom for fact in self.source.each(syntax.Fact))
-        return [fact for fact in stated if fact.name in self._stated]
-
     def _domains(self, law: Law) -> Domains:
-        found = variable_domains(law, self.signature).items()
+        found = variable_domains(law, self._signature).items()
         return {variable: frozenset(members) for variable, members in found}
 
-    def _static(self, law: Law) -> bool:
+    def _is_static(self, law: Law) -> bool:
         return (
             isinstance(law, syntax.StateConstraint)
-            and self.signature.symbols[law.head.atom.name].kind == "static"
+            and self._signature.symbols[law.head.atom.name].kind == "static"
         )
 
-    def _is_sort(self, literal: syntax.Literal) -> bool:
-        return literal.atom.name in self.signature.sorts
+
+def interchangeable(source: syntax.Source, signature: Signature) -> tuple[tuple[str, ...], ...]:
+    """Classes of constants, in order of declaration, that no law or fact tells apart."""
+    mentioned = {
+        constant
+        for statement in source.statements
+        if isinstance(statement, Law | syntax.Fact)
+        for constant in named(statement)
+    }
+    classes: dict[frozenset[str], list[str]] = {}
+    for constant in dict.fromkeys(m for members in signature.sorts.values() for m in members):
+        if constant not in mentioned:
+            classes.setdefault(_sorts(constant, signature), []).append(constant)
+    return tuple(map(tuple, classes.values()))
+
+
+def _sorts(constant: str, signature: Signature) -> frozenset[str]:
+    return frozenset(sort for sort, members in signature.sorts.items() if constant in members)
 
 
 def _variables(literal: syntax.Literal) -> list[str]:
