@@ -16,7 +16,7 @@ from benchmarks.measuring import forget, timed
 from testbed.environment.core import NONE, Core
 from testbed.environment.rules import Observability, Rules
 from testbed.protocol.messages import Decision, Task
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def besiege(
     `silent`. At the steps of `forgetful` it has forgotten the answers that it gave before, and
     of `recorded` ones the questions are kept.
     """
-    world = World(parse_description(source, "office.al"))
+    world = world_of(parse_description(source, "office.al"))
     siege = Siege()
     robot = IntentionalRobot(
         lambda knowledge, wanted, limit: Recording(

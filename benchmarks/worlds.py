@@ -15,8 +15,9 @@ from asp.refinement import Refinement, load
 from benchmarks.measuring import median, no_collection, quantile, timed
 from benchmarks.sheets import Row, Sheet, gathered
 from testbed.environment.core import WAIT, Core
-from testbed.environment.fine import fine_core, fine_world
+from testbed.environment.fine import fine_core
 from testbed.environment.rules import Rules
+from testbed.world import world_of
 
 _STEPS = {"small": 40, "full": 400}
 _LISTED = {"small": 1, "full": 3}
@@ -36,7 +37,7 @@ def main(size: str) -> list[Sheet]:
 
 def _row(name: str, level: LevelSize, size: str) -> Row:
     loading, refinement = timed(lambda: _refinement(name, level))
-    building, world = timed(lambda: fine_world(refinement))
+    building, world = timed(lambda: world_of(refinement))
     core = _game(refinement)
     twin = _game(_refinement(f"{name} again", level))
     resets = [timed(lambda: core.reset(1))[0] for _ in range(5)]

@@ -23,11 +23,11 @@ from testbed.config.grounds import grounds
 from testbed.config.keys import lists_keys
 from testbed.environment.aec import AECView, OrderedView
 from testbed.environment.core import Core
-from testbed.environment.fine import fine_core, fine_world
-from testbed.environment.goals import RandomGoal
+from testbed.environment.fine import fine_core
 from testbed.environment.parallel import ParallelView
+from testbed.environment.random_start import RandomGoal
 from testbed.environment.rules import Rules
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 
 Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
 """A file, the bare name of a packaged configuration, one already read, or None: `office`, with a
@@ -87,7 +87,7 @@ def make_core(
 
 
 def _coarse(config: ExperimentConfig, max_cycles: int | None) -> Core:
-    world = World(load_description(config.domain))
+    world = world_of(load_description(config.domain))
     given = config.initial
     states = world.initial_states() if given is None else (world.state(given),)
     return Core(world, _rules(config, max_cycles), states)
@@ -99,7 +99,7 @@ def _fine(config: ExperimentConfig, max_cycles: int | None) -> Core:
         raise ConfigError([f"{config.name}: there are several levels; give one, as in {example}"])
     ((_, ground),) = grounds(config)
     refinement = ground.refinement
-    world, sorts = fine_world(refinement), refinement.description.sorts
+    world, sorts = world_of(refinement), refinement.description.sorts
     return fine_core(
         refinement,
         _rules(config, max_cycles),

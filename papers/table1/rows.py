@@ -14,7 +14,7 @@ from testbed.studies.table1.pairing import Pair, Side
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.studies.table1.table import HEADINGS, number
 from testbed.text.markdown import markdown, paragraph
-from testbed.world.compiled.world import World
+from testbed.world import World
 
 
 def row_by_row(pairs: Sequence[Pair], world: World) -> str:

@@ -19,8 +19,7 @@ from testbed.config.places import Key, Places
 from testbed.config.scenarios import scenario_findings, scenarios_of
 from testbed.config.scripts import first_step_findings, script_findings
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
-from testbed.world.compiled.world import World
-from testbed.world.errors import StateError
+from testbed.world import StateError, world_of
 
 Robots = Callable[[bool], Collection[str]]
 """The robots that may be asked for, at the fine resolution or at the coarse one."""
@@ -162,7 +161,7 @@ def _goal(key: Key, literals: tuple[str, ...], description: Description) -> Iter
 def _never_together(literals: tuple[str, ...], description: Description) -> str | None:
     """Which literals no state has together: with the law where they follow, else by the theory."""
     try:
-        World(description).check_together(literals)
+        world_of(description).check_together(literals)
     except StateError as error:
         return str(error)
     program = translate(description.source, f"{description.name}.al")
@@ -179,6 +178,6 @@ def _initial(
     yield from unknown
     if not unknown:
         try:
-            World(description).state(literals)
+            world_of(description).state(literals)
         except StateError as error:
             yield key, f"no such initial state: {error}"

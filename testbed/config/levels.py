@@ -13,9 +13,7 @@ from testbed.config.models import Drawing, ExperimentConfig
 from testbed.config.places import Key
 from testbed.config.scripts import moment_findings
 from testbed.config.words import NO_ROBOT, Finding, unknown_atom
-from testbed.world.compiled.world import World
-from testbed.world.errors import StateError
-from testbed.world.matched import SparseWorld
+from testbed.world import StateError, world_of
 
 MOST_CELLS = 20_000
 """Of a level, and parts of its objects."""
@@ -109,12 +107,12 @@ def _together(config: ExperimentConfig, refinement: Refinement) -> Iterator[Find
     yield from unknown
     if config.initial is not None and not unknown:
         try:
-            SparseWorld(refinement.weak, refinement.weak_signature).state(config.initial)
+            world_of(refinement).state(config.initial)
         except StateError as error:
             yield ("initial",), f"no such initial state: {error}"
     if config.goal and not list(_literals(("goal",), config.goal, refinement.coarse_signature)):
         try:
-            World(refinement.description).check_together(config.goal)
+            world_of(refinement.description).check_together(config.goal)
         except StateError as error:
             yield ("goal",), f"no state has all of this: {error}"
 

@@ -11,11 +11,11 @@ from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from testbed.environment.agents import ADVERSARY, ROBOT, listed, name_of
 from testbed.environment.core import Core
+from testbed.environment.errors import IllegalActionError
 from testbed.environment.observation import Observation, infos, observe
 from testbed.environment.rewards import rewards
 from testbed.environment.situation import Snapshot
 from testbed.environment.view import View
-from testbed.world.errors import IllegalActionError
 
 _TURN = (
     "agents",

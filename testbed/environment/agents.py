@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from operator import index
 from typing import SupportsIndex
 
-from testbed.world.errors import IllegalActionError, UnknownAgentError
+from testbed.environment.errors import IllegalActionError, UnknownAgentError
 
 ROBOT, ADVERSARY = "robot_0", "adversary_0"
 

@@ -12,14 +12,14 @@ from typing import TypeAlias
 import numpy as np
 from gymnasium.utils import seeding
 
+from testbed.environment.errors import IllegalActionError, NotResetError
 from testbed.environment.execution import Exact, Execution
 from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
 from testbed.environment.news import News, Played
 from testbed.environment.rules import Rules
 from testbed.environment.situation import Ending, Situation, Snapshot
 from testbed.protocol.messages import Event, Percept
-from testbed.world.dynamics import Dynamics
-from testbed.world.errors import IllegalActionError, NotResetError
+from testbed.world import World
 
 __all__ = ["FINISH", "NONE", "WAIT", "Core", "Draw", "DrawGoal"]
 
@@ -39,7 +39,7 @@ class Core:
 
     def __init__(
         self,
-        world: Dynamics,
+        world: World,
         rules: Rules,
         initial: Sequence[int] | Draw,
         execution: Execution | None = None,

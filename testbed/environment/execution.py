@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 
 from asp.language import literals as text
-from testbed.world.dynamics import Dynamics
+from testbed.world import World
 
 
 class Execution(Protocol):
@@ -41,7 +41,7 @@ class Execution(Protocol):
 class Exact:
     """What is possible takes effect."""
 
-    def __init__(self, world: Dynamics, robot: str) -> None:
+    def __init__(self, world: World, robot: str) -> None:
         self._world = world
         self.robot = robot
         self.actions = world.agent_actions

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import overload
 
 from testbed.environment.execution import Execution
-from testbed.world.dynamics import Dynamics
+from testbed.world import World
 
 WAIT, FINISH, NONE = "wait", "finish", "none"
 """The actions that are the environment's own: of the robot, and of the adversary."""
@@ -27,7 +27,7 @@ class Moment:
 class Legality:
     """An event is legal where it is possible however the robot's action comes out."""
 
-    world: Dynamics
+    world: World
     execution: Execution
 
     def allows(self, moment: Moment, event: str) -> bool:

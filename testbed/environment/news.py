@@ -12,7 +12,7 @@ from asp.language import literals as text
 from testbed.environment.execution import Execution
 from testbed.environment.rules import Observability
 from testbed.protocol.messages import Event
-from testbed.world.dynamics import Dynamics
+from testbed.world import World
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Played:
 class News:
     """Draws the reports of a step, by the rules for each kind of event."""
 
-    world: Dynamics
+    world: World
     execution: Execution
 
     def reports(

@@ -9,11 +9,11 @@ from pettingzoo import ParallelEnv
 
 from testbed.environment.agents import ADVERSARY, ROBOT, name_of
 from testbed.environment.core import NONE
+from testbed.environment.errors import IllegalActionError
 from testbed.environment.observation import Observation, infos, observe
 from testbed.environment.rewards import rewards
 from testbed.environment.situation import Snapshot
 from testbed.environment.view import View
-from testbed.world.errors import IllegalActionError
 
 Observations: TypeAlias = dict[str, Observation]
 Flags: TypeAlias = dict[str, bool]

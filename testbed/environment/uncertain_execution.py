@@ -8,8 +8,7 @@ from typing import Literal
 import numpy as np
 
 from asp.language import literals as text
-from testbed.world.matched.sensing import Sensing
-from testbed.world.matched.world import SparseWorld
+from testbed.world import Sensing, World
 
 Statistics = Mapping[str, float]
 """By the name of an action: the probability with which it takes effect; by that of a test: the
@@ -29,7 +28,7 @@ class Tested:
 
     def __init__(
         self,
-        world: SparseWorld,
+        world: World,
         sensing: Sensing,
         robot: str,
         statistics: Statistics,

@@ -10,6 +10,7 @@ from gymnasium import spaces
 from asp.language import suggestion
 from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import Core
+from testbed.environment.errors import UnknownOptionError
 from testbed.environment.observation import (
     Vector,
     action_spaces,
@@ -20,7 +21,6 @@ from testbed.environment.observation import (
 from testbed.environment.rendering.modes import MODES, check_mode, render
 from testbed.environment.rendering.notebook import html_of
 from testbed.environment.rendering.picture import Image
-from testbed.world.errors import UnknownOptionError
 
 OPTIONS = ("initial", "trial")
 """The keys of `reset(options=...)`."""

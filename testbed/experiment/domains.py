@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import lru_cache
 
 import asp
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 
 @lru_cache(maxsize=8)
 def load_world(domain: str) -> World:
     """The world of a domain given by name or path. Raises what `asp.load_description` does."""
-    return World(asp.load_description(domain))
+    return world_of(asp.load_description(domain))

@@ -6,8 +6,8 @@ import numpy as np
 
 from asp.refinement import Refinement
 from testbed.config.models import ExperimentConfig
-from testbed.environment.fine import RandomStart, fine_world
-from testbed.environment.goals import RandomGoal
+from testbed.environment.random_start import RandomGoal, RandomStart
+from testbed.world import world_of
 
 Drawn = tuple[tuple[str, ...], tuple[str, ...]]
 
@@ -17,7 +17,7 @@ class Drawing:
 
     def __init__(self, config: ExperimentConfig, refinement: Refinement) -> None:
         description = refinement.description
-        self._world = fine_world(refinement)
+        self._world = world_of(refinement)
         self._start = RandomStart(self._world, description.robots[0], config.draw.holding)
         self._initial = config.initial
         self._goal = config.goal

@@ -7,14 +7,14 @@ from agents.adversary.random import Random
 from asp.language import arguments, complement
 from testbed.config.grounds import Ground
 from testbed.environment.core import Core
-from testbed.environment.fine import fine_core, fine_world
+from testbed.environment.fine import fine_core
 from testbed.experiment.adversaries import script_of
 from testbed.experiment.game_rules import known, rules_of
 from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import Oracle
 from testbed.experiment.specs import FineSetting, Setting, TrialSpec
 from testbed.protocol.messages import Task
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 
 
 class FineStage:
@@ -24,8 +24,8 @@ class FineStage:
         refinement = ground.refinement
         description = refinement.description
         self._refinement, self._text = refinement, ground.text
-        self._world = fine_world(refinement)
-        self._coarse = World(description)
+        self._world = world_of(refinement)
+        self._coarse = world_of(description)
         oracle = Oracle(description, refinement.coarse, refinement.coarse_signature)
         atoms, costs = self._coarse_atoms, description.costs
         self.costs = costs

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from testbed.environment.rules import Rules
 from testbed.experiment.specs import Setting
-from testbed.world.compiled.world import World
+from testbed.world import World
 
 
 def known(setting: Setting, world: World, state: int) -> tuple[str, ...]:

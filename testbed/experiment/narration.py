@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
 from testbed.environment.core import FINISH
-from testbed.environment.fine import fine_world
 from testbed.experiment.domains import load_world
 from testbed.experiment.specs import Setting
 from testbed.experiment.trial import Moment
 from testbed.experiment.trial_setup import load_ground
 from testbed.experiment.wording import explanation
 from testbed.protocol.messages import FineTrace, Trace
-from testbed.world.dynamics import Dynamics
-from testbed.world.matched import SparseWorld
+from testbed.world import World, world_of
 
 Say = Callable[[str], None]
 
@@ -21,7 +19,7 @@ Say = Callable[[str], None]
 class Teller:
     """Tells a trial while it is played; what is as at the step before is not told again."""
 
-    def __init__(self, world: Dynamics, say: Say) -> None:
+    def __init__(self, world: World, say: Say) -> None:
         self._world = world
         self._say = say
         self._plan: tuple[str, ...] = ()
@@ -109,7 +107,7 @@ class FineTeller(Teller):
     concrete action, what was observed, what failed, and what was inferred in the end.
     """
 
-    def __init__(self, world: SparseWorld, coarse: Collection[str], say: Say) -> None:
+    def __init__(self, world: World, coarse: Collection[str], say: Say) -> None:
         """`coarse` are the fluents of the coarse resolution."""
         super().__init__(world, say)
         self._coarse = frozenset(coarse)
@@ -172,4 +170,4 @@ def teller_of(setting: Setting, say: Say) -> Teller:
     if setting.fine is None:
         return Teller(load_world(setting.domain), say)
     refinement = load_ground(setting).refinement
-    return FineTeller(fine_world(refinement), refinement.description.fluents, say)
+    return FineTeller(world_of(refinement), refinement.description.fluents, say)

@@ -23,7 +23,7 @@ from asp.language import (
 )
 from asp.reasoning.relevance import Relevance
 from testbed.experiment.heuristic import Heuristic, Potentials, blind
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 UNINFORMED = 200
 """States expanded by uniform cost: most searches end before a heuristic would be found."""
@@ -155,4 +155,4 @@ class Oracle:
 
     def _without(self, dropped: frozenset[str]) -> World:
         source, signature = restrict(self._source, dropped), narrowed(self._signature, dropped)
-        return World(ground_description(source, signature, self._name))
+        return world_of(ground_description(source, signature, self._name))

@@ -13,7 +13,7 @@ from testbed.experiment.level_plan import level_specs
 from testbed.experiment.record import COARSE
 from testbed.experiment.repeating import repeats_of
 from testbed.experiment.specs import TrialSpec, pair_specs, seed_words, setting_of
-from testbed.world.compiled.world import World
+from testbed.world import World
 
 __all__ = ["TrialSpec", "plan_trials", "planned_trials"]
 

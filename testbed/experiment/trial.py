@@ -12,6 +12,7 @@ import numpy as np
 
 from agents.adversary.scripted import Script
 from testbed.environment.core import NONE, Core
+from testbed.environment.errors import IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
 from testbed.experiment.record import FineCounts, TrialRecord, check
 from testbed.experiment.recorder import FineRecorder, Recorder
@@ -21,7 +22,6 @@ from testbed.link.exchange import NOT_UNDERSTOOD, in_one_line
 from testbed.protocol.errors import RobotGone, RobotLost, RobotStopped
 from testbed.protocol.messages import Decision, Percept
 from testbed.protocol.robot import RobotClient
-from testbed.world.errors import IllegalActionError
 
 
 @dataclass(frozen=True)

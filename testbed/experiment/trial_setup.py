@@ -17,7 +17,7 @@ from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import minimal_actions, minimal_units
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.protocol.messages import Task
-from testbed.world.compiled.world import World
+from testbed.world import World
 
 
 class Stage(Protocol):

@@ -1,1 +1,22 @@
-"""The transition function of a domain, with two backends."""
+"""The transition diagram of a domain: one interface, and two backends that find its answers."""
+
+from testbed.world.backends import sensing_of, world_of
+from testbed.world.matched.sensing import Sensing
+from testbed.world.world import (
+    NotExecutableError,
+    StateError,
+    UnknownActionError,
+    UnknownFluentError,
+    World,
+)
+
+__all__ = [
+    "NotExecutableError",
+    "Sensing",
+    "StateError",
+    "UnknownActionError",
+    "UnknownFluentError",
+    "World",
+    "sensing_of",
+    "world_of",
+]

@@ -9,38 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from asp.language import literals as text
 
+@dataclass(frozen=True)
+class LiteralSets:
+    """Operations on sets of literals over `size` fluents."""
 
-class UnknownFluentError(ValueError):
-    """A literal whose atom is no fluent of the description."""
+    size: int
 
-
-class Vocabulary:
-    """The literals over an ordered tuple of fluents, as bits and as text."""
-
-    def __init__(self, fluents: tuple[str, ...]) -> None:
-        self.fluents = fluents
-        self.size = len(fluents)
-        self.positive = (1 << self.size) - 1
-        self._bits = {fluent: 1 << i for i, fluent in enumerate(fluents)}
-
-    def bit(self, literal: str) -> int:
-        """The mask of one literal. Raises UnknownFluentError."""
-        try:
-            bit = self._bits[text.atom(literal)]
-        except KeyError:
-            raise UnknownFluentError(
-                f"{text.atom(literal)} is not a fluent of the domain"
-            ) from None
-        return bit if text.is_positive(literal) else bit << self.size
-
-    def mask(self, literals: Iterable[str]) -> int:
-        """The mask of a set of literals. Raises UnknownFluentError."""
-        mask = 0
-        for literal in literals:
-            mask |= self.bit(literal)
-        return mask
+    @property
+    def positive(self) -> int:
+        """Every positive literal."""
+        return (1 << self.size) - 1
 
     def complete(self, state: int) -> int:
         """The complete set of literals of a state, itself the mask of its true fluents."""
@@ -53,14 +32,9 @@ class Vocabulary:
     def consistent(self, literals: int) -> bool:
         return not literals & literals >> self.size & self.positive
 
-    def render(self, literals: int) -> tuple[str, ...]:
-        """The text of a set of literals, in the order of the fluents, of a pair `f` first."""
-        return tuple(
-            sign + fluent
-            for fluent in self.fluents
-            for sign, bit in (("", self._bits[fluent]), ("-", self._bits[fluent] << self.size))
-            if literals & bit
-        )
+    def literal(self, number: int, positive: bool) -> int:
+        """The mask of one literal."""
+        return 1 << number if positive else 1 << self.size + number
 
 
 @dataclass(frozen=True)
@@ -74,8 +48,8 @@ class Rule:
 class Closure:
     """The consequence operator Cn of a set of rules, and its models under defaults."""
 
-    def __init__(self, vocabulary: Vocabulary, rules: Iterable[Rule]) -> None:
-        self._vocabulary = vocabulary
+    def __init__(self, sets: LiteralSets, rules: Iterable[Rule]) -> None:
+        self._sets = sets
         # By one literal of the body each, if possible a positive one: few fluents are true.
         watched: dict[int, list[tuple[int, int]]] = {}
         for rule in rules:
@@ -108,13 +82,13 @@ class Closure:
         while branches:
             kept, undecided = self._narrow(facts, *branches.pop())
             model = self.consequences(facts | kept)
-            if not self._vocabulary.consistent(model):
+            if not self._sets.consistent(model):
                 continue
             if undecided:
                 chosen = undecided & -undecided
                 rest = undecided ^ chosen
                 branches += [(kept, rest), (kept | chosen, rest)]
-            elif kept == all_defaults & ~self._vocabulary.complement(model):
+            elif kept == all_defaults & ~self._sets.complement(model):
                 yield model
 
     def _narrow(self, facts: int, kept: int, undecided: int) -> tuple[int, int]:
@@ -123,7 +97,7 @@ class Closure:
         A default is dropped when its complement follows from what is certain, kept when its
         complement does not follow even from all that is possible.
         """
-        complement = self._vocabulary.complement
+        complement = self._sets.complement
         before = -1
         while undecided and before != undecided:
             before = undecided

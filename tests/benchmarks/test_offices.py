@@ -6,7 +6,7 @@ import pytest
 
 from asp.language import load_description, parse_description
 from benchmarks.offices import MAPS, office
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 
 
 def test_the_office_of_the_packaged_size_is_the_packaged_office() -> None:
@@ -23,7 +23,7 @@ def test_the_office_of_the_packaged_size_is_the_packaged_office() -> None:
 def test_every_room_can_be_reached(shape: str, rooms: int) -> None:
     description = parse_description(office(1, rooms, shape), "office.al")
     assert len(description.sorts["room"]) == rooms
-    world = World(description)
+    world = world_of(description)
     seen = [world.state(["loc(rob1,library)", "loc(book1,kitchen)"])]
     for state in seen:
         moves = [a for a in world.agent_actions if a.startswith("move(")]

@@ -7,14 +7,13 @@ import pytest
 
 from asp import Description, load_description, parse_description
 from testbed.environment.core import FINISH, NONE, WAIT, Core
+from testbed.environment.errors import IllegalActionError
 from testbed.environment.execution import Exact
 from testbed.environment.rules import Mode, Observability, Rules
 from testbed.environment.situation import Ending
-from testbed.world.closure import UnknownFluentError
-from testbed.world.compiled.world import World
-from testbed.world.errors import IllegalActionError, StateError
+from testbed.world import StateError, UnknownFluentError, world_of
 
-WORLD = World(load_description("office"))
+WORLD = world_of(load_description("office"))
 IN_KITCHEN = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)")
 GOAL = ("loc(book1,library)", "-in_hand(rob1,book1)")
 RULES = Rules(goal=GOAL)
@@ -186,7 +185,7 @@ def test_a_finish_at_the_last_step_still_counts() -> None:
     ],
 )
 def test_who_is_told_of_an_event(mode: Mode, event: str, told: bool) -> None:
-    world = World(_with_a_third_book())
+    world = world_of(_with_a_third_book())
     rules = replace(RULES, observability={"exo_move": Observability(mode)})
     core = Core(world, rules, ())
     core.reset(0, (*IN_KITCHEN, "loc(book3,office1)"))
@@ -318,7 +317,7 @@ class Slippery(Exact):
 
 
 def test_an_event_is_legal_only_if_it_is_however_the_action_comes_out() -> None:
-    world = World(parse_description(MAKES_ROOM))
+    world = world_of(parse_description(MAKES_ROOM))
     sure, slippery = (
         Core(world, Rules(goal=()), (0,), execution(world, "r")) for execution in (Exact, Slippery)
     )

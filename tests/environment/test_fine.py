@@ -9,10 +9,12 @@ from asp.domains.levels import level_text
 from asp.language import read_domain
 from asp.refinement import Refinement, load
 from testbed.environment.core import FINISH, NONE, WAIT, Core
-from testbed.environment.fine import RandomStart, fine_core, fine_world
+from testbed.environment.errors import IllegalActionError
+from testbed.environment.fine import fine_core
+from testbed.environment.random_start import RandomStart
 from testbed.environment.rules import Observability, Rules
 from testbed.environment.uncertain_execution import Pace
-from testbed.world.errors import IllegalActionError
+from testbed.world import world_of
 
 START = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]
 GOAL = ("loc(object1,room2)", "-in_hand(rob1,object1)")
@@ -242,7 +244,7 @@ def test_games_follow_from_their_seed_and_go_on_from_a_snapshot() -> None:
 
 def test_random_starts_are_initial_states_that_hold_something_now_and_then() -> None:
     fine = refinement((2, 2), (1, 1), rooms=3)
-    world = fine_world(fine)
+    world = world_of(fine)
     start, random = RandomStart(world, "rob1", holding=0.2), np.random.default_rng(1)
     cells: dict[str, set[str]] = {}
     held = Counter[str]()

@@ -12,7 +12,7 @@ from pettingzoo.test import api_test, parallel_api_test
 from testbed import office_v0
 from testbed.config import ConfigError
 from testbed.environment.agents import ADVERSARY, ROBOT
-from testbed.world.errors import IllegalActionError
+from testbed.environment.errors import IllegalActionError
 
 
 @pytest.fixture

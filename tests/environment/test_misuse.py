@@ -11,7 +11,7 @@ from gymnasium.utils.env_checker import data_equivalence
 
 from testbed import office_v0
 from testbed.environment.agents import ADVERSARY, ROBOT
-from testbed.world.errors import (
+from testbed.environment.errors import (
     IllegalActionError,
     NotResetError,
     UnknownAgentError,

@@ -14,7 +14,8 @@ from pettingzoo.utils.conversions import aec_to_parallel
 from testbed import office_v0
 from testbed.config import ConfigError
 from testbed.environment.agents import ADVERSARY, ROBOT
-from testbed.world.errors import IllegalActionError, StateError
+from testbed.environment.errors import IllegalActionError
+from testbed.world import StateError
 
 pytestmark = pytest.mark.versions
 

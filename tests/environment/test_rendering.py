@@ -14,9 +14,9 @@ from testbed.environment.rendering.modes import MODES, render
 from testbed.environment.rendering.picture import Image, draw_picture
 from testbed.environment.rendering.scene import Scene, scene
 from testbed.environment.rules import Rules
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 
-WORLD = World(load_description("office"))
+WORLD = world_of(load_description("office"))
 OFFICE = read_domain("office")[1]
 IN_KITCHEN = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,office2)")
 TOWER = """
@@ -114,7 +114,7 @@ def test_the_picture_tells_apart_what_differs() -> None:
 
 
 def test_a_domain_without_places_is_shown_as_well() -> None:
-    world = World(parse_description(TOWER))
+    world = world_of(parse_description(TOWER))
     core = Core(world, Rules(goal=()), ())
     core.reset(0, ["on(a,b)", "dusty(a)"])
     shown = scene(core)
@@ -163,7 +163,7 @@ def test_the_picture_tells_cells_apart() -> None:
 
 def test_a_static_between_two_sorts_is_no_cell_of_the_other() -> None:
     owned = OFFICE.replace("next_to(room, room).", "next_to(room, room).  owner(object, robot).")
-    world = World(parse_description(owned.replace("\nfacts", "\nfacts\n  owner(book1, rob1).")))
+    world = world_of(parse_description(owned.replace("\nfacts", "\nfacts\n  owner(book1, rob1).")))
     core = Core(world, Rules(goal=()), ())
     core.reset(0, IN_KITCHEN)
     assert scene(core).places == scene(office()).places

@@ -6,7 +6,6 @@ from typing import Any
 import pytest
 
 from testbed.config import load_config
-from testbed.environment.fine import fine_world
 from testbed.experiment.narration import teller_of
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord, logical
@@ -14,6 +13,7 @@ from testbed.experiment.trial import play_trial
 from testbed.experiment.trial_setup import load_ground, load_stage
 from testbed.link.inprocess import InProcessRobot
 from testbed.protocol.messages import Decision, FineTrace, Percept, Task, Trace
+from testbed.world import world_of
 
 SMALL = "level_sizes={small: {rooms: 2, rows: 1, columns: 2, objects: [[2, 2]]}}"
 
@@ -234,7 +234,7 @@ def test_a_replay_says_which_action_took_no_effect_and_what_others_did() -> None
 
 def test_the_oracle_counts_abstract_actions() -> None:
     stage = load_stage(_specs("levels=[L1]")[0].setting)
-    state = fine_world(load_ground(_specs("levels=[L1]")[0].setting).refinement).state(
+    state = world_of(load_ground(_specs("levels=[L1]")[0].setting).refinement).state(
         ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room2_2)"]
     )
     alone, both = ("loc(object1,room1)",), ("loc(object1,room1)", "loc(rob1,room2)")

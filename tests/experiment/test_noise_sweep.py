@@ -12,8 +12,8 @@ from asp.domains.levels import LEVELS, level_text
 from asp.language import name
 from asp.refinement import load
 from benchmarks.own import Own
-from testbed.environment.fine import fine_world
 from testbed.experiment.record import TrialRecord
+from testbed.world import world_of
 from tests.experiment.gardens import GARDEN, PIECES, ROWS
 
 HERE = Path(__file__).parents[1] / "asp" / "refinement"
@@ -31,7 +31,7 @@ class Field:
     def noisy(self, right: float) -> dict[str, float]:
         """Statistics by which everything comes out right with one probability."""
         refinement = load(self.domain, "own.al", self.refinement, "own.fine")
-        actions = set(map(name, fine_world(refinement).agent_actions))
+        actions = set(map(name, world_of(refinement).agent_actions))
         strong = refinement.strong_signature.symbols.values()
         tests = {symbol.name for symbol in strong if symbol.name.startswith("test_")}
         return dict.fromkeys(sorted(actions | tests), right)

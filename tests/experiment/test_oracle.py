@@ -7,10 +7,10 @@ import pytest
 
 from asp.domains.levels import level_text
 from asp.language import analyse, ground_description
-from testbed.environment.goals import RandomGoal
+from testbed.environment.random_start import RandomGoal
 from testbed.experiment.domains import load_world
 from testbed.experiment.oracle import Oracle, minimal_actions, minimal_units, shortest_plan
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 DELIVERED = (
     "loc(book1,library)",
@@ -118,7 +118,7 @@ def test_no_shorter_sequence_of_actions_does_it(office: World) -> None:
 def test_the_oracle_of_many_constants_finds_what_the_plain_one_finds(patterns: list[str]) -> None:
     source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
     description = ground_description(source, signature, "level")
-    world, oracle = World(description), Oracle(description, source, signature)
+    world, oracle = world_of(description), Oracle(description, source, signature)
     draw = RandomGoal(world, patterns, description.sorts)
     random = np.random.default_rng(1)
     states = world.initial_states()

@@ -14,7 +14,7 @@ from testbed.experiment.store import TrialWriter, write_config
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link.inprocess import InProcessRobot
 from testbed.protocol.messages import Decision, Percept, Trace
-from testbed.world.compiled.world import World
+from testbed.world import World
 from tests.experiment.samples import Configure
 
 

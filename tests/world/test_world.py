@@ -3,9 +3,14 @@
 import pytest
 
 from asp import load_description, parse_description
-from testbed.world.closure import UnknownFluentError
-from testbed.world.compiled.world import World
-from testbed.world.errors import NotExecutableError, StateError, UnknownActionError
+from testbed.world import (
+    NotExecutableError,
+    StateError,
+    UnknownActionError,
+    UnknownFluentError,
+    World,
+    world_of,
+)
 
 SCENARIO_1 = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)")
 PLAN = (
@@ -36,7 +41,7 @@ laws
 
 @pytest.fixture(scope="module")
 def world() -> World:
-    return World(load_description("office"))
+    return world_of(load_description("office"))
 
 
 def test_the_office_has_430_states_and_192_initial_ones(world: World) -> None:
@@ -154,7 +159,7 @@ def test_an_unknown_action_is_named(world: World) -> None:
 
 
 def test_several_outcomes_are_all_found_and_none_is_taken_for_the_one() -> None:
-    world = World(parse_description(UNDETERMINED))
+    world = world_of(parse_description(UNDETERMINED))
     state = world.state(["f", "g"])
     outcomes = {world.true_atoms(after) for after in world.successors(state, ["a"])}
     assert outcomes == {("f", "h", "p"), ("g", "h")}
@@ -163,7 +168,7 @@ def test_several_outcomes_are_all_found_and_none_is_taken_for_the_one() -> None:
 
 
 def test_a_defined_fluent_follows_and_cannot_be_given_otherwise() -> None:
-    world = World(parse_description(UNDETERMINED))
+    world = world_of(parse_description(UNDETERMINED))
     assert world.true_atoms(world.state(["f"])) == ("f", "p")
     for wrong in (["p"], ["f", "-p"]):
         with pytest.raises(StateError):

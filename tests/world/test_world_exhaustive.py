@@ -10,11 +10,11 @@ import pytest
 
 from asp import load_description
 from asp.translation import translate
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.world import diagram
 
 OFFICE = load_description("office")
-WORLD = World(OFFICE)
+WORLD = world_of(OFFICE)
 
 
 @pytest.fixture(scope="module")

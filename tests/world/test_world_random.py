@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from asp import SourceError, parse_description
 from asp.translation import translate
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 from tests.world import diagram
 
 INERTIAL, DEFINED, ACTIONS = ("f", "g", "k", "h"), ("p", "q"), ("a", "b", "e")
@@ -64,7 +64,7 @@ TOGETHER = ["a causes f.", "b causes -f.", "e causes g.", "impossible a, e if k.
 def test_a_random_world_is_the_programs(drawn: list[str]) -> None:
     text = HEADER + "\n".join(f"  {law}" for law in drawn) + "\n"
     try:
-        world = World(parse_description(text))
+        world = world_of(parse_description(text))
     except SourceError as error:  # a fluent defined through its own negation
         assume("defined through its own negation" not in str(error))
         raise

@@ -9,7 +9,7 @@ from __future__ import annotations
 from asp.language import literals as text
 from testbed.analysis.counting import NOTHING_TO_DO, is_idle
 from testbed.experiment.record import Activity, TrialRecord
-from testbed.world.compiled.world import World
+from testbed.world import World
 
 __all__ = ["NOTHING_TO_DO", "UNCLASSIFIED", "classify", "state_at"]
 

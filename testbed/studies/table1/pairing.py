@@ -16,7 +16,7 @@ from testbed.analysis.counting import (
 from testbed.analysis.outline import DIVIDED, Outline, state_of
 from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
 from testbed.studies.table1.classify import classify, state_at
-from testbed.world.compiled.world import World
+from testbed.world import World
 
 Meeting = Literal["nothing", "same", "same later", "other", "other at once"]
 MEETINGS: Mapping[Meeting, str] = {

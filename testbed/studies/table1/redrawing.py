@@ -15,7 +15,7 @@ from asp.language import Trigger
 from asp.language import literals as text
 from testbed.environment.core import NONE
 from testbed.experiment.record import TrialRecord
-from testbed.world.compiled.world import World
+from testbed.world import World
 
 Chances: TypeAlias = Mapping[str, float]
 Law: TypeAlias = Callable[[int, str], Chances]

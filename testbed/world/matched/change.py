@@ -15,13 +15,12 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property, partial
 
-from testbed.world.closure import Closure, Rule, Vocabulary
+from testbed.world.closure import Closure, LiteralSets, Rule
 from testbed.world.matched.facts import (
     Facts,
     GroundAtom,
     GroundLiteral,
     Possibilities,
-    text_of_atom,
 )
 from testbed.world.matched.laws import Instance, Laws
 
@@ -48,6 +47,7 @@ class Change:
         self._spread([*self._given, *seeds, *falling])
         self.touched = self._possible.touched
         self._numbers = {atom: number for number, atom in enumerate(self.touched)}
+        self._sets = LiteralSets(len(self.touched))
 
     def _spread(self, literals: Iterable[GroundLiteral]) -> None:
         """Adds what the literals may derive, and what may lose its derivation by them."""
@@ -81,11 +81,10 @@ class Change:
 
     @cached_property
     def _closure(self) -> Closure:
-        vocabulary = Vocabulary(tuple(map(text_of_atom, self.touched)))
         rules = {
             (self._mask(instance.body), self._bit(instance.head)) for instance in self.instances
         }
-        return Closure(vocabulary, [Rule(body, head) for body, head in sorted(rules)])
+        return Closure(self._sets, [Rule(body, head) for body, head in sorted(rules)])
 
     def outcomes(self) -> tuple[Mapping[GroundAtom, bool], ...]:
         """The values of the touched atoms in each outcome; none: the literals cannot be."""
@@ -123,5 +122,4 @@ class Change:
         return mask
 
     def _bit(self, literal: GroundLiteral) -> int:
-        number = self._numbers[literal[0]]
-        return 1 << number if literal[1] else 1 << len(self._numbers) + number
+        return self._sets.literal(self._numbers[literal[0]], literal[1])

@@ -15,13 +15,13 @@ from asp.language import Signature, ground, syntax
 from asp.language import variable_sorts as roles
 from testbed.world.matched.facts import Facts, GroundAtom, atom_of_text, text_of_atom
 from testbed.world.matched.laws import Instance, Pattern, Reader
-from testbed.world.matched.world import SparseWorld
+from testbed.world.matched.world import MatchedWorld
 
 
 class Sensing:
     """The actions of `strong` that the world does not have; `actions` are their instances."""
 
-    def __init__(self, world: SparseWorld, strong: syntax.Source, signature: Signature) -> None:
+    def __init__(self, world: MatchedWorld, strong: syntax.Source, signature: Signature) -> None:
         self._world = world
         self._signature = signature
         physical = world.signature.symbols

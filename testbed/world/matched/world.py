@@ -1,156 +1,187 @@
-"""The transition function of a domain whose laws have too many instances to write them down.
-
-The states, successors and refusals are those of `testbed.world.compiled.world.World`, found by
-matching each law against the atoms that are true.
-"""
+"""A world whose laws are matched against what is true, and never instantiated as a whole."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import lru_cache
 from itertools import product
-from typing import Self
+from pathlib import Path
 
-from asp.language import Signature, analyse, syntax
-from testbed.world.errors import NotExecutableError, UnknownActionError
+from asp.language import Description, Signature, ground_description, syntax
+from asp.language import literals as text
+from testbed.world.compiled import CompiledWorld
 from testbed.world.matched.change import Change
 from testbed.world.matched.facts import (
+    Facts,
     GroundAtom,
     GroundLiteral,
     atom_of_text,
+    text_of,
     text_of_atom,
 )
-from testbed.world.matched.laws import Instance, Prohibition
-from testbed.world.matched.states import SparseStates
+from testbed.world.matched.laws import Instance, Laws, Prohibition
+from testbed.world.world import Law, World, bits
 
-_REMEMBERED = 4096
+_SUCCESSORS, _STATES = 4096, 256
 
 
-class SparseWorld(SparseStates):
-    """The states of a description, its transitions, and what a robot sees of a state.
+class MatchedWorld(World):
+    """The backend for descriptions whose laws have too many instances to write them down."""
 
-    A state is an integer: bit i is set where the i-th fluent is true. Everything is a pure function
-    of the state; what was asked last is remembered.
-    """
+    def __init__(self, source: syntax.Source, signature: Signature) -> None:
+        super().__init__(_declared(source, signature), remembered=_SUCCESSORS)
+        self._arguments = (source, signature)
+        self._atoms = tuple(map(atom_of_text, self.fluents))
+        self._bits = {atom: 1 << number for number, atom in enumerate(self._atoms)}
+        self._defined = frozenset(map(text.name, self.description.defined))
+        self.signature = signature
+        self.statics = Facts(map(atom_of_text, self.description.statics))
+        self._laws = Laws(source, signature, self.statics)
+        self.facts = lru_cache(_STATES)(self._decode)
+        self._described = lru_cache(1)(self._describe)
 
-    def __init__(self, source: syntax.Source, signature: Signature, name: str = "") -> None:
-        super().__init__(source, signature, name)
-        self.agent_actions: tuple[str, ...] = self.description.agent_actions
-        self.exogenous_actions: tuple[str, ...] = self.description.exogenous_actions
-        self._actions = frozenset((*self.agent_actions, *self.exogenous_actions))
-        self._remembered = lru_cache(_REMEMBERED)(self._compute)
-        self._made_of = (source, signature, name)
+    def is_state(self, state: int) -> bool:
+        facts = self.facts(state)
 
-    def __reduce__(self) -> tuple[type[Self], tuple[object, ...]]:
-        """A copy is compiled anew: compiled laws cannot be pickled."""
-        return type(self), self._made_of
+        def broken(instance: Instance) -> bool:
+            atom, positive = instance.head
+            return facts.may_hold(atom) != positive
 
-    @classmethod
-    def of_text(cls, text: str, file: str = "<text>") -> SparseWorld:
-        """The world of an AL_d text. Raises SourceError."""
-        return cls(*analyse(text, file))
+        laws = self._laws.constraints
+        return not any(p.search([], facts, broken) for p in laws) and self._founded(facts)
 
-    def successors(self, state: int, actions: Iterable[str]) -> tuple[int, ...]:
-        """Every state the compound action can lead to, sorted; none: it cannot be executed.
+    def _founded(self, facts: Facts) -> bool:
+        """Whether each true defined fluent is derived, in the end from none of its kind."""
+        true = {atom for name in self._defined for atom in facts.named(name)}
+        bodies: list[tuple[GroundAtom, list[GroundAtom]]] = []
 
-        Raises UnknownActionError. The empty compound action is one, too.
-        """
-        return self._remembered(state, frozenset(actions))
-
-    def successor(self, state: int, actions: Iterable[str]) -> int:
-        """The one successor. Raises NotExecutableError, or ValueError where there are several."""
-        compound = frozenset(actions)
-        found = self.successors(state, compound)
-        if not found:
-            raise NotExecutableError(self.why_not(state, compound))
-        if len(found) > 1:
-            outcomes = " | ".join(" ".join(self.true_atoms(s)) for s in found)
-            raise ValueError(f"{_names(compound)} has several outcomes: {outcomes}")
-        return found[0]
-
-    def executable(self, state: int, actions: Iterable[str]) -> bool:
-        """Whether the compound action has a successor. Raises UnknownActionError."""
-        return bool(self.successors(state, actions))
-
-    def why_not(self, state: int, actions: Iterable[str]) -> str | None:
-        """One line that says why the compound action cannot be executed; None if it can."""
-        compound = frozenset(actions)
-        if self.executable(state, compound):
-            return None
-        law = self._forbidding(state, self._read(compound))
-        return law or f"the effects of {_names(compound)} contradict each other"
-
-    def visible(self, state: int, robot: str) -> tuple[str, ...]:
-        """The literals that the robot sees in the state, in the order of the fluents."""
-        seen: set[GroundAtom] = set()
-
-        def see(instance: Instance) -> bool:
-            seen.add(instance.head[0])
+        def keep(instance: Instance) -> bool:
+            needs = [atom for atom, positive in instance.body if positive and atom in true]
+            bodies.append((instance.head[0], needs))
             return False
 
-        facts = self.facts(state)
-        for pattern in self._laws.sights:
-            pattern.search([("", robot)], facts, see)
-        return self._render((atom, facts.may_hold(atom)) for atom in seen)
+        for atom in true:
+            for pattern in self._laws.supports.get((atom[0], True), ()):
+                pattern.search([atom], facts, keep)
+        derived: set[GroundAtom] = set()
+        grew = True
+        while grew:
+            more = {head for head, needs in bodies if derived.issuperset(needs)} - derived
+            grew = bool(more)
+            derived |= more
+        return derived == true
 
-    def _compute(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
-        actions = self._read(compound)
-        if self._forbidding(state, actions) is not None:
+    def states(self) -> Iterator[int]:
+        """By way of the instances of the laws: where the states can be listed these can, too."""
+        source, signature = self._arguments
+        ground = ground_description(source, signature, self.description.name)
+        return CompiledWorld(ground).states()
+
+    def adjusted(self, state: int, literals: Iterable[str]) -> tuple[int, ...]:
+        return self._changed(state, self._read(literals))
+
+    def _completions(self, literals: tuple[str, ...]) -> Iterable[int]:
+        return self._outcomes(0, self._described(literals))
+
+    def _broken(self, literals: tuple[str, ...]) -> Law | None:
+        law = self._described(literals).conflict()
+        return None if law is None else ((text_of(law.head),), _texts(law.body))
+
+    def _describe(self, literals: tuple[str, ...]) -> Change:
+        """What the literals make of a state in which nothing is true."""
+        seeds: list[GroundLiteral] = []
+
+        def keep(instance: Instance) -> bool:
+            seeds.append(instance.head)
+            return False
+
+        for pattern in self._laws.groundless:
+            pattern.search([], self.facts(0), keep)
+        return Change(self._laws, self._defined, self.facts(0), self._read(literals), seeds)
+
+    def _transitions(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
+        if self._forbidding(state, compound) is not None:
             return ()
-        facts = self.facts(state)
-        effects = self._effects(state, actions)
-        change = Change(self._laws, self._defined, facts, effects)
-        return tuple(sorted(self._changed(state, outcome) for outcome in change.outcomes()))
-
-    def _read(self, compound: frozenset[str]) -> list[GroundAtom]:
-        unknown = sorted(compound - self._actions)
-        if unknown:
-            name = self.description.name
-            raise UnknownActionError(f"{unknown[0]} is not an action of the domain {name}")
-        return [atom_of_text(action) for action in sorted(compound)]
-
-    def _effects(self, state: int, actions: list[GroundAtom]) -> list[GroundLiteral]:
-        """The direct effects of the actions, each once."""
         effects: dict[GroundLiteral, None] = {}
 
         def take(instance: Instance) -> bool:
             effects[instance.head] = None
             return False
 
-        for action in actions:
+        for action in map(atom_of_text, sorted(compound)):
             for pattern in self._laws.effects.get(action[0], ()):
                 pattern.search([action], self.facts(state), take)
-        return list(effects)
+        return self._changed(state, effects)
 
-    def _forbidding(self, state: int, actions: list[GroundAtom]) -> str | None:
-        """A law that makes the compound action impossible, as text."""
+    def _changed(self, state: int, literals: Iterable[GroundLiteral]) -> tuple[int, ...]:
+        change = Change(self._laws, self._defined, self.facts(state), literals)
+        return self._outcomes(state, change)
+
+    def _outcomes(self, state: int, change: Change) -> tuple[int, ...]:
+        """The state with the values that the change gives to its atoms, outcome by outcome."""
+        found = []
+        for values in change.outcomes():
+            true = sum(self._bits[atom] for atom, holds in values.items() if holds)
+            touched = sum(self._bits[atom] for atom in values)
+            found.append(state & ~touched | true)
+        return tuple(sorted(found))
+
+    def _forbidding(self, state: int, compound: frozenset[str]) -> Law | None:
         by_name: dict[str, list[GroundAtom]] = {}
-        for action in actions:
+        for action in map(atom_of_text, sorted(compound)):
             by_name.setdefault(action[0], []).append(action)
-        for law in self._laws.prohibitions:
-            text = self._applied(law, state, by_name)
-            if text is not None:
-                return text
-        return None
+        found = (self._applied(law, state, by_name) for law in self._laws.prohibitions)
+        return next((law for law in found if law is not None), None)
 
     def _applied(
         self, law: Prohibition, state: int, by_name: Mapping[str, list[GroundAtom]]
-    ) -> str | None:
-        if not all(name in by_name for name in law.names):
-            return None
-        facts = self.facts(state)
+    ) -> Law | None:
         reasons: list[Instance] = []
 
         def first(instance: Instance) -> bool:
             reasons.append(instance)
             return True
 
-        for given in product(*(by_name[name] for name in law.names)):
-            if law.pattern.search(given, facts, first):
-                actions = _names(map(text_of_atom, given))
-                return f"impossible {actions} if {self._text(reasons[0].body)}".removesuffix(" if ")
+        for given in product(*(by_name.get(name, ()) for name in law.names)):
+            if law.pattern.search(given, self.facts(state), first):
+                return tuple(map(text_of_atom, given)), _texts(reasons[0].body)
         return None
 
+    def _seen(self, state: int, robot: str) -> int:
+        seen: set[GroundAtom] = set()
 
-def _names(actions: Iterable[str]) -> str:
-    return ", ".join(sorted(actions))
+        def see(instance: Instance) -> bool:
+            seen.add(instance.head[0])
+            return False
+
+        for pattern in self._laws.sights:
+            pattern.search([("", robot)], self.facts(state), see)
+        return sum(self._bits[atom] for atom in seen)
+
+    def _read(self, literals: Iterable[str]) -> list[GroundLiteral]:
+        """The literals, each once. Raises UnknownFluentError."""
+        numbered = dict.fromkeys(map(self._numbered, literals))
+        return [(self._atoms[number], positive) for number, positive in numbered]
+
+    def _decode(self, state: int) -> Facts:
+        return Facts(self._atoms[number] for number in bits(state))
+
+
+def _texts(literals: Iterable[GroundLiteral]) -> tuple[str, ...]:
+    return tuple(map(text_of, literals))
+
+
+def _declared(source: syntax.Source, signature: Signature) -> Description:
+    """The ground description without the laws about fluents."""
+    laws = (syntax.CausalLaw, syntax.ExecutabilityCondition, syntax.TriggerStatement)
+    kept = tuple(
+        s for s in source.statements if not isinstance(s, laws) and not _about_fluents(s, signature)
+    )
+    return ground_description(replace(source, statements=kept), signature, Path(source.file).stem)
+
+
+def _about_fluents(statement: syntax.Statement, signature: Signature) -> bool:
+    if not isinstance(statement, syntax.StateConstraint):
+        return False
+    return signature.symbols[statement.head.atom.name].kind != "static"

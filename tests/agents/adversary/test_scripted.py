@@ -8,11 +8,11 @@ from asp import load_description
 from asp.language import literals as text
 from testbed.environment.core import FINISH, NONE, WAIT, Core
 from testbed.environment.rules import Rules
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 
 BOOKS, ROOMS = ("book1", "book2"), ("kitchen", "office1", "office2", "library")
 SCENARIOS = ("2", "3", "4", "5", "6", "random")
-WORLD = World(load_description("office"))
+WORLD = world_of(load_description("office"))
 
 
 def view(core: Core, robot_action: str) -> AdversaryView:

@@ -11,7 +11,7 @@ from msgspec import structs
 from asp.language import load_description, read_domain
 from testbed.protocol.messages import Decision, Event, Percept, Task
 from testbed.protocol.robot import Robot
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Place:
 
 def place(domain: str, dark: bool = False) -> Place:
     file, source = read_domain(domain)
-    return Place(Path(file).stem, World(load_description(domain)), source, dark)
+    return Place(Path(file).stem, world_of(load_description(domain)), source, dark)
 
 
 OFFICE = place("office")

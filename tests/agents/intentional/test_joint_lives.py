@@ -15,7 +15,7 @@ from agents.shared.history import Diagnosis, History
 from agents.shared.knowledge import Knowledge
 from asp.language import parse_description
 from benchmarks.offices import office
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
 
 DEFAULTS = """
@@ -25,7 +25,7 @@ defaults
   exception shelved if in_hand(R, B).
 """
 ONE_BOOK = office(books=1, rooms=3) + DEFAULTS
-WORLD = World(parse_description(ONE_BOOK, "office.al"))
+WORLD = world_of(parse_description(ONE_BOOK, "office.al"))
 SMALL = [Place("office", WORLD, ONE_BOOK, dark) for dark in (False, True)]
 LIBRARY, OFFICE = place("library", dark=True), place("office")
 DARK_OFFICE = place("office", dark=True)

@@ -15,11 +15,11 @@ from agents.intentional.controller import IntentionalRobot
 from asp.domains.levels import level_text
 from asp.language import parse_description
 from testbed.protocol.messages import Decision, Event, Task
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.agents.intentional.lives import OFFICE, Place, Wish, live
 
 SOURCE = level_text(3, 1, 2, ((4, 1),))[0]
-WORLD = World(parse_description(SOURCE, "level.al"))
+WORLD = world_of(parse_description(SOURCE, "level.al"))
 PLACE = Place("level", WORLD, SOURCE)
 STATES = list(WORLD.initial_states())
 GOALS = [
@@ -123,7 +123,7 @@ def test_tasks_that_differ_in_names_are_one() -> None:
 def test_nothing_is_left_out_where_others_can_put_it_in_the_way() -> None:
     source = SOURCE + "\nactions\n  exogenous hand_over(robot, object).\n"
     source += "laws\n  hand_over(R, O) causes in_hand(R, O).\n"
-    place = replace(PLACE, source=source, world=World(parse_description(source, "more.al")))
+    place = replace(PLACE, source=source, world=world_of(parse_description(source, "more.al")))
     leaned = Leaned(_task(["loc(object3,room2)"], AT_HOME, place))
     assert leaned.task.source == source
 

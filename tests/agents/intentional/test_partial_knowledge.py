@@ -11,7 +11,7 @@ from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reference import Logician
 from asp.language import parse_description
 from testbed.protocol.messages import Decision
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
 from tests.agents.intentional.test_kept import Both
 
@@ -129,7 +129,7 @@ SIGNAL = OFFICE.source.replace(
 def test_a_defined_fluent_that_is_seen_at_the_start_needs_its_reason(locked: bool) -> None:
     """From office1 the lock itself is out of sight."""
     source = SIGNAL + "sees\n  R sees signal if robot(R).\n"
-    world = World(parse_description(source, "office.al"))
+    world = world_of(parse_description(source, "office.al"))
     where = Place("office", world, source, dark=True)
     true = ["loc(rob1,office1)", "loc(book1,office1)", "loc(book2,office1)"]
     start = world.state([*true, *["locked(library)"] * locked])

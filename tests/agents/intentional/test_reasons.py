@@ -20,7 +20,7 @@ from agents.shared.sessions import tools_of
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.solving import Limits, ground, select, theory
 from testbed.protocol.messages import Decision, Event, Percept, Task
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_reports import CART
 
@@ -210,7 +210,7 @@ def test_out_of_reach_is_what_no_search_finds(start: int, goal: list[str]) -> No
 
 
 def test_nor_where_some_fluents_are_defined() -> None:
-    world, reach = World(CART.description), tools_of(CART).reach
+    world, reach = world_of(CART.description), tools_of(CART).reach
     literals = [literal for fluent in world.fluents for literal in (fluent, f"-{fluent}")]
     for start in world.initial_states():
         reachable = _reachable(world, start)

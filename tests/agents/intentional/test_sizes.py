@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from agents.intentional.controller import IntentionalRobot
 from asp.language import parse_description
 from benchmarks.offices import book_names, office
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live
 from tests.agents.intentional.test_kept import Both, wishes
 
@@ -19,7 +19,7 @@ from tests.agents.intentional.test_kept import Both, wishes
 def made(books: int, rooms: int, shape: str, secure: int = 1) -> Place:
     """A generated office as a place to live in."""
     source = office(books, rooms, shape, secure)
-    return Place("office", World(parse_description(source, "office.al")), source)
+    return Place("office", world_of(parse_description(source, "office.al")), source)
 
 
 SMALL = made(1, 3, "row")

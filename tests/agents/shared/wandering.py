@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from random import Random
 
 from agents.shared.history import GOAL, History
-from testbed.world.compiled.world import World
+from testbed.world import World
 from tests.agents.intentional.lives import Place
 
 Report = tuple[int, str]

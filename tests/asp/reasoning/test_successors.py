@@ -12,11 +12,11 @@ import pytest
 from asp.language import parse_description
 from asp.reasoning.successors import Branch, Transitions
 from asp.translation import translate
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 
 TEXT = (Path(__file__).parent / "cart.al").read_text(encoding="utf-8")
 CART = parse_description(TEXT, "cart.al")
-WORLD = World(CART)
+WORLD = world_of(CART)
 EVENTS = tuple(CART.exogenous_actions)
 PLENTY = 10_000
 

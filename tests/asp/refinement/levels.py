@@ -7,7 +7,7 @@ from functools import cache
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
 from asp.refinement import Refinement, Transition, load
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 
 @cache
@@ -24,7 +24,7 @@ def of_size(size: LevelSize, name: str = "level") -> Refinement:
 
 @cache
 def coarse_world(refinement: Refinement) -> World:
-    return World(refinement.description)
+    return world_of(refinement.description)
 
 
 def transitions(refinement: Refinement) -> Iterator[Transition]:

@@ -13,7 +13,7 @@ import pytest
 from asp.language import ground
 from asp.refinement import Refinement, Transition, load_refinement, relevant
 from asp.refinement.zooming import zoom_weak
-from testbed.world.matched import SparseWorld
+from testbed.world import world_of
 from tests.asp.refinement.levels import coarse_world, level, transitions, transitions_from
 from tests.asp.refinement.paths import Paths, drawn_refinement, literals_of, some_refinement
 
@@ -82,7 +82,7 @@ def drawn_goal(refinement: Refinement, rng: random.Random) -> list[str]:
 def test_paths_of_zoomed_descriptions_are_paths_of_the_whole_one(name: str) -> None:
     """A sample; the whole is played law by law, since it cannot be instantiated."""
     refinement, rng = level(name), random.Random(name)
-    world = SparseWorld(refinement.weak, refinement.weak_signature)
+    world = world_of(refinement)
     for transition in sampled(refinement, rng, 6):
         goal = drawn_goal(refinement, rng)
         start, path = check_zoomed(refinement, transition, goal, rng, FARTHEST[name])
@@ -133,7 +133,7 @@ def test_a_fine_action_does_at_the_coarse_resolution_nothing_or_what_the_coarse_
 ) -> None:
     refinement, rng = load_refinement(name), random.Random(1)
     world = coarse_world(refinement)
-    fine = SparseWorld(refinement.weak, refinement.weak_signature)
+    fine = world_of(refinement)
     fluents = frozenset(refinement.description.fluents)
     done: set[str] = set()
     for state in rng.sample(world.initial_states(), 30):

@@ -11,7 +11,7 @@ from asp import parse_description
 from asp.domains.levels import LevelSize, level_text
 from asp.refinement import load
 from asp.translation import translate
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.asp.reasoning.diagrams import after
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts
@@ -233,6 +233,6 @@ class TestConditionsOnCoarseAttributes:
         (removed,) = [line for line in lines if line.strip().startswith(head)]
         less = "\n".join(line for line in lines if line != removed)
         for told, possible in ((text, False), (less, True)):
-            world = World(parse_description(told))
+            world = world_of(parse_description(told))
             state = world.state([*atoms, "locked(library)"])
             assert world.executable(state, [action]) == possible

@@ -15,7 +15,7 @@ from asp.language import analyse
 from asp.refinement import Refinement, load, load_refinement, shared_places
 from asp.refinement.language import parse_fine
 from asp.translation import translate_source
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 from tests.asp.reasoning.diagrams import warnings_of
 from tests.asp.refinement.levels import level, of_size
 from tests.asp.refinement.locked import locked_texts
@@ -29,7 +29,7 @@ Diagram = dict[tuple[State, tuple[str, ...]], frozenset[State]]
 
 def diagram(text: str) -> Diagram:
     """The successors of every state under every compound action of up to two actions."""
-    world = World(parse_description(text))
+    world = world_of(parse_description(text))
     actions = sorted(world.agent_actions + world.exogenous_actions)
     compounds = [c for size in range(3) for c in combinations(actions, size)]
 
@@ -59,7 +59,7 @@ class TestWeak:
         found, expected = (
             {
                 frozenset(w.true_atoms(s))
-                for w in [World(parse_description(t))]
+                for w in [world_of(parse_description(t))]
                 for s in w.initial_states()
             }
             for t in texts
@@ -122,7 +122,7 @@ def without(text: str, head: str) -> str:
 
 @cache
 def locked_room() -> World:
-    return World(parse_description(load(*locked_texts()).weak.text))
+    return world_of(parse_description(load(*locked_texts()).weak.text))
 
 
 def after(*atoms: str, does: str) -> set[str] | None:
@@ -186,7 +186,7 @@ def test_a_condition_on_some_rooms_only_does_not_bind_inside_them(condition: str
     """The library cannot be entered; who is in it can go about in it, and leave it."""
     text, *others = locked_texts()
     coarse = text.replace("\nlaws\n", f"\nlaws\n  {condition}.\n")
-    world = World(parse_description(load(coarse, *others).weak.text))
+    world = world_of(parse_description(load(coarse, *others).weak.text))
     inside, outside = (
         world.state([f"fine_loc(rob1,{cell})", "fine_loc(cover,k1)"]) for cell in ("l1", "k2")
     )
@@ -199,7 +199,7 @@ def test_an_effect_that_depends_on_the_room_depends_on_the_cell_s_room() -> None
     text, *others = locked_texts()
     laws = "move(R, L) causes locked(L) if L = library, loc(R, kitchen)."
     coarse = text.replace("\nlaws\n", f"\nlaws\n  {laws}\n")
-    world = World(parse_description(load(coarse, *others).weak.text))
+    world = world_of(parse_description(load(coarse, *others).weak.text))
     outside = world.state(["fine_loc(rob1,k2)", "fine_loc(cover,k1)"])
     assert world.holds(world.successor(outside, ["fine_move(rob1,l1)"]), "locked(library)")
     assert not world.holds(world.successor(outside, ["fine_move(rob1,k1)"]), "locked(library)")

@@ -33,7 +33,7 @@ from asp.refinement import (
 )
 from asp.refinement.zooming import zoom_coarse, zoom_weak
 from asp.translation import translate_source
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.asp.reasoning.diagrams import warnings_of
 from tests.asp.refinement.levels import level, transitions
 
@@ -207,7 +207,7 @@ class TestZoomedDescriptions:
         domain, transition, goal = question
         constants = relevant(of(domain).coarse, transition, goal)
         source = zoom_coarse(of(domain).coarse, constants)
-        world = World(ground_description(source, signature(source), "zoomed"))
+        world = world_of(ground_description(source, signature(source), "zoomed"))
         inertial = frozenset(world.description.inertial)
         before, after = (inertial & s for s in (transition.before, transition.after))
         found = {

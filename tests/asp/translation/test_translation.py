@@ -12,7 +12,7 @@ import pytest
 from asp import SourceError, load_description, parse_description
 from asp.language import read_domain
 from asp.translation import translate
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.asp.reasoning.diagrams import after, states, warnings_of
 from tests.asp.reasoning.stories import CART
 from tests.asp.theories.axioms import THEORIES, domain_text, theory_text
@@ -204,7 +204,7 @@ class TestMeaning:
 
     def test_the_cart_moves_as_the_world_moves_it(self) -> None:
         """Every state of the cart with every set of up to three actions."""
-        program, world = domain_text(CART), World(load_description(CART))
+        program, world = domain_text(CART), world_of(load_description(CART))
         actions = world.agent_actions + world.exogenous_actions
         every = list(world.states())
         assert {frozenset(world.true_atoms(s)) for s in every} == states(program)

@@ -1,14 +1,13 @@
 """Random laws with variables: the world that matches them against the world of their instances."""
 
-from itertools import chain, combinations
+from itertools import chain, combinations, product
 
 from hypothesis import assume, event, example, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError, parse_description
-from testbed.world.compiled.world import World
-from testbed.world.errors import StateError
-from testbed.world.matched import SparseWorld
+from asp.language import analyse
+from testbed.world import StateError, World, world_of
 from tests.world.test_world_random import CLOSED_WORLD, TOGETHER, UNDETERMINED
 from tests.world.test_world_random import HEADER as PROPOSITIONS
 from tests.world.test_world_random import laws as propositional
@@ -111,36 +110,46 @@ def test_laws_without_variables(drawn: list[str]) -> None:
 def agree(text: str) -> None:
     """The two worlds have the same states, transitions, refusals and readings of literals."""
     try:
-        ground = World(parse_description(text))
+        ground = world_of(parse_description(text))
     except SourceError as error:
         assume("defined through its own negation" not in str(error))
         assume("bound by nothing" not in str(error))
         assume("no constant fits" not in str(error))
         raise
-    sparse = SparseWorld.of_text(text)
-    assert sparse.fluents == ground.fluents
+    matched = world_of(analyse(text)[0])
+    assert matched.fluents == ground.fluents
     states = list(ground.states())
     every = range(1 << len(ground.fluents))
     some = every[:: max(1, len(every) // 256)]
-    assert [s for s in some if sparse.is_state(s)] == [s for s in some if ground.is_state(s)]
-    assert all(sparse.is_state(s) for s in states)
+    assert [s for s in some if matched.is_state(s)] == [s for s in some if ground.is_state(s)]
+    assert all(matched.is_state(s) for s in states)
     for literals in [*map(ground.true_atoms, states[:20]), *map(ground.true_atoms, some[:20])]:
-        assert read(sparse, literals) == read(ground, literals)
+        assert read(matched, literals) == read(ground, literals)
+    for state, literal in product(states[::7][:5], ground.literals(states[-1]) if states else ()):
+        assert matched.adjusted(state, [literal]) == ground.adjusted(state, [literal])
+    assert bare(matched) == bare(ground)
     actions = (*ground.agent_actions, *ground.exogenous_actions)
     compounds = [c for n in range(3) for c in combinations(actions, n)]
     asked = chain.from_iterable(((s, c) for c in compounds[:60]) for s in states[::5][:25])
     outcomes = {0: 0}
     for state, compound in asked:
         after = ground.successors(state, compound)
-        assert sparse.successors(state, compound) == after
-        refusals = sparse.why_not(state, compound), ground.why_not(state, compound)
+        assert matched.successors(state, compound) == after
+        refusals = matched.why_not(state, compound), ground.why_not(state, compound)
         assert [r is None for r in refusals] == [bool(after)] * 2
         outcomes[len(after)] = outcomes.get(len(after), 0) + 1
     event(f"most outcomes {max(outcomes)}")
 
 
-def read(world: World | SparseWorld, literals: tuple[str, ...]) -> int | None:
+def read(world: World, literals: tuple[str, ...]) -> int | None:
     try:
         return world.state(literals)
+    except StateError:
+        return None
+
+
+def bare(world: World) -> int | None:
+    try:
+        return world.bare()
     except StateError:
         return None

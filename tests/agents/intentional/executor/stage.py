@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 
 from asp.language import complement, name
 from asp.refinement import Refinement
-from testbed.environment.fine import fine_world
 from testbed.protocol.messages import Decision, Event, FineTrace, Percept, Task
 from testbed.protocol.robot import Robot
-from testbed.world.matched.sensing import Sensing
+from testbed.world import sensing_of, world_of
 
 Nth = tuple[str, int]
 """An action or test, and the how-manieth time it is made, from 1."""
@@ -74,7 +72,7 @@ def play(
     steps: int = 400,
 ) -> Play:
     """Plays a trial that begins in the fine state with these true fluents."""
-    world = fine_world(refinement)
+    world = world_of(refinement)
     stage = _Stage(refinement, faults, world.state(start))
     robot.begin(_task(refinement, stage.state, goal))
     percept, percepts, decisions = stage.percept(1, ()), list[Percept](), list[Decision]()
@@ -96,8 +94,8 @@ def play(
 
 class _Stage:
     def __init__(self, refinement: Refinement, faults: Faults, state: int) -> None:
-        self._world = fine_world(refinement)
-        self._sensing = _sensing(refinement)
+        self._world = world_of(refinement)
+        self._sensing = sensing_of(refinement)
         self._robot = refinement.description.robots[0]
         self._faults = faults
         self._made: Counter[str] = Counter()
@@ -147,13 +145,8 @@ class _Stage:
         return (fluent if holds else complement(fluent),)
 
 
-@cache
-def _sensing(refinement: Refinement) -> Sensing:
-    return Sensing(fine_world(refinement), refinement.strong, refinement.strong_signature)
-
-
 def _task(refinement: Refinement, state: int, goal: Sequence[str]) -> Task:
-    world, robot = fine_world(refinement), refinement.description.robots[0]
+    world, robot = world_of(refinement), refinement.description.robots[0]
     true = frozenset(world.true_atoms(state))
     own = [f for f in world.true_atoms(state) if robot in f and f.startswith("fine_")]
     fluents = refinement.description.fluents

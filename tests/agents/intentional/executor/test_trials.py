@@ -11,10 +11,12 @@ from agents.intentional.refined import EitherRobot
 from asp.domains.levels import LEVELS, level_text
 from asp.language import complement, read_domain
 from asp.refinement import load, read_refinement
-from testbed.environment.fine import RandomStart, fine_core, fine_world
+from testbed.environment.fine import fine_core
+from testbed.environment.random_start import RandomStart
 from testbed.environment.rules import Observability, Rules
 from testbed.environment.situation import Ending
 from testbed.protocol.messages import FineTrace, Task
+from testbed.world import world_of
 
 STATISTICS = {"fine_move": 0.85, "test_fine_loc": 0.9}
 TOLD = {"fine_exo_move": Observability("always")}
@@ -34,7 +36,7 @@ def trial(
     """Plays a trial to its end, which has to be an achieved goal."""
     coarse, fine = texts(name)
     refinement = load(coarse, "level.al", fine, "level.fine")
-    world = fine_world(refinement)
+    world = world_of(refinement)
     random = np.random.default_rng(seed)
     state = RandomStart(world, "rob1")(random)
     true = frozenset(world.true_atoms(state))

@@ -11,7 +11,7 @@ from clingo import Symbol
 
 from asp import load_description
 from asp.solving import fact, first_model, select
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 from tests.asp.reasoning.stories import CART, GATE_OPEN, GOAL, lines
 from tests.asp.theories.preferring import ground_story
 
@@ -86,7 +86,7 @@ def test_the_smallest_explanation_has_as_many_events_as_the_smallest_set_that_wo
     seen = lines(GATE_OPEN, "obs(at(right),true,1). obs(at(left),true,2). obs(shut,true,2).")
     control = _diagnosis(seen, now=2, limit=4)
     actions = load_description(CART).exogenous_actions
-    world = World(load_description(CART))
+    world = world_of(load_description(CART))
     start = world.state(["at(left)"])
 
     def explains(events: Events) -> bool:

@@ -11,7 +11,7 @@ from itertools import product
 from asp.language import Problems, Signature, arguments, functions, signature_of, subject, syntax
 from asp.reasoning.fine_planning import FineStart
 from asp.refinement import Refinement, Transition, fine_constants, fine_goal, relevant
-from testbed.world.matched.world import SparseWorld
+from testbed.world import World, world_of
 from tests.asp.refinement.levels import coarse_world
 
 _KNOWN, _HELD = 0.4, 0.4
@@ -115,8 +115,8 @@ def signature(source: syntax.Source) -> Signature:
 
 
 @cache
-def _world(refinement: Refinement) -> SparseWorld:
-    return SparseWorld(refinement.weak, refinement.weak_signature)
+def _world(refinement: Refinement) -> World:
+    return world_of(refinement)
 
 
 def first_shortest(

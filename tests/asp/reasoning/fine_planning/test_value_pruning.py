@@ -19,7 +19,7 @@ from asp.reasoning.fine_planning.large.value_pruning import confined
 from asp.reasoning.fine_planning.relevant_constants import in_play, loose
 from asp.refinement import Refinement, load, load_refinement
 from asp.translation import ACTION
-from testbed.world.matched.world import SparseWorld
+from testbed.world import World, world_of
 from tests.asp.reasoning.fine_planning.fine_problems import drawn_goal, drawn_state
 from tests.asp.refinement.levels import level, of_size
 from tests.asp.refinement.locked import locked_texts
@@ -73,7 +73,7 @@ class Confining:
 
 
 def _ways(
-    world: SparseWorld, start: int, goal: tuple[str, ...], length: int
+    world: World, start: int, goal: tuple[str, ...], length: int
 ) -> Iterator[tuple[int, int, str | None]]:
     """Each step, state and action of all plans of exactly so many actions."""
     layers: list[dict[int, list[tuple[str, int]]]] = []
@@ -94,7 +94,7 @@ def _ways(
         good = {state for state, _ in leading}
 
 
-def _transitions(world: SparseWorld, state: int) -> Iterator[tuple[str, int]]:
+def _transitions(world: World, state: int) -> Iterator[tuple[str, int]]:
     for action in world.agent_actions:
         yield from ((action, after) for after in world.successors(state, [action]))
 
@@ -103,7 +103,7 @@ def _transitions(world: SparseWorld, state: int) -> Iterator[tuple[str, int]]:
 def test_every_plan_keeps_to_what_is_left(name: str) -> None:
     refinement = DOMAINS[name]
     draw, confining = random.Random(41), Confining(refinement)
-    world = SparseWorld(refinement.weak, refinement.weak_signature)
+    world = world_of(refinement)
     passed = 0
     for _, length in product(range(15), (1, 2, 3)):
         start, goal = drawn_state(refinement, draw), drawn_goal(refinement, draw)

@@ -18,7 +18,7 @@ from asp.reasoning.relevance import Relevance
 from asp.solving import Limits, deciding
 from asp.solving.budget import TimeLimitError
 from benchmarks.offices import office
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 OFFICE = read_domain("office")[1]
 FOUR_BOOKS = OFFICE.replace("{book1, book2}", "{book1, book2, book3, book4}")
@@ -71,7 +71,7 @@ def _some_goal(description: Description, draw: random.Random) -> tuple[str, ...]
 def test_the_plan_is_the_first_shortest_of_the_whole_domain(text: str) -> None:
     draw = random.Random(7)
     description = parse_description(text, "office.al")
-    world, plans = World(description), _planner(text)
+    world, plans = world_of(description), _planner(text)
     states = list(world.initial_states())
     for _ in range(60):
         state, goal = draw.choice(states), _some_goal(description, draw)
@@ -121,7 +121,7 @@ def test_every_way_to_the_plan_gives_the_first_shortest(
         monkeypatch.setattr(f"asp.reasoning.planning.incremental.{name}", value)
     text = office(books, rooms, shape)
     description = parse_description(text, "office.al")
-    world, plans, draw = World(description), _planner(text), random.Random(11)
+    world, plans, draw = world_of(description), _planner(text), random.Random(11)
     states = list(world.initial_states())
     for _ in range(15):
         state, goal = draw.choice(states), _some_goal(description, draw)
@@ -155,7 +155,7 @@ def test_a_plan_succeeds_where_the_world_says_so(
 ) -> None:
     monkeypatch.setattr("asp.reasoning.planning.incremental.STATE_SET_SEARCH", search)
     description = parse_description(OFFICE, "office.al")
-    world, plans, draw = World(description), _planner(OFFICE), random.Random(5)
+    world, plans, draw = world_of(description), _planner(OFFICE), random.Random(5)
     states, outcomes = list(world.initial_states()), set()
     for _ in range(150):
         state, goal = draw.choice(states), _some_goal(description, draw)[:1]
@@ -182,7 +182,7 @@ def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
     description = parse_description(LAMP, "office.al")
     with pytest.raises(NotEncodableError, match="defined"):
         Encoding(description)
-    world, plans, draw = World(description), _planner(LAMP), random.Random(2)
+    world, plans, draw = world_of(description), _planner(LAMP), random.Random(2)
     states = list(world.initial_states())
     for _ in range(25):
         state, goal = draw.choice(states), _some_goal(description, draw)
@@ -210,7 +210,7 @@ def test_with_few_levels_the_plan_is_chosen_bit_by_bit(
     monkeypatch.setattr("asp.reasoning.planning.incremental.MOST_STATES", 1)
     monkeypatch.setattr("asp.reasoning.planning.large.problem_program.MOST_LEVELS", levels)
     description = parse_description(OFFICE, "office.al")
-    world, plans, draw = World(description), _planner(OFFICE), random.Random(8)
+    world, plans, draw = world_of(description), _planner(OFFICE), random.Random(8)
     states = list(world.initial_states())
     for _ in range(10):
         state, goal = draw.choice(states), _some_goal(description, draw)

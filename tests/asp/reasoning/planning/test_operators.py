@@ -15,7 +15,7 @@ from asp.reasoning.planning import Encoding
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from benchmarks.offices import office
 from benchmarks.search import Search
-from testbed.world.compiled.world import World
+from testbed.world import world_of
 
 OFFICES = (
     office(),
@@ -43,7 +43,7 @@ laws
 @pytest.mark.parametrize("source", OFFICES)
 def test_operators_lead_where_actions_lead(source: str) -> None:
     description = parse_description(source, "office.al")
-    world, search = World(description), Search(Encoding(description))
+    world, search = world_of(description), Search(Encoding(description))
     rng = random.Random(1)
     state = next(s for s in world.initial_states())
     for _ in range(150):
@@ -108,7 +108,7 @@ def test_operators_are_exact_or_there_are_none(source: str) -> None:
 def _transitions(
     description: Description,
 ) -> Iterator[tuple[tuple[str, ...], list[tuple[str, tuple[str, ...]]]]]:
-    world = World(description)
+    world = world_of(description)
     for state in world.initial_states():
         yield (
             world.true_atoms(state),

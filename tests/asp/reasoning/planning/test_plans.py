@@ -8,7 +8,7 @@ import pytest
 
 from asp import load_description
 from asp.solving import first_model, select
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 from tests.asp.reasoning.stories import (
     CART,
     GATE_OPEN,
@@ -81,7 +81,7 @@ def test_of_several_shortest_plans_the_first_in_the_order_of_declaration_is_take
 def test_a_plan_is_the_first_of_the_shortest_ones_that_a_search_finds(
     start: tuple[str, ...],
 ) -> None:
-    world = World(load_description("office"))
+    world = world_of(load_description("office"))
     state = world.state(start)
     literals = [atom if truth == "true" else "-" + atom for atom, truth in _OFFICE_GOAL.items()]
     known = [

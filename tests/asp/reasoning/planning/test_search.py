@@ -11,7 +11,7 @@ from asp.language import parse_description
 from asp.reasoning.planning import Encoding
 from asp.reasoning.planning.large.search import Spaces
 from benchmarks.offices import office
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 
 LIMIT = 12
 EVERYTHING = 2**20
@@ -61,7 +61,7 @@ def _questions(
     source: str, number: int
 ) -> Iterator[tuple[_Layers, frozenset[str], tuple[str, ...]]]:
     description = parse_description(source, "office.al")
-    world, draw = World(description), random.Random(3)
+    world, draw = world_of(description), random.Random(3)
     states = list(world.initial_states())
     for _ in range(number):
         state = draw.choice(states)

@@ -8,12 +8,16 @@ import pytest
 
 from asp import parse_description
 from asp.domains.levels import level_text
-from asp.language import ground_description, read_domain
+from asp.language import analyse, ground_description, read_domain
 from asp.refinement import load
-from testbed.world.closure import UnknownFluentError
-from testbed.world.compiled.world import World
-from testbed.world.errors import NotExecutableError, StateError, UnknownActionError
-from testbed.world.matched import SparseWorld
+from testbed.world import (
+    NotExecutableError,
+    StateError,
+    UnknownActionError,
+    UnknownFluentError,
+    World,
+    world_of,
+)
 from tests.world.test_world import UNDETERMINED
 
 OFFICE = read_domain("office")[1]
@@ -23,12 +27,12 @@ SMALL = ((2, 1, 2, ((1, 1),)), (2, 1, 2, ((1, 2),)), (3, 1, 1, ((1, 2), (1, 1)))
 Size = tuple[int, int, int, tuple[tuple[int, int], ...]]
 
 
-def level(size: Size) -> tuple[World, SparseWorld]:
+def level(size: Size) -> tuple[World, World]:
     """Both worlds of the physics of a level."""
     coarse, fine = level_text(*size)
     refinement = load(coarse, "level.al", fine, "level.fine")
     weak, signature = refinement.weak, refinement.weak_signature
-    return World(ground_description(weak, signature, "level")), SparseWorld(weak, signature)
+    return world_of(ground_description(weak, signature, "level")), world_of(refinement)
 
 
 def compounds(world: World) -> list[tuple[str, ...]]:
@@ -38,58 +42,58 @@ def compounds(world: World) -> list[tuple[str, ...]]:
 
 
 def agree(
-    ground: World, sparse: SparseWorld, states: Iterable[int], asked: list[tuple[str, ...]]
+    ground: World, matched: World, states: Iterable[int], asked: list[tuple[str, ...]]
 ) -> int:
     """The number of transitions, which are the same, with the same reasons against them."""
     found = 0
     for state, compound in product(states, asked):
-        after = sparse.successors(state, compound)
+        after = matched.successors(state, compound)
         assert after == ground.successors(state, compound)
-        assert sparse.executable(state, compound) == bool(after)
-        assert sparse.why_not(state, compound) == ground.why_not(state, compound)
+        assert matched.executable(state, compound) == bool(after)
+        assert matched.why_not(state, compound) == ground.why_not(state, compound)
         found += len(after)
     return found
 
 
 @pytest.mark.parametrize("size", SMALL)
 def test_small_levels_have_the_same_diagram(size: Size) -> None:
-    ground, sparse = level(size)
+    ground, matched = level(size)
     states = list(ground.states())
     asked = compounds(ground)
-    assert sparse.fluents == ground.fluents
-    assert agree(ground, sparse, states, asked) > len(states)
-    assert all(map(sparse.is_state, states))
+    assert matched.fluents == ground.fluents
+    assert agree(ground, matched, states, asked) > len(states)
+    assert all(map(matched.is_state, states))
     for state in ground.initial_states():
-        assert sparse.state(ground.true_atoms(state)) == state
-        assert sparse.literals(state) == ground.literals(state)
-        assert sparse.true_atoms(state) == ground.true_atoms(state)
+        assert matched.state(ground.true_atoms(state)) == state
+        assert matched.literals(state) == ground.literals(state)
+        assert matched.true_atoms(state) == ground.true_atoms(state)
 
 
 def test_the_office_has_the_same_diagram_and_is_seen_alike() -> None:
-    ground, sparse = World(parse_description(OFFICE)), SparseWorld.of_text(OFFICE)
+    ground, matched = world_of(parse_description(OFFICE)), world_of(analyse(OFFICE)[0])
     states = list(ground.states())
     asked = compounds(ground)
-    assert agree(ground, sparse, states[::17], asked) > 250
-    assert agree(ground, sparse, states, [(action,) for action in ground.agent_actions]) > 500
+    assert agree(ground, matched, states[::17], asked) > 250
+    assert agree(ground, matched, states, [(action,) for action in ground.agent_actions]) > 500
     for state in states:
-        assert sparse.visible(state, "rob1") == ground.visible(state, "rob1")
-    assert sum(map(sparse.is_state, range(1 << len(ground.fluents)))) == len(states) == 430
+        assert matched.visible(state, "rob1") == ground.visible(state, "rob1")
+    assert sum(map(matched.is_state, range(1 << len(ground.fluents)))) == len(states) == 430
 
 
 def test_walks_through_a_level_of_four_rooms_agree() -> None:
-    ground, sparse = level((4, 2, 2, ((3, 3),)))
+    ground, matched = level((4, 2, 2, ((3, 3),)))
     random = np.random.default_rng(4)
     events = [()] * 20 + [(event,) for event in ground.exogenous_actions]
     for _ in range(4):
-        state = sparse.state(_somewhere(ground, random))
+        state = matched.state(_somewhere(ground, random))
         for _ in range(10):
             robot = [(a,) for a in ground.agent_actions if ground.executable(state, (a,))]
             one = robot[int(random.integers(len(robot)))]
             tries = [one + events[int(random.integers(len(events)))] for _ in range(8)]
-            agree(ground, sparse, [state], tries)
-            after = [s for compound in tries for s in sparse.successors(state, compound)]
+            agree(ground, matched, [state], tries)
+            after = [s for compound in tries for s in matched.successors(state, compound)]
             state = after[0] if after else state
-            assert sparse.is_state(state)
+            assert matched.is_state(state)
             assert ground.is_state(state)
 
 
@@ -122,7 +126,7 @@ def test_every_part_goes_along_and_the_coarse_fluents_follow() -> None:
 
 
 def test_several_outcomes_and_none_are_told_apart() -> None:
-    world = SparseWorld.of_text(UNDETERMINED)
+    world = world_of(analyse(UNDETERMINED)[0])
     state = world.state(["f", "g"])
     assert {world.true_atoms(s) for s in world.successors(state, ["a"])} == {
         ("f", "h", "p"),
@@ -130,7 +134,7 @@ def test_several_outcomes_and_none_are_told_apart() -> None:
     }
     with pytest.raises(ValueError, match=r"a has several outcomes: "):
         world.successor(state, ["a"])
-    office = SparseWorld.of_text(OFFICE)
+    office = world_of(analyse(OFFICE)[0])
     state = office.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
     with pytest.raises(NotExecutableError, match=r"effects of exo_move.*, pickup.* contradict"):
         office.successor(state, ["pickup(rob1,book1)", "exo_move(book1,office1)"])
@@ -149,20 +153,20 @@ def test_several_outcomes_and_none_are_told_apart() -> None:
     ],
 )
 def test_what_is_no_initial_state(literals: list[str], message: str) -> None:
-    world = SparseWorld.of_text(OFFICE)
+    world = world_of(analyse(OFFICE)[0])
     with pytest.raises(StateError, match=message):
         world.state(literals)
 
 
 def test_literals_are_together_unless_they_contradict_each_other() -> None:
-    world = SparseWorld.of_text(OFFICE)
+    world = world_of(analyse(OFFICE)[0])
     world.check_together(["loc(book1,kitchen)", "-locked(library)"])
     with pytest.raises(StateError, match="cannot be together"):
         world.check_together(["in_hand(rob1,book1)", "in_hand(rob1,book2)"])
 
 
 def test_unknown_names_are_told() -> None:
-    world = SparseWorld.of_text(OFFICE)
+    world = world_of(analyse(OFFICE)[0])
     with pytest.raises(UnknownFluentError, match=r"loc\(rob1,attic\) is not a fluent"):
         world.holds(0, "loc(rob1,attic)")
     with pytest.raises(UnknownActionError, match=r"fly\(rob1,kitchen\) is not an action"):

@@ -1,0 +1,37 @@
+"""Which backend finds the states and transitions of a description."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from asp.language import Description, Problems, signature_of, syntax
+from asp.refinement import Refinement
+from testbed.world.compiled import CompiledWorld
+from testbed.world.matched.sensing import Sensing
+from testbed.world.matched.world import MatchedWorld
+from testbed.world.world import World
+
+
+def world_of(description: Description | Refinement | syntax.Source) -> World:
+    """The world of a description.
+
+    A ground description is compiled. A checked text is not instantiated, and its laws are matched
+    instead: they may have too many instances. The world of a refinement is that of its weak
+    description, the physics of the fine resolution, made once.
+    """
+    if isinstance(description, Description):
+        return CompiledWorld(description)
+    if isinstance(description, Refinement):
+        return _weak(description)
+    return MatchedWorld(description, signature_of(description, Problems(description.file)))
+
+
+@cache
+def sensing_of(refinement: Refinement) -> Sensing:
+    """The tests of a refinement's theory of observation, in its world; made once."""
+    return Sensing(_weak(refinement), refinement.strong, refinement.strong_signature)
+
+
+@cache
+def _weak(refinement: Refinement) -> MatchedWorld:
+    return MatchedWorld(refinement.weak, refinement.weak_signature)

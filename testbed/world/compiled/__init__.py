@@ -1,1 +1,0 @@
-"""A world compiled from a ground description."""

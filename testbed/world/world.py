@@ -1,0 +1,257 @@
+"""The transition diagram of a domain (P 3.1.1), and what a robot sees of a state.
+
+`World` is the interface, with all that does not depend on how the laws are kept: the reading of
+literals, and the lines that say what is wrong. A backend finds states and transitions.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from typing import Any
+
+from asp.language import Description
+from asp.language import literals as text
+
+
+class StateError(ValueError):
+    """Literals that describe no state of the domain; one line says why."""
+
+
+class UnknownFluentError(ValueError):
+    """A literal whose atom is no fluent of the description."""
+
+
+class UnknownActionError(ValueError):
+    """The name of an action that the description does not declare."""
+
+
+class NotExecutableError(ValueError):
+    """A compound action without a successor in the state; one line says why."""
+
+
+Law = tuple[tuple[str, ...], tuple[str, ...]]
+"""A head, or the actions that are impossible together, and a body, as text."""
+
+
+class World(ABC):
+    """The states of a description, its transitions, and what a robot sees of a state.
+
+    A state is an integer: bit i is set where the i-th of `fluents` is true. A literal is text,
+    `loc(book1,kitchen)` or `-loc(book1,kitchen)`. A compound action is any iterable of the names of
+    actions that happen at once; the empty one is one, too. Every method is a pure function of its
+    arguments; the successors asked for last are remembered.
+
+    `fluents`, `agent_actions` and `exogenous_actions` are in the order of declaration, defined
+    fluents behind inertial ones. `description` is the ground description; where the laws are
+    matched it is without laws about fluents and actions.
+    """
+
+    _arguments: tuple[Any, ...]
+    """What the backend's class was called with."""
+
+    def __init__(self, description: Description, remembered: int | None) -> None:
+        self.description = description
+        self.fluents: tuple[str, ...] = description.fluents
+        self.agent_actions: tuple[str, ...] = description.agent_actions
+        self.exogenous_actions: tuple[str, ...] = description.exogenous_actions
+        self._actions = frozenset((*self.agent_actions, *self.exogenous_actions))
+        self._numbers = {fluent: number for number, fluent in enumerate(self.fluents)}
+        self._remembered = lru_cache(remembered)(self._successors)
+        self._needed = tuple(
+            (sum(1 << self._numbers[fluent] for fluent in some), some)
+            for some in description.initially
+        )
+
+    def __reduce__(self) -> tuple[type[World], tuple[Any, ...]]:
+        """A copy is compiled anew: neither compiled laws nor what is remembered can be pickled."""
+        return type(self), self._arguments
+
+    def state(self, literals: Iterable[str]) -> int:
+        """The initial state of these literals; a fluent left out is false unless it follows.
+
+        Raises StateError where a fluent is unknown, the literals contradict each other or a state
+        constraint, describe no or several states, or leave out what an initial state must have.
+        """
+        given = tuple(literals)
+        self.check_together(given)
+        states = [state for state in self._completions(given) if self.is_state(state)]
+        if len(states) != 1:
+            found = "several states agree" if states else "no state of the domain agrees"
+            raise StateError(f"{found} with {self._listed(given)}")
+        for mask, some in self._needed:
+            if not states[0] & mask:
+                raise StateError(f"an initial state needs {' or '.join(some)}")
+        return states[0]
+
+    def check_together(self, literals: Iterable[str]) -> None:
+        """Raises StateError where the literals, with all that follows from them, are in no state.
+
+        A sound test that takes no search: what passes it may still be in no state.
+        """
+        given = tuple(literals)
+        try:
+            self._listed(given)
+        except UnknownFluentError as error:
+            raise StateError(str(error)) from None
+        if twice := {lit for lit in given if text.complement(lit) in given}:
+            raise StateError(f"contradiction between {self._listed(twice)}")
+        broken = self._broken(given)
+        if broken is not None:
+            (head,), body = broken
+            conflict = self._listed((*body, text.complement(head)))
+            law = self._if(head, body)
+            raise StateError(f"{conflict} cannot be together: the constraint is {law}")
+
+    @abstractmethod
+    def is_state(self, state: int) -> bool:
+        """Whether the set of true fluents is closed under constraints and definitions."""
+
+    @abstractmethod
+    def states(self) -> Iterator[int]:
+        """Every state of the domain, in a fixed order; there may be too many to wait for."""
+
+    def initial_states(self) -> tuple[int, ...]:
+        """The states that have all that the description asks of an initial one, in that order."""
+        return tuple(s for s in self.states() if all(s & mask for mask, _ in self._needed))
+
+    def bare(self) -> int:
+        """A state in which nothing is true but what must be. Raises StateError if there is none."""
+        self.check_together(())
+        for state in self._completions(()):
+            return state
+        raise StateError("no state of the domain has only what must be true")
+
+    @abstractmethod
+    def adjusted(self, state: int, literals: Iterable[str]) -> tuple[int, ...]:
+        """The states in which the literals hold, and else what holds in the given one if it can.
+
+        Sorted; none where the literals are in no state. Raises UnknownFluentError.
+        """
+
+    def literals(self, state: int) -> tuple[str, ...]:
+        """Every fluent of the state as a literal, in the order of the fluents."""
+        return tuple(
+            fluent if state >> number & 1 else "-" + fluent
+            for number, fluent in enumerate(self.fluents)
+        )
+
+    def true_atoms(self, state: int) -> tuple[str, ...]:
+        """The fluents that are true in the state, in their order."""
+        return tuple(self.fluents[number] for number in bits(state))
+
+    def holds(self, state: int, literal: str) -> bool:
+        """Whether the literal holds. Raises UnknownFluentError."""
+        number, positive = self._numbered(literal)
+        return bool(state >> number & 1) == positive
+
+    def satisfies(self, state: int, literals: Iterable[str]) -> bool:
+        """Whether all the literals hold. Raises UnknownFluentError."""
+        numbered = list(map(self._numbered, literals))
+        return all(bool(state >> number & 1) == positive for number, positive in numbered)
+
+    def successors(self, state: int, actions: Iterable[str]) -> tuple[int, ...]:
+        """Every state the compound action can lead to, sorted; none: it cannot be executed.
+
+        Raises UnknownActionError.
+        """
+        return self._remembered(state, frozenset(actions))
+
+    def moves(self, state: int) -> Iterator[tuple[str, int]]:
+        """Each action of the agents that can be executed, with each state it can lead to.
+
+        In the order of declaration. Nothing is remembered: this is for searches, whose memory would
+        grow with all actions of every state that they look at.
+        """
+        for action in self.agent_actions:
+            for reached in self._successors(state, frozenset([action])):
+                yield action, reached
+
+    def successor(self, state: int, actions: Iterable[str]) -> int:
+        """The one successor. Raises NotExecutableError, or ValueError where there are several."""
+        compound = frozenset(actions)
+        found = self.successors(state, compound)
+        if not found:
+            raise NotExecutableError(self.why_not(state, compound))
+        if len(found) > 1:
+            outcomes = " | ".join(" ".join(self.true_atoms(s)) for s in found)
+            raise ValueError(f"{_names(compound)} has several outcomes: {outcomes}")
+        return found[0]
+
+    def executable(self, state: int, actions: Iterable[str]) -> bool:
+        """Whether the compound action has a successor. Raises UnknownActionError."""
+        return bool(self.successors(state, actions))
+
+    def why_not(self, state: int, actions: Iterable[str]) -> str | None:
+        """One line that says why the compound action cannot be executed; None if it can.
+
+        Raises UnknownActionError.
+        """
+        compound = frozenset(actions)
+        if self.executable(state, compound):
+            return None
+        law = self._forbidding(state, compound)
+        if law is None:
+            return f"the effects of {_names(compound)} contradict each other"
+        return self._if(f"impossible {_names(frozenset(law[0]))}", law[1])
+
+    def visible(self, state: int, robot: str) -> tuple[str, ...]:
+        """The literals that the robot sees in the state, in the order of the fluents."""
+        seen = (self.fluents[number] for number in bits(self._seen(state, robot)))
+        return tuple(f if state >> self._numbers[f] & 1 else "-" + f for f in seen)
+
+    @abstractmethod
+    def _completions(self, literals: tuple[str, ...]) -> Iterable[int]:
+        """What the literals can be completed to where the rest is false unless it follows."""
+
+    @abstractmethod
+    def _broken(self, literals: tuple[str, ...]) -> Law | None:
+        """A constraint that the literals break together with all that follows from them."""
+
+    @abstractmethod
+    def _transitions(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
+        """The successors of a compound action of known actions, sorted."""
+
+    @abstractmethod
+    def _forbidding(self, state: int, compound: frozenset[str]) -> Law | None:
+        """The first law that makes the compound action impossible."""
+
+    @abstractmethod
+    def _seen(self, state: int, robot: str) -> int:
+        """The fluents of which the robot sees whether they hold, one bit each."""
+
+    def _successors(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
+        unknown = sorted(compound - self._actions)
+        if unknown:
+            name = self.description.name
+            raise UnknownActionError(f"{unknown[0]} is not an action of the domain {name}")
+        return self._transitions(state, compound)
+
+    def _numbered(self, literal: str) -> tuple[int, bool]:
+        """The number of a literal's fluent, and its sign. Raises UnknownFluentError."""
+        atom = text.atom(literal)
+        number = self._numbers.get(atom)
+        if number is None:
+            raise UnknownFluentError(f"{atom} is not a fluent of the domain")
+        return number, text.is_positive(literal)
+
+    def _listed(self, literals: Iterable[str]) -> str:
+        """The literals in the order of the fluents, of a pair the positive one first."""
+        ordered = sorted({(n, not positive) for n, positive in map(self._numbered, literals)})
+        return ", ".join("-" * negative + self.fluents[n] for n, negative in ordered)
+
+    def _if(self, head: str, body: Iterable[str]) -> str:
+        return f"{head} if {self._listed(body)}".removesuffix(" if ")
+
+
+def bits(mask: int) -> Iterator[int]:
+    """The numbers of the set bits, ascending."""
+    while mask:
+        low = mask & -mask
+        yield low.bit_length() - 1
+        mask ^= low
+
+
+def _names(actions: Iterable[str]) -> str:
+    return ", ".join(sorted(actions))
