@@ -14,9 +14,7 @@ from asp.language import name as name_of
 from asp.refinement import Refinement, load
 from benchmarks.measuring import median, no_collection, quantile, timed
 from benchmarks.sheets import Row, Sheet, gathered
-from testbed.environment.core import WAIT, Core
-from testbed.environment.fine import fine_core
-from testbed.environment.rules import Rules
+from testbed.environment import WAIT, Core, Rules, fine_core
 from testbed.world import world_of
 
 _STEPS = {"small": 40, "full": 400}

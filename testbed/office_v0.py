@@ -21,12 +21,15 @@ from asp.language import suggestion
 from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.config.grounds import grounds
 from testbed.config.keys import lists_keys
-from testbed.environment.aec import AECView, OrderedView
-from testbed.environment.core import Core
-from testbed.environment.fine import fine_core
-from testbed.environment.parallel import ParallelView
-from testbed.environment.random_start import RandomGoal
-from testbed.environment.rules import Rules
+from testbed.environment import (
+    AECView,
+    Core,
+    OrderedView,
+    ParallelView,
+    RandomGoal,
+    Rules,
+    fine_core,
+)
 from testbed.world import world_of
 
 Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None

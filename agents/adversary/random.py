@@ -8,7 +8,7 @@ import numpy as np
 
 from agents.adversary.base import AdversaryView
 from asp.language import literals as text
-from testbed.environment.core import NONE
+from testbed.environment import NONE
 
 
 class Random:

@@ -11,7 +11,7 @@ from agents.adversary.base import AdversaryView
 from asp import Description
 from asp.language import Trigger
 from asp.language import literals as text
-from testbed.environment.core import NONE
+from testbed.environment import NONE
 
 T = TypeVar("T")
 

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
-from testbed.environment import rules
+from testbed import environment
 
 LinkKind = Literal["zenoh", "inprocess"]
 KnowledgeKind = Literal["complete", "seen"]
@@ -88,7 +88,7 @@ class Observability(Section):
     steps by which every report is late.
     """
 
-    mode: rules.Mode = "never"
+    mode: environment.Mode = "never"
     probability: Probability = 1.0
     false_reports: Probability = 0.0
     delay: Annotated[int, Field(strict=True, ge=0, le=MOST)] = 0
@@ -244,10 +244,10 @@ class ExperimentConfig(Section):
         """Whether scenarios without a script have random events in place of triggers."""
         return not self.is_fine and self.adversary.strategy == "random"
 
-    def rules_of_news(self) -> dict[str, rules.Observability]:
+    def rules_of_news(self) -> dict[str, environment.Observability]:
         """`observability` as the environment has it, by the name of the exogenous action."""
         return {
-            name: rules.Observability(**dict(own))
+            name: environment.Observability(**dict(own))
             for name, own in sorted(self.observability.items())
         }
 

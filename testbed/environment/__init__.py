@@ -1,1 +1,62 @@
-"""The world and its PettingZoo environment: two agents, one core, two views."""
+"""A game between a robot and an adversary in a world, and its PettingZoo environments."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from testbed.environment.agents import ADVERSARY, ROBOT, rewards
+from testbed.environment.core import Core, Draw, DrawGoal
+from testbed.environment.errors import (
+    IllegalActionError,
+    NotResetError,
+    UnknownAgentError,
+    UnknownOptionError,
+)
+from testbed.environment.execution import Execution, Pace, Statistics
+from testbed.environment.fine import fine_core
+from testbed.environment.legality import FINISH, NONE, WAIT
+from testbed.environment.random_start import RandomGoal, RandomStart
+from testbed.environment.rules import Ending, Mode, Observability, Rules, Situation, Snapshot
+
+if TYPE_CHECKING:
+    from testbed.environment.aec import AECView, OrderedView
+    from testbed.environment.parallel import ParallelView
+
+__all__ = [
+    "ADVERSARY",
+    "FINISH",
+    "NONE",
+    "ROBOT",
+    "WAIT",
+    "AECView",
+    "Core",
+    "Draw",
+    "DrawGoal",
+    "Ending",
+    "Execution",
+    "IllegalActionError",
+    "Mode",
+    "NotResetError",
+    "Observability",
+    "OrderedView",
+    "Pace",
+    "ParallelView",
+    "RandomGoal",
+    "RandomStart",
+    "Rules",
+    "Situation",
+    "Snapshot",
+    "Statistics",
+    "UnknownAgentError",
+    "UnknownOptionError",
+    "fine_core",
+    "rewards",
+]
+
+_VIEWS = {"AECView": "aec", "OrderedView": "aec", "ParallelView": "parallel"}
+"""Imported when they are asked for: PettingZoo takes longer to import than all the rest."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _VIEWS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_VIEWS[name]}"), name)

@@ -1,4 +1,4 @@
-"""The environment's two agents, and the reading of their answers."""
+"""The environment's two agents: the reading of their answers, and their rewards."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from operator import index
 from typing import SupportsIndex
 
 from testbed.environment.errors import IllegalActionError, UnknownAgentError
+from testbed.environment.rules import Ending
 
 ROBOT, ADVERSARY = "robot_0", "adversary_0"
 
@@ -39,3 +40,14 @@ def listed(actions: Sequence[str], legal: Sequence[str] | None = None) -> str:
     """The actions, or the legal ones among them, with their indices."""
     chosen = actions if legal is None else legal
     return ", ".join(f"{i} {action}" for i, action in enumerate(actions) if action in chosen)
+
+
+def rewards(ending: Ending | None) -> dict[str, float]:
+    """What an ending is worth, in a zero-sum game.
+
+    The robot gets 1 for the goal achieved, -1 for any other end, 0 while the game goes on.
+    """
+    if ending is None:
+        return {ROBOT: 0.0, ADVERSARY: 0.0}
+    value = 1.0 if ending is Ending.ACHIEVED else -1.0
+    return {ROBOT: value, ADVERSARY: -value}

@@ -10,18 +10,14 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
 import numpy as np
-from gymnasium.utils import seeding
 
 from testbed.environment.errors import IllegalActionError, NotResetError
-from testbed.environment.execution import Exact, Execution
+from testbed.environment.execution import Execution
 from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
 from testbed.environment.news import News, Played
-from testbed.environment.rules import Rules
-from testbed.environment.situation import Ending, Situation, Snapshot
+from testbed.environment.rules import Ending, Rules, Situation, Snapshot
 from testbed.protocol.messages import Event, Percept
 from testbed.world import World
-
-__all__ = ["FINISH", "NONE", "WAIT", "Core", "Draw", "DrawGoal"]
 
 Draw: TypeAlias = Callable[[np.random.Generator], int]
 """Draws the state in which a game begins."""
@@ -50,7 +46,7 @@ class Core:
         self.rules = rules
         self.initial = initial
         self.draw_goal = draw_goal
-        self.execution = execution or Exact(world, world.description.robots[0])
+        self.execution = execution or Execution(world, world.description.robots[0])
         self.robot = self.execution.robot
         self._legality = Legality(world, self.execution)
         self._news_desk = News(world, self.execution)
@@ -84,7 +80,7 @@ class Core:
         Without a seed the generator goes on where it was. Raises StateError.
         """
         if seed is not None or self._random is None:
-            self._random, _ = seeding.np_random(seed)
+            self._random = np.random.default_rng(seed)
         state = self._begin() if initial is None else self.world.state(initial)
         goal = self.draw_goal(state, self._random) if self.draw_goal else self.rules.goal
         self.situation = Situation(trial=trial, step=1, state=state, goal=goal)
@@ -96,7 +92,7 @@ class Core:
     def restore(self, snapshot: Snapshot) -> None:
         """Goes back to where the snapshot was taken, in this or an equal core."""
         if self._random is None:
-            self._random, _ = seeding.np_random(0)
+            self._random = np.random.default_rng(0)
         self.situation = snapshot.situation
         self._random.bit_generator.state = snapshot.generator
 

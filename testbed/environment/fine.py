@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from asp.refinement import Refinement
 from testbed.environment.core import Core, DrawGoal
+from testbed.environment.execution import Pace, Statistics, UncertainExecution
 from testbed.environment.random_start import RandomStart
 from testbed.environment.rules import Rules
-from testbed.environment.uncertain_execution import Pace, Statistics, Tested
 from testbed.world import sensing_of, world_of
 
 STATISTICS: Statistics = {}
@@ -33,6 +33,6 @@ def fine_core(
     world = world_of(refinement)
     robot = refinement.description.robots[0]
     coarse = refinement.coarse_signature.symbols.keys()
-    execution = Tested(world, sensing_of(refinement), robot, statistics, coarse, pace)
+    execution = UncertainExecution(world, sensing_of(refinement), robot, statistics, coarse, pace)
     starts = RandomStart(world, robot, holding) if initial is None else initial
     return Core(world, rules, starts, execution, draw_goal)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from asp.language import literals as text
 from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
-from testbed.environment.core import NONE, WAIT, Core
+from testbed.environment.core import Core
+from testbed.environment.legality import NONE, WAIT
 
 Vector: TypeAlias = NDArray[np.int8]
 Observation: TypeAlias = dict[str, Vector]

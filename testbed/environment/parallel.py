@@ -7,12 +7,11 @@ from typing import Any, TypeAlias
 
 from pettingzoo import ParallelEnv
 
-from testbed.environment.agents import ADVERSARY, ROBOT, name_of
-from testbed.environment.core import NONE
+from testbed.environment.agents import ADVERSARY, ROBOT, name_of, rewards
 from testbed.environment.errors import IllegalActionError
+from testbed.environment.legality import NONE
 from testbed.environment.observation import Observation, infos, observe
-from testbed.environment.rewards import rewards
-from testbed.environment.situation import Snapshot
+from testbed.environment.rules import Snapshot
 from testbed.environment.view import View
 
 Observations: TypeAlias = dict[str, Observation]

@@ -18,9 +18,7 @@ from testbed.environment.observation import (
     state_space,
     state_vector,
 )
-from testbed.environment.rendering.modes import MODES, check_mode, render
-from testbed.environment.rendering.notebook import html_of
-from testbed.environment.rendering.picture import Image
+from testbed.environment.rendering import MODES, Image, check_mode, html_of, render
 
 OPTIONS = ("initial", "trial")
 """The keys of `reset(options=...)`."""

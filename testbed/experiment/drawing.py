@@ -6,7 +6,7 @@ import numpy as np
 
 from asp.refinement import Refinement
 from testbed.config.models import ExperimentConfig
-from testbed.environment.random_start import RandomGoal, RandomStart
+from testbed.environment import RandomGoal, RandomStart
 from testbed.world import world_of
 
 Drawn = tuple[tuple[str, ...], tuple[str, ...]]

@@ -6,8 +6,7 @@ from agents.adversary.base import Adversary
 from agents.adversary.random import Random
 from asp.language import arguments, complement
 from testbed.config.grounds import Ground
-from testbed.environment.core import Core
-from testbed.environment.fine import fine_core
+from testbed.environment import Core, fine_core
 from testbed.experiment.adversaries import script_of
 from testbed.experiment.game_rules import known, rules_of
 from testbed.experiment.judge import Judge

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from testbed.environment.rules import Rules
+from testbed.environment import Rules
 from testbed.experiment.specs import Setting
 from testbed.world import World
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
-from testbed.environment.core import FINISH
+from testbed.environment import FINISH
 from testbed.experiment.domains import load_world
 from testbed.experiment.specs import Setting
 from testbed.experiment.trial import Moment

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from testbed.environment.core import FINISH, WAIT
-from testbed.environment.situation import Ending
+from testbed.environment import FINISH, WAIT, Ending
 from testbed.experiment.judge import Minimal
 from testbed.experiment.record import (
     Activity,

@@ -20,7 +20,7 @@ from testbed.config.models import (
     Pace,
     ScriptEntry,
 )
-from testbed.environment.rules import Observability
+from testbed.environment import Observability
 
 
 class FineSetting(msgspec.Struct, frozen=True, kw_only=True):

@@ -11,8 +11,7 @@ import msgspec
 import numpy as np
 
 from agents.adversary.scripted import Script
-from testbed.environment.core import NONE, Core
-from testbed.environment.errors import IllegalActionError
+from testbed.environment import NONE, Core, IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
 from testbed.experiment.record import FineCounts, TrialRecord, check
 from testbed.experiment.recorder import FineRecorder, Recorder

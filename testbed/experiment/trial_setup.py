@@ -8,7 +8,7 @@ from typing import Protocol
 
 from agents.adversary.base import Adversary
 from testbed.config.grounds import Ground, of_files, of_size
-from testbed.environment.core import Core
+from testbed.environment import Core
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.domains import load_world
 from testbed.experiment.fine_trial_setup import FineStage, fine_part

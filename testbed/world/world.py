@@ -11,8 +11,7 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import Any
 
-from asp.language import Description
-from asp.language import literals as text
+from asp.language import Action, Description, Fluent, Literal
 
 
 class StateError(ValueError):
@@ -31,15 +30,15 @@ class NotExecutableError(ValueError):
     """A compound action without a successor in the state; one line says why."""
 
 
-Law = tuple[tuple[str, ...], tuple[str, ...]]
-"""A head, or the actions that are impossible together, and a body, as text."""
+Law = tuple[tuple[Literal, ...], tuple[Literal, ...]]
+"""A head, or the actions that are impossible together, and a body."""
 
 
 class World(ABC):
     """The states of a description, its transitions, and what a robot sees of a state.
 
-    A state is an integer: bit i is set where the i-th of `fluents` is true. A literal is text,
-    `loc(book1,kitchen)` or `-loc(book1,kitchen)`. A compound action is any iterable of the names of
+    A state is an integer: bit i is set where the i-th of `fluents` is true. Literals and actions
+    may be given as text, `-loc(book1,kitchen)`. A compound action is any iterable of the names of
     actions that happen at once; the empty one is one, too. Every method is a pure function of its
     arguments; the successors asked for last are remembered.
 
@@ -53,14 +52,17 @@ class World(ABC):
 
     def __init__(self, description: Description, remembered: int | None) -> None:
         self.description = description
-        self.fluents: tuple[str, ...] = description.fluents
-        self.agent_actions: tuple[str, ...] = description.agent_actions
-        self.exogenous_actions: tuple[str, ...] = description.exogenous_actions
-        self._actions = frozenset((*self.agent_actions, *self.exogenous_actions))
-        self._numbers = {fluent: number for number, fluent in enumerate(self.fluents)}
+        self.fluents: tuple[Fluent, ...] = description.fluents
+        self.agent_actions: tuple[Action, ...] = description.agent_actions
+        self.exogenous_actions: tuple[Action, ...] = description.exogenous_actions
+        self._actions: frozenset[str] = frozenset((*self.agent_actions, *self.exogenous_actions))
+        self._numbers: dict[str, tuple[int, bool]] = {}
+        for number, fluent in enumerate(self.fluents):
+            self._numbers[fluent] = number, True
+            self._numbers[fluent.complement] = number, False
         self._remembered = lru_cache(remembered)(self._successors)
         self._needed = tuple(
-            (sum(1 << self._numbers[fluent] for fluent in some), some)
+            (sum(1 << self._numbers[fluent][0] for fluent in some), some)
             for some in description.initially
         )
 
@@ -92,15 +94,16 @@ class World(ABC):
         """
         given = tuple(literals)
         try:
-            self._listed(given)
+            numbered = {self._numbered(literal): literal for literal in given}
         except UnknownFluentError as error:
             raise StateError(str(error)) from None
-        if twice := {lit for lit in given if text.complement(lit) in given}:
+        twice = [lit for (n, positive), lit in numbered.items() if (n, not positive) in numbered]
+        if twice:
             raise StateError(f"contradiction between {self._listed(twice)}")
         broken = self._broken(given)
         if broken is not None:
             (head,), body = broken
-            conflict = self._listed((*body, text.complement(head)))
+            conflict = self._listed((*body, head.complement))
             law = self._if(head, body)
             raise StateError(f"{conflict} cannot be together: the constraint is {law}")
 
@@ -130,14 +133,14 @@ class World(ABC):
         Sorted; none where the literals are in no state. Raises UnknownFluentError.
         """
 
-    def literals(self, state: int) -> tuple[str, ...]:
+    def literals(self, state: int) -> tuple[Literal, ...]:
         """Every fluent of the state as a literal, in the order of the fluents."""
         return tuple(
-            fluent if state >> number & 1 else "-" + fluent
+            fluent if state >> number & 1 else fluent.complement
             for number, fluent in enumerate(self.fluents)
         )
 
-    def true_atoms(self, state: int) -> tuple[str, ...]:
+    def true_atoms(self, state: int) -> tuple[Fluent, ...]:
         """The fluents that are true in the state, in their order."""
         return tuple(self.fluents[number] for number in bits(state))
 
@@ -158,7 +161,7 @@ class World(ABC):
         """
         return self._remembered(state, frozenset(actions))
 
-    def moves(self, state: int) -> Iterator[tuple[str, int]]:
+    def moves(self, state: int) -> Iterator[tuple[Action, int]]:
         """Each action of the agents that can be executed, with each state it can lead to.
 
         In the order of declaration. Nothing is remembered: this is for searches, whose memory would
@@ -196,10 +199,10 @@ class World(ABC):
             return f"the effects of {_names(compound)} contradict each other"
         return self._if(f"impossible {_names(frozenset(law[0]))}", law[1])
 
-    def visible(self, state: int, robot: str) -> tuple[str, ...]:
+    def visible(self, state: int, robot: str) -> tuple[Literal, ...]:
         """The literals that the robot sees in the state, in the order of the fluents."""
-        seen = (self.fluents[number] for number in bits(self._seen(state, robot)))
-        return tuple(f if state >> self._numbers[f] & 1 else "-" + f for f in seen)
+        seen = ((number, self.fluents[number]) for number in bits(self._seen(state, robot)))
+        return tuple(fluent if state >> n & 1 else fluent.complement for n, fluent in seen)
 
     @abstractmethod
     def _completions(self, literals: tuple[str, ...]) -> Iterable[int]:
@@ -230,11 +233,11 @@ class World(ABC):
 
     def _numbered(self, literal: str) -> tuple[int, bool]:
         """The number of a literal's fluent, and its sign. Raises UnknownFluentError."""
-        atom = text.atom(literal)
-        number = self._numbers.get(atom)
-        if number is None:
-            raise UnknownFluentError(f"{atom} is not a fluent of the domain")
-        return number, text.is_positive(literal)
+        try:
+            return self._numbers[literal]
+        except KeyError:
+            atom = literal.removeprefix("-")
+            raise UnknownFluentError(f"{atom} is not a fluent of the domain") from None
 
     def _listed(self, literals: Iterable[str]) -> str:
         """The literals in the order of the fluents, of a pair the positive one first."""

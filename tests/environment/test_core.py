@@ -6,11 +6,18 @@ from dataclasses import replace
 import pytest
 
 from asp import Description, load_description, parse_description
-from testbed.environment.core import FINISH, NONE, WAIT, Core
-from testbed.environment.errors import IllegalActionError
-from testbed.environment.execution import Exact
-from testbed.environment.rules import Mode, Observability, Rules
-from testbed.environment.situation import Ending
+from testbed.environment import (
+    FINISH,
+    NONE,
+    WAIT,
+    Core,
+    Ending,
+    Execution,
+    IllegalActionError,
+    Mode,
+    Observability,
+    Rules,
+)
 from testbed.world import StateError, UnknownFluentError, world_of
 
 WORLD = world_of(load_description("office"))
@@ -309,7 +316,7 @@ laws
 """
 
 
-class Slippery(Exact):
+class Slippery(Execution):
     """An action may come to nothing."""
 
     def chance(self, _action: str, /) -> float:
@@ -319,7 +326,8 @@ class Slippery(Exact):
 def test_an_event_is_legal_only_if_it_is_however_the_action_comes_out() -> None:
     world = world_of(parse_description(MAKES_ROOM))
     sure, slippery = (
-        Core(world, Rules(goal=()), (0,), execution(world, "r")) for execution in (Exact, Slippery)
+        Core(world, Rules(goal=()), (0,), execution(world, "r"))
+        for execution in (Execution, Slippery)
     )
     sure.reset(0)
     slippery.reset(0)

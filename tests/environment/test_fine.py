@@ -8,12 +8,18 @@ import pytest
 from asp.domains.levels import level_text
 from asp.language import read_domain
 from asp.refinement import Refinement, load
-from testbed.environment.core import FINISH, NONE, WAIT, Core
-from testbed.environment.errors import IllegalActionError
-from testbed.environment.fine import fine_core
-from testbed.environment.random_start import RandomStart
-from testbed.environment.rules import Observability, Rules
-from testbed.environment.uncertain_execution import Pace
+from testbed.environment import (
+    FINISH,
+    NONE,
+    WAIT,
+    Core,
+    IllegalActionError,
+    Observability,
+    Pace,
+    RandomStart,
+    Rules,
+    fine_core,
+)
 from testbed.world import world_of
 
 START = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]

@@ -11,8 +11,7 @@ from pettingzoo.test import api_test, parallel_api_test
 
 from testbed import office_v0
 from testbed.config import ConfigError
-from testbed.environment.agents import ADVERSARY, ROBOT
-from testbed.environment.errors import IllegalActionError
+from testbed.environment import ADVERSARY, ROBOT, IllegalActionError
 
 
 @pytest.fixture

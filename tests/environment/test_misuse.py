@@ -10,8 +10,9 @@ import pytest
 from gymnasium.utils.env_checker import data_equivalence
 
 from testbed import office_v0
-from testbed.environment.agents import ADVERSARY, ROBOT
-from testbed.environment.errors import (
+from testbed.environment import (
+    ADVERSARY,
+    ROBOT,
     IllegalActionError,
     NotResetError,
     UnknownAgentError,

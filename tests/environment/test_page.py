@@ -5,8 +5,7 @@ from pathlib import Path
 from gymnasium import spaces
 
 from testbed import office_v0
-from testbed.environment.rewards import rewards
-from testbed.environment.situation import Ending
+from testbed.environment import Ending, rewards
 
 PAGE = Path(__file__).parents[2] / "docs" / "environment.md"
 

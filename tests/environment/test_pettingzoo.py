@@ -13,8 +13,7 @@ from pettingzoo.utils.conversions import aec_to_parallel
 
 from testbed import office_v0
 from testbed.config import ConfigError
-from testbed.environment.agents import ADVERSARY, ROBOT
-from testbed.environment.errors import IllegalActionError
+from testbed.environment import ADVERSARY, ROBOT, IllegalActionError
 from testbed.world import StateError
 
 pytestmark = pytest.mark.versions

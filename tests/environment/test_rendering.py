@@ -7,13 +7,16 @@ from asp import load_description, parse_description
 from asp.domains.levels import level_text
 from asp.language import read_domain
 from asp.refinement import load
-from testbed.environment.core import Core
-from testbed.environment.fine import fine_core
-from testbed.environment.rendering.ansi import draw_text
-from testbed.environment.rendering.modes import MODES, render
-from testbed.environment.rendering.picture import Image, draw_picture
-from testbed.environment.rendering.scene import Scene, scene
-from testbed.environment.rules import Rules
+from testbed.environment import Core, Rules, fine_core
+from testbed.environment.rendering import (
+    MODES,
+    Image,
+    Scene,
+    draw_picture,
+    draw_text,
+    render,
+    scene,
+)
 from testbed.world import world_of
 
 WORLD = world_of(load_description("office"))
@@ -35,6 +38,10 @@ sees
 """
 
 
+def scene_of(core: Core) -> Scene:
+    return scene(core.world, core.situation, core.robot)
+
+
 def office(*literals: str) -> Core:
     core = Core(WORLD, Rules(goal=("loc(book1,library)",), goal_feedback=False), ())
     core.reset(0, literals or IN_KITCHEN)
@@ -42,16 +49,16 @@ def office(*literals: str) -> Core:
 
 
 def picture(core: Core) -> Image:
-    return draw_picture(scene(core))
+    return draw_picture(scene_of(core))
 
 
 def test_the_rooms_stand_in_the_order_of_a_walk_through_them() -> None:
-    walk = [place.name for place in scene(office()).places]
+    walk = [place.name for place in scene_of(office()).places]
     assert walk == ["office1", "office2", "kitchen", "library"]
 
 
 def test_the_scene_says_where_everything_is() -> None:
-    rooms = {place.name: place for place in scene(office()).places}
+    rooms = {place.name: place for place in scene_of(office()).places}
     assert rooms["kitchen"].robots == {"rob1": ("book1",)}
     assert rooms["kitchen"].things == ()
     assert rooms["office2"].things == ("book2",)
@@ -62,19 +69,22 @@ def test_the_scene_says_where_everything_is() -> None:
 
 def test_the_scene_says_what_just_happened() -> None:
     core = office()
-    assert (scene(core).robot, scene(core).adversary) == ("", "")
+    assert (
+        scene_of(core).robot,
+        scene_of(core).adversary,
+    ) == ("", "")
     core.advance("move(rob1,office1)", "exo_lock(library)")
-    shown = scene(core)
+    shown = scene_of(core)
     assert (shown.robot, shown.adversary) == ("move(rob1,office1) failed", "exo_lock(library)")
     core.advance("finish")
-    assert scene(core).outcome == "false_finish"
+    assert scene_of(core).outcome == "false_finish"
 
 
 def test_every_initial_state_shows_each_thing_once() -> None:
     core = office()
     for state in WORLD.initial_states():
         core.reset(0, WORLD.literals(state))
-        places = scene(core).places
+        places = scene_of(core).places
         lying = [thing for place in places for thing in place.things]
         held = [thing for place in places for things in place.robots.values() for thing in things]
         assert sorted(lying + held) == ["book1", "book2"]
@@ -84,7 +94,7 @@ def test_every_initial_state_shows_each_thing_once() -> None:
 def test_the_text_shows_it() -> None:
     core = office()
     core.advance("move(rob1,library)", "exo_lock(library)")
-    lines = draw_text(scene(core)).splitlines()
+    lines = draw_text(scene_of(core)).splitlines()
     assert len({len(line) for line in lines[:-1]}) == 1
     cells = [
         [c.strip() for c in line.strip("|").replace(" = ", " | ").split(" | ")] for line in lines
@@ -117,7 +127,7 @@ def test_a_domain_without_places_is_shown_as_well() -> None:
     world = world_of(parse_description(TOWER))
     core = Core(world, Rules(goal=()), ())
     core.reset(0, ["on(a,b)", "dusty(a)"])
-    shown = scene(core)
+    shown = scene_of(core)
     assert shown == Scene(1, (), ("on(a,b)", "dusty(a)"), "", "", "")
     assert "on(a,b)" in draw_text(shown)
     assert draw_picture(shown).ndim == 3
@@ -141,7 +151,7 @@ IN_HAND = ("fine_loc(rob1,room2_3)", "fine_in_hand(rob1,object2_1)", "fine_loc(o
 
 
 def test_at_the_fine_resolution_rooms_show_their_cells() -> None:
-    shown = scene(level(*IN_HAND))
+    shown = scene_of(level(*IN_HAND))
     first, second = shown.places
     assert (first.name, first.cells) == ("room1", ("room1_1", "room1_2", "room1_3", "room1_4"))
     assert (first.things, first.robots, first.spots) == (("object1",), {}, {"object1": "room1_4"})
@@ -166,4 +176,4 @@ def test_a_static_between_two_sorts_is_no_cell_of_the_other() -> None:
     world = world_of(parse_description(owned.replace("\nfacts", "\nfacts\n  owner(book1, rob1).")))
     core = Core(world, Rules(goal=()), ())
     core.reset(0, IN_KITCHEN)
-    assert scene(core).places == scene(office()).places
+    assert scene_of(core).places == scene_of(office()).places

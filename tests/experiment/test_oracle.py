@@ -7,7 +7,7 @@ import pytest
 
 from asp.domains.levels import level_text
 from asp.language import analyse, ground_description
-from testbed.environment.random_start import RandomGoal
+from testbed.environment import RandomGoal
 from testbed.experiment.domains import load_world
 from testbed.experiment.oracle import Oracle, minimal_actions, minimal_units, shortest_plan
 from testbed.world import World, world_of

@@ -19,7 +19,8 @@ from typing import TypeAlias
 
 from asp.language import Description
 from asp.language import literals as text
-from testbed.environment.core import Core
+from testbed.environment.rules import Situation
+from testbed.world import World
 
 Pair: TypeAlias = tuple[str, str]
 Adjacency: TypeAlias = Mapping[str, frozenset[str]]
@@ -86,12 +87,12 @@ class Scene:
     outcome: str
 
 
-def scene(core: Core) -> Scene:
-    """The scene of the core's present situation."""
-    now, description = core.situation, core.world.description
-    true = core.world.true_atoms(now.state)
+def scene(world: World, now: Situation, robot: str) -> Scene:
+    """The scene of a robot's situation in a world."""
+    description = world.description
+    true = world.true_atoms(now.state)
     where = layout(description)
-    robots = dict.fromkeys([*description.robots, core.robot])
+    robots = dict.fromkeys([*description.robots, robot])
     places = tuple(_place(name, description, robots, true, where) for name in where.walk())
     return Scene(
         step=now.step,

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 from asp.language import Trigger
 from asp.language import literals as text
-from testbed.environment.core import NONE
+from testbed.environment import NONE
 from testbed.experiment.record import TrialRecord
 from testbed.world import World
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Protocol, TypeAlias
 
-from asp.language import literals as text
+from asp.language import Literal
 
 GroundAtom: TypeAlias = tuple[str, ...]
 GroundLiteral: TypeAlias = tuple[GroundAtom, bool]
@@ -91,13 +91,12 @@ class Possibilities:
         return [*known, *(atom for atom in new if atom[place] == value)] if new else known
 
 
-def atom_of_text(atom: str) -> GroundAtom:
-    return (text.name(atom), *text.arguments(atom))
+def atom_of(literal: str) -> GroundAtom:
+    """The atom of a fluent or an action. Raises ValueError for what is no literal."""
+    read = Literal.parse(literal)
+    return (read.name, *read.arguments)
 
 
-def text_of_atom(atom: GroundAtom) -> str:
-    return text.ground(atom[0], atom[1:])
-
-
-def text_of(literal: GroundLiteral) -> str:
-    return ("" if literal[1] else "-") + text_of_atom(literal[0])
+def literal_of(literal: GroundLiteral) -> Literal:
+    atom, positive = literal
+    return Literal.of(atom[0], atom[1:], positive)

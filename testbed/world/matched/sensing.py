@@ -11,9 +11,9 @@ from functools import lru_cache
 from itertools import product
 from typing import Self
 
-from asp.language import Signature, ground, syntax
+from asp.language import Literal, Signature, ground, syntax
 from asp.language import variable_sorts as roles
-from testbed.world.matched.facts import Facts, GroundAtom, atom_of_text, text_of_atom
+from testbed.world.matched.facts import Facts, GroundAtom, atom_of, literal_of
 from testbed.world.matched.laws import Instance, Pattern, Reader
 from testbed.world.matched.world import MatchedWorld
 
@@ -56,25 +56,25 @@ class Sensing:
 
     def can(self, state: int, action: str) -> bool:
         """Whether the test is possible in the state."""
-        test = atom_of_text(action)
+        test = atom_of(action)
         facts = self._world.facts(state)
         return all(
             any(ability.search([need], facts, _stop) for ability in self._abilities[need[0]])
             for need in _images(self._needs[test[0]], test)
         )
 
-    def _fluent(self, action: str) -> str:
+    def _fluent(self, action: str) -> Literal:
         """The fluent that a test observes."""
-        test = atom_of_text(action)
-        return text_of_atom(_images(self._fluents[test[0]], test)[0])
+        test = atom_of(action)
+        return literal_of((_images(self._fluents[test[0]], test)[0], True))
 
-    def test_of(self, robot: str, fluent: str) -> str | None:
+    def test_of(self, robot: str, fluent: str) -> Literal | None:
         """The robot's test of a fluent, if there is one."""
-        atom = atom_of_text(fluent)
+        atom = atom_of(fluent)
         if atom[0] not in self._tests:
             return None
         tests = (test for test in _images(self._tests[atom[0]], atom) if test[1] == robot)
-        return next(map(text_of_atom, tests), None)
+        return next((literal_of((test, True)) for test in tests), None)
 
     def _map(self, one: syntax.Atom, other: syntax.Atom, law: syntax.Statement) -> Pattern:
         """From an atom of a law to another with the same variables."""

@@ -8,17 +8,15 @@ from functools import lru_cache
 from itertools import product
 from pathlib import Path
 
-from asp.language import Description, Signature, ground_description, syntax
-from asp.language import literals as text
+from asp.language import Description, Literal, Signature, ground_description, syntax
 from testbed.world.compiled import CompiledWorld
 from testbed.world.matched.change import Change
 from testbed.world.matched.facts import (
     Facts,
     GroundAtom,
     GroundLiteral,
-    atom_of_text,
-    text_of,
-    text_of_atom,
+    atom_of,
+    literal_of,
 )
 from testbed.world.matched.laws import Instance, Laws, Prohibition
 from testbed.world.world import Law, World, bits
@@ -32,11 +30,11 @@ class MatchedWorld(World):
     def __init__(self, source: syntax.Source, signature: Signature) -> None:
         super().__init__(_declared(source, signature), remembered=_SUCCESSORS)
         self._arguments = (source, signature)
-        self._atoms = tuple(map(atom_of_text, self.fluents))
+        self._atoms = tuple(map(atom_of, self.fluents))
         self._bits = {atom: 1 << number for number, atom in enumerate(self._atoms)}
-        self._defined = frozenset(map(text.name, self.description.defined))
+        self._defined = frozenset(fluent.name for fluent in self.description.defined)
         self.signature = signature
-        self.statics = Facts(map(atom_of_text, self.description.statics))
+        self.statics = Facts(map(atom_of, self.description.statics))
         self._laws = Laws(source, signature, self.statics)
         self.facts = lru_cache(_STATES)(self._decode)
         self._described = lru_cache(1)(self._describe)
@@ -86,7 +84,7 @@ class MatchedWorld(World):
 
     def _broken(self, literals: tuple[str, ...]) -> Law | None:
         law = self._described(literals).conflict()
-        return None if law is None else ((text_of(law.head),), _texts(law.body))
+        return None if law is None else ((literal_of(law.head),), _literals(law.body))
 
     def _describe(self, literals: tuple[str, ...]) -> Change:
         """What the literals make of a state in which nothing is true."""
@@ -109,7 +107,7 @@ class MatchedWorld(World):
             effects[instance.head] = None
             return False
 
-        for action in map(atom_of_text, sorted(compound)):
+        for action in map(atom_of, sorted(compound)):
             for pattern in self._laws.effects.get(action[0], ()):
                 pattern.search([action], self.facts(state), take)
         return self._changed(state, effects)
@@ -129,7 +127,7 @@ class MatchedWorld(World):
 
     def _forbidding(self, state: int, compound: frozenset[str]) -> Law | None:
         by_name: dict[str, list[GroundAtom]] = {}
-        for action in map(atom_of_text, sorted(compound)):
+        for action in map(atom_of, sorted(compound)):
             by_name.setdefault(action[0], []).append(action)
         found = (self._applied(law, state, by_name) for law in self._laws.prohibitions)
         return next((law for law in found if law is not None), None)
@@ -145,7 +143,8 @@ class MatchedWorld(World):
 
         for given in product(*(by_name.get(name, ()) for name in law.names)):
             if law.pattern.search(given, self.facts(state), first):
-                return tuple(map(text_of_atom, given)), _texts(reasons[0].body)
+                actions = ((action, True) for action in given)
+                return _literals(actions), _literals(reasons[0].body)
         return None
 
     def _seen(self, state: int, robot: str) -> int:
@@ -168,8 +167,8 @@ class MatchedWorld(World):
         return Facts(self._atoms[number] for number in bits(state))
 
 
-def _texts(literals: Iterable[GroundLiteral]) -> tuple[str, ...]:
-    return tuple(map(text_of, literals))
+def _literals(literals: Iterable[GroundLiteral]) -> tuple[Literal, ...]:
+    return tuple(map(literal_of, literals))
 
 
 def _declared(source: syntax.Source, signature: Signature) -> Description:

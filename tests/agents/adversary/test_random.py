@@ -9,9 +9,7 @@ from agents.adversary.base import AdversaryView
 from agents.adversary.random import Random
 from asp.domains.levels import level_text
 from asp.refinement import load
-from testbed.environment.core import FINISH, NONE
-from testbed.environment.fine import fine_core
-from testbed.environment.rules import Rules
+from testbed.environment import FINISH, NONE, Rules, fine_core
 
 EVENTS = [f"take({thing},{place})" for thing in "abc" for place in "wxyz"]
 

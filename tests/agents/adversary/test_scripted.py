@@ -6,8 +6,7 @@ from agents.adversary.base import AdversaryView
 from agents.adversary.scripted import Script, Triggered
 from asp import load_description
 from asp.language import literals as text
-from testbed.environment.core import FINISH, NONE, WAIT, Core
-from testbed.environment.rules import Rules
+from testbed.environment import FINISH, NONE, WAIT, Core, Rules
 from testbed.world import world_of
 
 BOOKS, ROOMS = ("book1", "book2"), ("kitchen", "office1", "office2", "library")

@@ -6,7 +6,7 @@ import pytest
 
 from agents.adversary.base import AdversaryView
 from agents.adversary.scripted import Triggered
-from testbed.environment.core import NONE
+from testbed.environment import NONE
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Attempt, Occurrence
 from testbed.studies.table1.redrawing import Chances, as_stated, passed_on, weight

@@ -11,10 +11,7 @@ from agents.intentional.refined import EitherRobot
 from asp.domains.levels import LEVELS, level_text
 from asp.language import complement, read_domain
 from asp.refinement import load, read_refinement
-from testbed.environment.fine import fine_core
-from testbed.environment.random_start import RandomStart
-from testbed.environment.rules import Observability, Rules
-from testbed.environment.situation import Ending
+from testbed.environment import Ending, Observability, RandomStart, Rules, fine_core
 from testbed.protocol.messages import FineTrace, Task
 from testbed.world import world_of
 
