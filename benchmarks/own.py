@@ -14,7 +14,7 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from agents.shared.history import Diagnosis, History
 from asp.language import parse_description
 from benchmarks.measuring import forget, timed
 from testbed.environment import NONE, Core, Observability, Rules
-from testbed.protocol.messages import Decision, Task
+from testbed.protocol import Decision, Task
 from testbed.world import World, world_of
 
 

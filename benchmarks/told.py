@@ -38,8 +38,8 @@ from testbed.experiment.store import (
     write_config,
 )
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Percept, Task
+from testbed.link import InProcessRobot
+from testbed.protocol import Percept, Task
 from testbed.studies.table1.analysis import RANDOM
 from testbed.studies.table1.runs import told_name
 

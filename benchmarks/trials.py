@@ -12,9 +12,8 @@ from agents.intentional.reference import Logician
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Decision, Percept, Task
-from testbed.protocol.robot import Robot
+from testbed.link import InProcessRobot
+from testbed.protocol import Decision, Percept, Robot, Task
 
 SCENARIOS = ("1", "2", "3", "4", "5", "6")
 ROBOTS: Mapping[str, Callable[[], Robot]] = {

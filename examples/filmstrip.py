@@ -18,7 +18,7 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 SCENARIO = 2
 STEPS = (3, 4)

@@ -18,7 +18,7 @@ from testbed.config import ExperimentConfig
 from testbed.experiment import plan, runner
 from testbed.experiment import robots as registry
 from testbed.experiment.specs import TrialSpec
-from testbed.protocol.messages import Task
+from testbed.protocol import Task
 
 HOLD = Path("hold")
 """Says how many trials the robot of each process may begin; all, where it is not there."""

@@ -17,7 +17,7 @@ from testbed.config.models import ExperimentConfig, Limits
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 MAKERS = [office_v0.env, office_v0.raw_env, office_v0.parallel_env]
 # Neither places nor things, and a name that is no HTML unless it is escaped.

@@ -18,7 +18,7 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 ROOT = Path(__file__).parent.parent
 DOCUMENTS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]

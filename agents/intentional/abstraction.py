@@ -29,8 +29,7 @@ from asp.language import (
 from asp.language.variable_sorts import literals
 from asp.reasoning.relevance import Relevance, interchangeable
 from asp.solving import deciding, preparation
-from testbed.protocol.messages import Decision, Percept, Task
-from testbed.protocol.robot import Robot
+from testbed.protocol import Decision, Percept, Robot, Task
 
 _SECTIONS: Mapping[type[syntax.Statement], str] = {
     syntax.SortDefinition: "sorts",

@@ -18,8 +18,7 @@ from agents.intentional.controller import IntentionalRobot
 from agents.shared.knowledge import knowledge
 from asp.language import Description, Literal, Literals, complement
 from asp.solving import deciding
-from testbed.protocol.messages import Decision, Percept, Task
-from testbed.protocol.robot import Robot
+from testbed.protocol import Decision, Percept, Robot, Task
 
 
 class CheckingRobot:

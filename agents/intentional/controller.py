@@ -20,7 +20,7 @@ from agents.shared.relevance import goal_fluents, relevant_literals
 from agents.shared.timing import Phases
 from asp.language import is_positive
 from asp.solving import LimitError, deciding, preparation, reasoning_clock
-from testbed.protocol.messages import Decision, Event, Percept, Task, Trace
+from testbed.protocol import Decision, Event, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
 

@@ -19,7 +19,7 @@ from agents.shared.sessions import tools_of
 from asp.language import complement
 from asp.reasoning.diagnosis import Assumed
 from asp.solving import UNLIMITED, LimitError, Limits, State, deciding
-from testbed.protocol.messages import Contradiction, Event, Explanation, NoPlan
+from testbed.protocol import Contradiction, Event, Explanation, NoPlan
 
 MOST_ALTERNATIVES = 20
 

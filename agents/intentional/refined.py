@@ -16,8 +16,7 @@ from agents.intentional.executor.step_numbers import Calendar
 from asp.language import is_positive
 from asp.refinement import load
 from asp.solving import deciding, preparation, reasoning_clock
-from testbed.protocol.messages import Decision, Percept, Task, Trace
-from testbed.protocol.robot import Robot
+from testbed.protocol import Decision, Percept, Robot, Task, Trace
 
 _WAIT, _FINISH = "wait", "finish"
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from msgspec import structs
 
 from asp.language import renamed
-from testbed.protocol.messages import Contradiction, Decision, Event, Explanation, Trace
+from testbed.protocol import Contradiction, Decision, Event, Explanation, Trace
 
 Names = Mapping[str, str]
 

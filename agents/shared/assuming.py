@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from agents.shared.history import Diagnosis, History
 from asp.reasoning.diagnosis import Assumed, Record
-from testbed.protocol.messages import Event
+from testbed.protocol import Event
 
 
 def happened_under(record: Record, diagnosis: Diagnosis, step: int) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from agents.shared.knowledge import Knowledge
 from agents.shared.sessions import tools_of
 from asp.language import atom, complement, is_positive
 from asp.solving import State
-from testbed.protocol.messages import Contradiction, Event
+from testbed.protocol import Contradiction, Event
 
 
 class Contradicting:

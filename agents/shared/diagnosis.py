@@ -13,8 +13,7 @@ from agents.shared.history import Diagnosis, History
 from agents.shared.limits import SEARCH
 from asp.reasoning.diagnosis import Assumed, cannot_hold, conflict
 from asp.solving import BudgetError, current, fact, ground, preferring, select, theory, up_to
-from testbed.protocol.errors import RobotStops
-from testbed.protocol.messages import Event
+from testbed.protocol import Event, RobotStops
 
 _KEEP = clingo.Function("keep")
 _KEEP_INITIAL = clingo.Function("keep_initial")

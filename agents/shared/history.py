@@ -9,7 +9,7 @@ from clingo import Symbol
 
 from asp.language import atom, is_positive
 from asp.solving import fact
-from testbed.protocol.messages import Event
+from testbed.protocol import Event
 
 GOAL = "my_goal"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from asp.solving import Limits
-from testbed.protocol.messages import Task
+from testbed.protocol import Task
 
 SEARCH, BETTERING = 0.5, 0.75
 """The parts of a decision's conflicts by which a diagnosis has looked for the smallest explanation,

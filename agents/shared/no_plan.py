@@ -11,7 +11,7 @@ from collections.abc import Collection
 from agents.shared.knowledge import Knowledge
 from agents.shared.sessions import tools_of
 from asp.solving import UNLIMITED, LimitError, Limits, deciding
-from testbed.protocol.messages import NoPlan
+from testbed.protocol import NoPlan
 
 
 class GivingUp:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from msgspec import structs
 
 from asp.solving import Reading, reasoning_clock
-from testbed.protocol.messages import Trace
+from testbed.protocol import Trace
 
 
 @dataclass

@@ -20,7 +20,7 @@ from agents.traditional.incremental import KeptPlanner
 from agents.traditional.reference import Plan
 from asp.language import is_positive
 from asp.solving import LimitError, State, deciding, preparation, reasoning_clock
-from testbed.protocol.messages import Decision, Explanation, Percept, Task, Trace
+from testbed.protocol import Decision, Explanation, Percept, Task, Trace
 
 
 class Reasoner(Protocol):

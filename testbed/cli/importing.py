@@ -12,12 +12,10 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
-import testbed
-
 DISTRIBUTION = "intention-testbed"
 PACKAGES = ("asp", "agents")
 PATH_VARIABLE = "TESTBED_PATH"
-_ROOT = Path(testbed.__file__).resolve().parent.parent
+_ROOT = Path(__file__).resolve().parents[2]
 
 
 def displaced() -> str | None:

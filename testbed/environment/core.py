@@ -16,7 +16,7 @@ from testbed.environment.execution import Execution
 from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
 from testbed.environment.news import News, Played
 from testbed.environment.rules import Ending, Rules, Situation, Snapshot
-from testbed.protocol.messages import Event, Percept
+from testbed.protocol import Event, Percept
 from testbed.world import World
 
 Draw: TypeAlias = Callable[[np.random.Generator], int]

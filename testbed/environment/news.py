@@ -11,7 +11,7 @@ import numpy as np
 from asp.language import literals as text
 from testbed.environment.execution import Execution
 from testbed.environment.rules import Observability
-from testbed.protocol.messages import Event
+from testbed.protocol import Event
 from testbed.world import World
 
 

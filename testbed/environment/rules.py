@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, Literal
 
-from testbed.protocol.messages import Event
+from testbed.protocol import Event
 
 Mode = Literal["never", "colocated", "always"]
 

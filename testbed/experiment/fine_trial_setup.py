@@ -12,7 +12,7 @@ from testbed.experiment.game_rules import known, rules_of
 from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import Oracle
 from testbed.experiment.specs import FineSetting, Setting, TrialSpec
-from testbed.protocol.messages import Task
+from testbed.protocol import Task
 from testbed.world import world_of
 
 

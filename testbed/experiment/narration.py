@@ -10,7 +10,7 @@ from testbed.experiment.specs import Setting
 from testbed.experiment.trial import Moment
 from testbed.experiment.trial_setup import load_ground
 from testbed.experiment.wording import explanation
-from testbed.protocol.messages import FineTrace, Trace
+from testbed.protocol import FineTrace, Trace
 from testbed.world import World, world_of
 
 Say = Callable[[str], None]

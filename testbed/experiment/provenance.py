@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import asp
-import testbed
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
 from testbed.experiment.store import PROVENANCE, replace_text
@@ -22,7 +21,7 @@ from testbed.experiment.store import PROVENANCE, replace_text
 DISTRIBUTION = "intention-testbed"
 LIBRARIES = ("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic")
 DIFFERENCE = "difference.patch"
-ROOT = Path(testbed.__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Provenance:

@@ -9,8 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import msgspec
 
-from testbed.protocol.bounds import Count
-from testbed.protocol.messages import Minimality, NoPlan
+from testbed.protocol import Count, Minimality, NoPlan
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)

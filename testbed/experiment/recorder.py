@@ -21,8 +21,7 @@ from testbed.experiment.record import (
     TrialRecord,
 )
 from testbed.experiment.wording import listed
-from testbed.protocol.bounds import shortened
-from testbed.protocol.messages import Decision, Event, Explanation, FineTrace, NoPlan, Trace
+from testbed.protocol import Decision, Event, Explanation, FineTrace, NoPlan, Trace, shortened
 
 
 class Recorder:

@@ -17,7 +17,7 @@ from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_config, read_records
 from testbed.experiment.trial import Result, play_trial
 from testbed.experiment.wording import counted, in_words, of_place, place
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 
 def replay(folder: Path, trial: str, say: Say) -> bool:

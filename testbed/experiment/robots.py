@@ -14,7 +14,7 @@ from agents.intentional.refined import EitherRobot
 from agents.traditional import TraditionalRobot
 from agents.traditional.reference import Planner
 from asp.language import suggestion
-from testbed.protocol.robot import Robot
+from testbed.protocol import Robot
 
 ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "intentional": EitherRobot,

@@ -19,9 +19,8 @@ from testbed.experiment.store import ERRORS, TrialWriter, locked, naming
 from testbed.experiment.trial import Result, play_trial
 from testbed.experiment.worker import Play
 from testbed.experiment.worker_pool import play_all, workers_for
-from testbed.link.inprocess import InProcessRobot
-from testbed.link.spawned import spawned_robot
-from testbed.protocol.robot import RobotClient
+from testbed.link import connect
+from testbed.protocol import RobotClient
 
 
 @dataclass
@@ -135,11 +134,7 @@ def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
     Raises:
         RobotLost: when a robot of another process does not start.
     """
-    if link == "inprocess":
-        yield partial(_play_with, InProcessRobot(make_robot))
-        return
-    with spawned_robot(run, answer_s, group=os.getpgrp()) as robot:
-        robot.start()
+    with connect(link, make_robot, run, answer_s, group=os.getpgrp()) as robot:
         yield partial(_play_with, robot)
 
 

@@ -10,8 +10,7 @@ import zenoh
 
 from testbed.experiment.errors import ServingError
 from testbed.experiment.robots import make_robot
-from testbed.link.serve import serve, serve_forever
-from testbed.link.session import open_as_configured, open_waiting
+from testbed.link import open_as_configured, open_waiting, serve, serve_forever
 
 USUAL = "tcp/127.0.0.1:7447"
 """Where a router of zenoh listens unless told otherwise."""

@@ -17,10 +17,8 @@ from testbed.experiment.record import FineCounts, TrialRecord, check
 from testbed.experiment.recorder import FineRecorder, Recorder
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import load_stage
-from testbed.link.exchange import NOT_UNDERSTOOD, in_one_line
-from testbed.protocol.errors import RobotGone, RobotLost, RobotStopped
-from testbed.protocol.messages import Decision, Percept
-from testbed.protocol.robot import RobotClient
+from testbed.link import NOT_UNDERSTOOD, in_one_line
+from testbed.protocol import Decision, Percept, RobotClient, RobotGone, RobotLost, RobotStopped
 
 
 @dataclass(frozen=True)

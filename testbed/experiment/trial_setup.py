@@ -16,7 +16,7 @@ from testbed.experiment.game_rules import known, rules_of
 from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import minimal_actions, minimal_units
 from testbed.experiment.specs import Setting, TrialSpec
-from testbed.protocol.messages import Task
+from testbed.protocol import Task
 from testbed.world import World
 
 

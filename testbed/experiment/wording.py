@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from testbed.experiment.record import COARSE, Explained
-from testbed.protocol.messages import Explanation
+from testbed.protocol import Explanation
 
 
 def counted(number: int, noun: str) -> str:

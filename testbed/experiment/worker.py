@@ -20,8 +20,8 @@ from testbed.experiment.errors import WorkerError
 from testbed.experiment.processes import SIGNALS, interrupts_later, kill, safe_path
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import Result
-from testbed.link.exchange import in_one_line
-from testbed.protocol.errors import RobotLost
+from testbed.link import in_one_line
+from testbed.protocol import RobotLost
 
 Play = Callable[[TrialSpec], Result]
 OpenPlayer = Callable[[], AbstractContextManager[Play]]

@@ -5,10 +5,23 @@ driver's side (:func:`read_decision`) accepts nothing but the decision it asked 
 and over zenoh both are the same.
 """
 
-from testbed.protocol.bounds import MOST_BYTES, shortened
-from testbed.protocol.errors import LinkError, RobotLost, RobotStopped, RobotStops
-from testbed.protocol.messages import Decision, Percept, Question, Task, Trace, decode, encode
-from testbed.protocol.robot import Robot, RobotFactory
+from testbed.protocol import (
+    MOST_BYTES,
+    Decision,
+    LinkError,
+    Percept,
+    Question,
+    Robot,
+    RobotFactory,
+    RobotLost,
+    RobotStopped,
+    RobotStops,
+    Task,
+    Trace,
+    decode,
+    encode,
+    shortened,
+)
 
 NOT_UNDERSTOOD = "answer not understood"
 """How the reason begins where a robot is lost for the form of what it said."""

@@ -1,13 +1,24 @@
-"""A robot as a process of this machine, started and ended by its driver."""
+"""A robot as a process of this machine, started and ended by its driver, and a new one after it."""
 
 import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager
+from itertools import count
+
+import zenoh
+
+from testbed.link.remote import RemoteRobot
+from testbed.link.session import endpoint, open_driver
+from testbed.protocol import Decision, Percept, RobotGone, RobotLost, RobotStopped, Task
 
 COMMAND = (sys.executable, "-P", "-m", "testbed", "robot")
 """Nothing is imported from the working directory (-P)."""
+START_S = 60.0
+_GLANCE_S = 0.05
+_EXIT_S = 5.0
 
 
 class RobotProcess:
@@ -61,3 +72,104 @@ class RobotProcess:
         """End the process and let go of what it left."""
         self.kill()
         self._errors.close()
+
+
+@contextmanager
+def spawned_robot(
+    run: str, answer_s: float, command: Sequence[str] = COMMAND, group: int = 0
+) -> Iterator["SpawnedRobot"]:
+    """Open a driver's session of its own and yield a robot on it; ends the robot's process."""
+    with (
+        open_driver() as session,
+        closing(SpawnedRobot(session, run, answer_s, command, group)) as robot,
+    ):
+        yield robot
+
+
+class SpawnedRobot:
+    """A RobotClient whose robot process serves trial after trial until it is lost.
+
+    Whatever the loss, what is left of the process is ended with it, and the next trial begins
+    with a new one. ``answer_s`` is the answer limit in seconds; ``process`` is the present
+    process, None before the first trial and after a loss. ``command`` and ``group`` are those of
+    a :class:`RobotProcess`.
+    """
+
+    def __init__(
+        self,
+        session: zenoh.Session,
+        run: str,
+        answer_s: float,
+        command: Sequence[str] = COMMAND,
+        group: int = 0,
+    ) -> None:
+        self._session = session
+        self._run = run
+        self._answer_s = answer_s
+        self._command = command
+        self._group = group
+        self._names = (f"spawned-{number}" for number in count(1))
+        self._belongings = ExitStack()
+        self._remote: RemoteRobot | None = None
+        self.process: RobotProcess | None = None
+
+    def start(self) -> None:
+        """Have a process before there is a trial for it. Raises RobotLost."""
+        with self._ending_on_loss():
+            self._present()
+
+    def begin(self, task: Task) -> None:
+        """Prepare a trial, with a new process if there is none. Raises RobotLost."""
+        with self._ending_on_loss():
+            self._present().begin(task)
+
+    def ask(self, percept: Percept) -> Decision:
+        """Return the robot's decision. Raises RobotLost."""
+        with self._ending_on_loss():
+            if self._remote is None:
+                raise RobotGone("no robot since the last one was lost: begin a trial first")
+            return self._remote.ask(percept)
+
+    def close(self) -> None:
+        """End the process."""
+        self._belongings.close()
+        self._remote = self.process = None
+
+    def _present(self) -> RemoteRobot:
+        return self._remote or self._start()
+
+    def _start(self) -> RemoteRobot:
+        name = next(self._names)
+        process = RobotProcess(endpoint(self._session), name, self._command, self._group)
+        self.process = self._belongings.enter_context(closing(process))
+        remote = RemoteRobot(self._session, self._run, name, self._answer_s)
+        self._belongings.enter_context(closing(remote))
+        _await_start(process, remote)
+        self._remote = remote
+        return remote
+
+    @contextmanager
+    def _ending_on_loss(self) -> Iterator[None]:
+        try:
+            yield
+        except RobotStopped:
+            raise
+        except RobotLost as loss:
+            post_mortem = self._post_mortem(loss)
+            self.close()
+            raise post_mortem from loss
+
+    def _post_mortem(self, loss: RobotLost) -> RobotLost:
+        if self.process is None:
+            return loss
+        how = self.process.ending(_EXIT_S) if isinstance(loss, RobotGone) else None
+        return type(loss)(how or loss.reason, self.process.errors)
+
+
+def _await_start(process: RobotProcess, remote: RemoteRobot) -> None:
+    for _ in range(round(START_S / _GLANCE_S)):
+        if remote.wait(_GLANCE_S):
+            return
+        if process.ending() is not None:
+            raise RobotGone("robot ended before it was there")
+    raise RobotGone(f"robot did not start within {START_S:g} s")

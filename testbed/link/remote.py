@@ -11,8 +11,7 @@ import zenoh
 from testbed.link import keys
 from testbed.link.exchange import failed, read_decision
 from testbed.link.session import LEASE_S
-from testbed.protocol.errors import RobotGone, RobotLost
-from testbed.protocol.messages import Decision, Percept, Question, Task, encode
+from testbed.protocol import Decision, Percept, Question, RobotGone, RobotLost, Task, encode
 
 PRESENCE_S = 10.0
 _PIECE_S = 1.0

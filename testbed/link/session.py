@@ -10,11 +10,10 @@ it would keep the interpreter from ending.
 
 import json
 from pathlib import Path
+from threading import Lock, Thread, main_thread
 from typing import Any
 
 import zenoh
-
-from testbed.link.closing import close_at_exit
 
 LOOPBACK = "tcp/127.0.0.1:0"
 CONNECT_S = 10.0
@@ -32,6 +31,10 @@ _SECLUDED: dict[str, Any] = {
     "scouting/gossip/enabled": False,
     "transport/link/tx/lease": LEASE_S * 1000,
 } | _NO_SHARED_MEMORY
+
+_lock = Lock()
+_sessions: list[zenoh.Session] = []
+_waiting: list[Thread] = []
 
 
 def open_driver() -> zenoh.Session:
@@ -79,7 +82,7 @@ def open_as_configured(file: Path, also: str | None = None) -> zenoh.Session:
     if also is not None:
         stated = json.loads(config.get_json("connect/endpoints"))
         _insert(config, {"connect/endpoints": _with(also, stated)})
-    return close_at_exit(zenoh.open(config))
+    return _closed_at_exit(zenoh.open(config))
 
 
 def _with(endpoint: str, stated: Any) -> Any:
@@ -106,9 +109,28 @@ def _first_locator(description: str) -> str:
 def _open(settings: dict[str, Any]) -> zenoh.Session:
     config = zenoh.Config()
     _insert(config, _SECLUDED | settings)
-    return close_at_exit(zenoh.open(config))
+    return _closed_at_exit(zenoh.open(config))
 
 
 def _insert(config: zenoh.Config, settings: dict[str, Any]) -> None:
     for key, value in settings.items():
         config.insert_json5(key, json.dumps(value))
+
+
+def _closed_at_exit(session: zenoh.Session) -> zenoh.Session:
+    """Close the session, if it is still open then, after the main thread has ended."""
+    with _lock:
+        _sessions[:] = [known for known in _sessions if not known.is_closed()]
+        _sessions.append(session)
+        if not _waiting:
+            _waiting.append(Thread(target=_close_all, name="closing zenoh sessions"))
+            _waiting[0].start()
+    return session
+
+
+def _close_all() -> None:
+    main_thread().join()
+    with _lock:
+        for session in _sessions:
+            if not session.is_closed():
+                session.close()  # type: ignore[no-untyped-call]

@@ -13,7 +13,7 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_config, read_records, write_config
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 DOMAIN = load_world("office").description
 FIRST = ("library", "kitchen", "office2", "office1")

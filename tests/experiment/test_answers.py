@@ -12,8 +12,8 @@ from testbed.experiment.export import export
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.store import TrialWriter, read_records, write_config
 from testbed.experiment.trial import Result, play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Decision, Percept, Task
+from testbed.link import InProcessRobot
+from testbed.protocol import Decision, Percept, Task
 from tests.experiment.samples import Configure
 
 MANY = 10**6

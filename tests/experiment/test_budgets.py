@@ -16,7 +16,7 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord, logical
 from testbed.experiment.robots import ROBOTS, make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 HARBOUR = """
 sorts

@@ -17,9 +17,8 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.store import TrialWriter, read_records, write_config
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.errors import RobotGone, RobotStops
-from testbed.protocol.messages import Decision, Percept, Task
+from testbed.link import InProcessRobot
+from testbed.protocol import Decision, Percept, RobotGone, RobotStops, Task
 from testbed.studies.table1.analysis import analyse
 from testbed.studies.table1.pairing import pairs_of
 from tests.experiment.samples import Configure, a_level_record

@@ -18,7 +18,7 @@ from testbed.experiment.robots import make_robot
 from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import read_records, write_config
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 from testbed.report import write_report
 
 TESTBED = (sys.executable, "-m", "testbed")

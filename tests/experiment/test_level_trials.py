@@ -11,8 +11,8 @@ from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord, logical
 from testbed.experiment.trial import play_trial
 from testbed.experiment.trial_setup import load_ground, load_stage
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Decision, FineTrace, Percept, Task, Trace
+from testbed.link import InProcessRobot
+from testbed.protocol import Decision, FineTrace, Percept, Task, Trace
 from testbed.world import world_of
 
 SMALL = "level_sizes={small: {rooms: 2, rows: 1, columns: 2, objects: [[2, 2]]}}"

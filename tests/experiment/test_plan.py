@@ -10,7 +10,7 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 
 def _ids(*overrides: str, name: str = "office") -> list[str]:

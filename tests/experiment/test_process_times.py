@@ -16,8 +16,8 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Decision, Percept
+from testbed.link import InProcessRobot
+from testbed.protocol import Decision, Percept
 
 CPU_TIMES = ("planning_cpu_s", "diagnosis_cpu_s", "preparation_cpu_s")
 

@@ -5,7 +5,7 @@ import pytest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import ONLY_FINE, ROBOTS, STARTERS, make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 from tests.experiment.samples import Configure
 
 EVENT = "script=[{step: 1, action: 'exo_lock(library)'}]"

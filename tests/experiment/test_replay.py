@@ -12,8 +12,8 @@ from testbed.experiment.replay import list_trials, replay
 from testbed.experiment.robots import make_robot
 from testbed.experiment.store import TrialWriter, write_config
 from testbed.experiment.trial import Moment, play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Decision, Percept, Trace
+from testbed.link import InProcessRobot
+from testbed.protocol import Decision, Percept, Trace
 from testbed.world import World
 from tests.experiment.samples import Configure
 

@@ -22,8 +22,8 @@ from testbed.experiment.store import read_records
 from testbed.experiment.trial import Moment, Result, blank_record, play_trial
 from testbed.experiment.worker import Play
 from testbed.experiment.worker_pool import WORTH, play_all, workers_for
-from testbed.link.spawned import spawned_robot
-from testbed.protocol.robot import Robot
+from testbed.link import spawned_robot
+from testbed.protocol import Robot
 from tests.experiment.samples import Configure, ids
 
 pytestmark = pytest.mark.load

@@ -9,7 +9,7 @@ from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 BUSY = ["levels=[L1,L2,L3]", "limit=6", "adversary.rate=0.5"]
 Pair = tuple[list[Moment], list[Moment]]

@@ -10,8 +10,8 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Decision, Percept, Task, Trace
+from testbed.link import InProcessRobot
+from testbed.protocol import Decision, Percept, Task, Trace
 from tests.greenhouse import GREENHOUSE
 
 TEXT = """\

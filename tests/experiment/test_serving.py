@@ -13,8 +13,7 @@ import pytest
 import zenoh
 
 from testbed.experiment import serving
-from testbed.link.remote import RemoteRobot
-from testbed.link.session import endpoint, open_driver
+from testbed.link import RemoteRobot, endpoint, open_driver
 
 pytestmark = pytest.mark.load
 

@@ -7,9 +7,8 @@ import pytest
 
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.trial import play_trial
-from testbed.link.spawned import spawned_robot
-from testbed.protocol.messages import Decision, Percept, Task
-from testbed.protocol.robot import RobotClient
+from testbed.link import spawned_robot
+from testbed.protocol import Decision, Percept, RobotClient, Task
 from tests.experiment.samples import Configure
 
 pytestmark = pytest.mark.load

@@ -20,7 +20,7 @@ from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 robots = "robots=[intentional,intentional-plain,traditional]"
 specs = plan_trials(load_config("quickstart", [robots, "scenarios=[1,3]", "link=inprocess"])) * 2

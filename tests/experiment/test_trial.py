@@ -10,14 +10,14 @@ import pytest
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.trial import Moment, Result, play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.errors import RobotStops
-from testbed.protocol.messages import (
+from testbed.link import InProcessRobot
+from testbed.protocol import (
     Contradiction,
     Decision,
     Event,
     Explanation,
     Percept,
+    RobotStops,
     Task,
     Trace,
 )

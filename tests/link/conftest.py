@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from testbed.link.inprocess import InProcessRobot
-from testbed.link.spawned import SpawnedRobot, spawned_robot
-from testbed.protocol.robot import RobotClient
+from testbed.link import InProcessRobot, SpawnedRobot, spawned_robot
+from testbed.protocol import RobotClient
 from tests.link.scripted import COMMAND, PATIENCE_S, ScriptedRobot
 
 

@@ -14,9 +14,8 @@ from typing import Any
 
 import msgspec
 
-from testbed.link.serve import serve_forever
-from testbed.protocol.errors import RobotStops
-from testbed.protocol.messages import Decision, Percept, Task, Trace
+from testbed.link import serve_forever
+from testbed.protocol import Decision, Percept, RobotStops, Task, Trace
 
 COMMAND = (sys.executable, "-m", "tests.link.scripted")
 PATIENCE_S = 600.0

@@ -2,8 +2,7 @@
 
 import pytest
 
-from testbed.protocol.errors import RobotLost, RobotStopped
-from testbed.protocol.robot import RobotClient
+from testbed.protocol import RobotClient, RobotLost, RobotStopped
 from tests.link.scripted import percept, task
 
 pytestmark = [pytest.mark.load, pytest.mark.versions]

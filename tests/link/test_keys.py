@@ -3,10 +3,8 @@
 import pytest
 import zenoh
 
-from testbed.link import keys
-from testbed.link.session import open_driver
-from testbed.link.spawned import SpawnedRobot
-from testbed.protocol.messages import Decision, Question, decode, encode
+from testbed.link import SpawnedRobot, keys, open_driver
+from testbed.protocol import Decision, Question, decode, encode
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 pytestmark = pytest.mark.load

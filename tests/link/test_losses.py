@@ -9,11 +9,8 @@ from contextlib import ExitStack, closing, contextmanager
 import pytest
 import zenoh
 
-from testbed.link import keys
-from testbed.link.remote import RemoteRobot
-from testbed.link.session import endpoint, open_driver, open_robot
-from testbed.link.spawned import SpawnedRobot
-from testbed.protocol.errors import RobotGone, RobotLost
+from testbed.link import RemoteRobot, SpawnedRobot, endpoint, keys, open_driver, open_robot
+from testbed.protocol import RobotGone, RobotLost
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 pytestmark = pytest.mark.load

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from testbed.protocol.errors import LinkError
-from testbed.protocol.messages import (
+from testbed.protocol import (
     PROTOCOL_VERSION,
     Decision,
     Event,
     Explanation,
     FineTrace,
+    LinkError,
     Message,
     Percept,
     Question,

@@ -12,8 +12,7 @@ from pathlib import Path
 import pytest
 import zenoh
 
-from testbed.link.session import endpoint, open_driver
-from testbed.link.spawned import SpawnedRobot
+from testbed.link import SpawnedRobot, endpoint, open_driver
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 pytestmark = pytest.mark.load
@@ -37,7 +36,7 @@ with zenoh.open(config) as session:
 SHORTER_S = 8.0
 """An answer limit that is over before the witness is gone."""
 DRIVER = f"""
-from testbed.link.spawned import spawned_robot
+from testbed.link import spawned_robot
 from tests.link.scripted import COMMAND, percept, task
 
 with spawned_robot("run", {SHORTER_S}, COMMAND) as robot:

@@ -10,20 +10,24 @@ from contextlib import ExitStack, closing, contextmanager
 import pytest
 import zenoh
 
-from testbed.link import keys
-from testbed.link.process import RobotProcess
-from testbed.link.remote import RemoteRobot
-from testbed.link.session import endpoint, open_driver, open_robot
-from testbed.link.spawned import SpawnedRobot, spawned_robot
-from testbed.protocol.errors import RobotLost
-from testbed.protocol.messages import Decision, decode
+from testbed.link import (
+    RemoteRobot,
+    RobotProcess,
+    SpawnedRobot,
+    endpoint,
+    keys,
+    open_driver,
+    open_robot,
+    spawned_robot,
+)
+from testbed.protocol import Decision, RobotLost, decode
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
 pytestmark = pytest.mark.load
 
 DRIVER = """
 import sys
-from testbed.link.spawned import spawned_robot
+from testbed.link import spawned_robot
 from tests.link.scripted import percept, task
 from tests.link.scripted import COMMAND
 
@@ -34,8 +38,7 @@ with spawned_robot("run", 60, COMMAND) as robot:
 """
 LEFT_OPEN = """
 import sys
-from testbed.link.session import open_driver
-from testbed.link.spawned import SpawnedRobot
+from testbed.link import SpawnedRobot, open_driver
 from tests.link.scripted import COMMAND, percept, task
 
 session = open_driver()
@@ -46,8 +49,7 @@ print(robot.ask(percept()).step, flush=True)
 """
 HOST = """
 import time
-from testbed.link.remote import RemoteRobot
-from testbed.link.session import endpoint, open_driver
+from testbed.link import RemoteRobot, endpoint, open_driver
 from tests.link.scripted import percept, task
 
 with open_driver() as session:

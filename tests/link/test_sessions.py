@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import zenoh
 
-from testbed.link.session import open_as_configured, open_driver, open_robot, open_waiting
+from testbed.link import open_as_configured, open_driver, open_robot, open_waiting
 
 SHARED = "transport/shared_memory/enabled"
 ENDPOINT = "tcp/127.0.0.1:1"

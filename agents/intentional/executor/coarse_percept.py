@@ -9,7 +9,7 @@ from agents.intentional.executor.coarse_model import State
 from agents.intentional.executor.state import Mind
 from agents.intentional.executor.step_numbers import Calendar
 from asp.language import atom, complement
-from testbed.protocol.messages import Event, Percept
+from testbed.protocol import Event, Percept
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from agents.intentional.executor.state import Mind
 from asp.language import arguments, atom, complement, is_positive
 from asp.refinement import Transition, fine_goal, relevant
 from asp.solving import LimitError, deciding
-from testbed.protocol.messages import Percept
+from testbed.protocol import Percept
 
 Steps = Generator[str, Percept, bool]
 """Yields concrete actions, is sent the percepts after them, returns whether all went well."""

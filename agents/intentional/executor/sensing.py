@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from agents.intentional.executor.state import Mind
 from asp.language import arguments, atom, complement, is_positive
-from testbed.protocol.messages import Percept
+from testbed.protocol import Percept
 
 T = TypeVar("T")
 

@@ -12,7 +12,7 @@ from agents.shared.limits import limits_of
 from asp.language import arguments, atom, is_positive, name
 from asp.reasoning.fine_planning import FineStart, NoPlan
 from asp.refinement import Refinement, fine_constants
-from testbed.protocol.messages import Percept, Task
+from testbed.protocol import Percept, Task
 
 
 class Mind:

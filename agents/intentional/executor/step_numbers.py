@@ -7,7 +7,7 @@ from bisect import bisect_right
 
 from msgspec import structs
 
-from testbed.protocol.messages import Contradiction, Event, Explanation, Trace
+from testbed.protocol import Contradiction, Event, Explanation, Trace
 
 _STEP = re.compile(r"(?<=\bstep )\d+")
 

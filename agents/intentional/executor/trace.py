@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from msgspec import structs
 
 from asp.solving import Reading, reasoning_clock
-from testbed.protocol.messages import FineTrace
+from testbed.protocol import FineTrace
 
 
 class Tally:

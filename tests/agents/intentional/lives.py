@@ -9,8 +9,7 @@ from pathlib import Path
 from msgspec import structs
 
 from asp.language import load_description, read_domain
-from testbed.protocol.messages import Decision, Event, Percept, Task
-from testbed.protocol.robot import Robot
+from testbed.protocol import Decision, Event, Percept, Robot, Task
 from testbed.world import World, world_of
 
 

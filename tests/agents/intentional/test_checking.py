@@ -17,8 +17,7 @@ from agents.shared.sessions import Tools, tools_of
 from asp.language import parse_description
 from asp.solving import Recent
 from testbed.experiment.oracle import minimal_actions
-from testbed.protocol.messages import Task
-from testbed.protocol.robot import Robot
+from testbed.protocol import Robot, Task
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
     DOMAIN,

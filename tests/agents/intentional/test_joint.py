@@ -17,7 +17,7 @@ from agents.shared.knowledge import knowledge
 from testbed.config import load_config
 from testbed.experiment.runner import run_trials
 from testbed.experiment.store import read_records
-from testbed.protocol.messages import Event
+from testbed.protocol import Event
 from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_joint_lives import BesideAti
 

@@ -14,7 +14,7 @@ from agents.intentional.abstraction import Leaned, LeanRobot
 from agents.intentional.controller import IntentionalRobot
 from asp.domains.levels import level_text
 from asp.language import parse_description
-from testbed.protocol.messages import Decision, Event, Task
+from testbed.protocol import Decision, Event, Task
 from testbed.world import world_of
 from tests.agents.intentional.lives import OFFICE, Place, Wish, live
 

@@ -10,7 +10,7 @@ from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reference import Logician
 from asp.language import parse_description
-from testbed.protocol.messages import Decision
+from testbed.protocol import Decision
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
 from tests.agents.intentional.test_kept import Both

@@ -19,7 +19,7 @@ from agents.shared.knowledge import knowledge
 from agents.shared.sessions import tools_of
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.solving import Limits, ground, select, theory
-from testbed.protocol.messages import Decision, Event, Percept, Task
+from testbed.protocol import Decision, Event, Percept, Task
 from testbed.world import World, world_of
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_reports import CART

@@ -15,7 +15,7 @@ from agents.shared.knowledge import knowledge
 from agents.shared.sessions import Tools, tools_of
 from asp.language import MOST_TEXTS, Description, parse_description
 from asp.solving import Recent, Session
-from testbed.protocol.messages import Task
+from testbed.protocol import Task
 from tests.agents.intentional.lives import OFFICE, live
 
 T = TypeVar("T")

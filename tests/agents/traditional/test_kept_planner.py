@@ -14,7 +14,7 @@ from agents.shared.knowledge import Knowledge, knowledge
 from agents.traditional import TraditionalRobot
 from agents.traditional.incremental import KeptPlanner
 from agents.traditional.reference import Plan, Planner
-from testbed.protocol.messages import Event
+from testbed.protocol import Event
 from tests.agents.intentional import test_reports as cart
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,

@@ -19,7 +19,7 @@ from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, live
 
 START = WORLD.state(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"])

@@ -4,7 +4,7 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 
 
 def test_a_reported_lock_makes_it_plan_anew() -> None:

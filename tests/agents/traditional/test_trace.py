@@ -9,8 +9,8 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
-from testbed.link.inprocess import InProcessRobot
-from testbed.protocol.messages import Contradiction, Decision
+from testbed.link import InProcessRobot
+from testbed.protocol import Contradiction, Decision
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
 
 IN_THE_KITCHEN = ["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]

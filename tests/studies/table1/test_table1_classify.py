@@ -10,7 +10,7 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Activity, At, Attempt, Occurrence, TrialRecord
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
-from testbed.link.inprocess import InProcessRobot
+from testbed.link import InProcessRobot
 from testbed.studies.table1.classify import NOTHING_TO_DO, UNCLASSIFIED, classify, state_at
 from tests.experiment.samples import a_record
 

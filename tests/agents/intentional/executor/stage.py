@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 
 from asp.language import complement, name
 from asp.refinement import Refinement
-from testbed.protocol.messages import Decision, Event, FineTrace, Percept, Task
-from testbed.protocol.robot import Robot
+from testbed.protocol import Decision, Event, FineTrace, Percept, Robot, Task
 from testbed.world import sensing_of, world_of
 
 Nth = tuple[str, int]

@@ -15,7 +15,7 @@ from asp.domains.levels import level_text
 from asp.language import read_domain
 from asp.refinement import Refinement, load
 from asp.solving.budget import OUT_OF_TIME, TimeLimitError
-from testbed.protocol.messages import Task
+from testbed.protocol import Task
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
 
 GOAL = ["loc(object1,room2)", "-in_hand(rob1,object1)"]

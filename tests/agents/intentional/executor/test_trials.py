@@ -12,7 +12,7 @@ from asp.domains.levels import LEVELS, level_text
 from asp.language import complement, read_domain
 from asp.refinement import load, read_refinement
 from testbed.environment import Ending, Observability, RandomStart, Rules, fine_core
-from testbed.protocol.messages import FineTrace, Task
+from testbed.protocol import FineTrace, Task
 from testbed.world import world_of
 
 STATISTICS = {"fine_move": 0.85, "test_fine_loc": 0.9}

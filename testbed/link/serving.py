@@ -9,7 +9,7 @@ import zenoh
 from testbed.link import keys
 from testbed.link.exchange import Desk, in_one_line
 from testbed.link.session import open_robot
-from testbed.protocol.robot import RobotFactory
+from testbed.protocol import RobotFactory
 
 
 def serve_forever(

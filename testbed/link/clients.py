@@ -1,10 +1,12 @@
-"""A robot in the driver's own process: no zenoh, the same messages."""
+"""Robots as their driver holds them, in its own process or in one of theirs."""
 
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from testbed.link.exchange import Desk, failed, in_one_line, read_decision
-from testbed.protocol.messages import Decision, Percept, Question, Task, encode
-from testbed.protocol.robot import RobotFactory
+from testbed.link.process import spawned_robot
+from testbed.protocol import Decision, Percept, Question, RobotClient, RobotFactory, Task, encode
 
 
 class InProcessRobot:
@@ -36,3 +38,21 @@ class InProcessRobot:
             return self._desk.answer(question)
         except Exception as error:
             raise failed(in_one_line(error), traceback.format_exc()) from error
+
+
+@contextmanager
+def connect(
+    link: str, make_robot: RobotFactory, run: str, answer_s: float, group: int = 0
+) -> Iterator[RobotClient]:
+    """Yield a robot that plays trial after trial; ends its process, if it has one.
+
+    It is in this process (``link`` is ``"inprocess"``), made by ``make_robot``, or in a process of
+    its own, in the process group ``group``, with ``answer_s`` seconds for an answer
+    (``"zenoh"``). Raises RobotLost when that does not start.
+    """
+    if link == "inprocess":
+        yield InProcessRobot(make_robot)
+        return
+    with spawned_robot(run, answer_s, group=group) as robot:
+        robot.start()
+        yield robot
