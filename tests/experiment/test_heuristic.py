@@ -15,7 +15,7 @@ from testbed.experiment import oracle
 from testbed.experiment.domains import load_world
 from testbed.experiment.heuristic import Potentials, blind
 from testbed.experiment.runner import run_trials
-from testbed.world.compiled.world import World
+from testbed.world import World, world_of
 from tests.experiment.gardens import GARDEN
 from tests.world.test_world_random import HEADER, laws
 
@@ -229,7 +229,7 @@ def test_from_every_state_of_the_office_the_least_is_the_same(goal: tuple[str, .
 def test_where_things_go_along_the_heuristic_is_consistent(
     text: str, goal: tuple[str, ...]
 ) -> None:
-    world = World(parse_description(text))
+    world = world_of(parse_description(text))
     for costs in measures(world):
         check(world, goal, costs, 40)
 
@@ -241,7 +241,7 @@ def test_in_a_random_world_the_heuristic_is_consistent(
 ) -> None:
     text = HEADER + "\n".join(f"  {law}" for law in drawn) + "\n"
     try:
-        world = World(parse_description(text + "initially\n  h(T) for some T.\n" * initially))
+        world = world_of(parse_description(text + "initially\n  h(T) for some T.\n" * initially))
     except SourceError as error:  # a fluent defined through its own negation
         assume("defined through its own negation" not in str(error))
         raise
@@ -256,7 +256,7 @@ def test_in_a_random_world_the_heuristic_is_consistent(
 def test_what_is_too_much_to_enumerate_is_searched_without(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    world = World(parse_description(CARTS))
+    world = world_of(parse_description(CARTS))
     start, goal, (costs, _) = next(world.states()), ("at(jar,gate)",), measures(world)
     assert Potentials(world.description).heuristic(start, goal, costs) is not blind
     monkeypatch.setattr("testbed.experiment.heuristic.changes.MOST_CHANGES", 3)
