@@ -40,7 +40,7 @@ def shortest_plan(
 
     Raises BudgetError where more than `most_states` states would have to be expanded.
     """
-    alike = dict.fromkeys(world.agent_actions, 1)
+    alike: dict[str, int] = dict.fromkeys(world.agent_actions, 1)
     return _cheapest(world, initial, goal, alike, most_states)
 
 
