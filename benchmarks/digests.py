@@ -21,11 +21,11 @@ from rich.console import Console
 from benchmarks.digests_page import page
 from benchmarks.killing import killed_at
 from benchmarks.sheets import Row, Sheet, gathered, show
-from testbed.config import ConfigError, load_config
+from testbed.cli.loading import load
+from testbed.config import ConfigError
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES
-from testbed.experiment.robots import known_robots
 from testbed.experiment.store import PROVENANCE, read_records
 
 SAME, DIFFERENT, BAD_INPUT = 0, 1, 2
@@ -87,7 +87,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _sheet(config: str, overrides: Sequence[str], folder: Path) -> Sheet:
-    planned = len(plan_trials(load_config(config, overrides, known_robots)))
+    planned = len(plan_trials(load(config, overrides)))
     name = Path(config).stem
     return Sheet(name, name, gathered(_rows(config, overrides, folder / name, planned)))
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from benchmarks.memory import resident_mb
 from benchmarks.sheets import Row, Sheet, gathered
-from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.robots import known_robots
+from testbed.cli.loading import load
+from testbed.config import ExperimentConfig
 from testbed.experiment.runner import Tally, run_trials
 
 TRIALS = {"small": 120, "full": 20_000}
@@ -25,7 +25,7 @@ PAIRS = {"small": 2, "full": 100}  # of each scenario of the published compariso
 
 def main(size: str) -> list[Sheet]:
     """Sheets `driver` (memory after so many trials) and `workers` (trials a second)."""
-    compared = load_config("table1", [f"limit={PAIRS[size]}"], known_robots)
+    compared = load("table1", [f"limit={PAIRS[size]}"])
     return [
         Sheet(
             "driver",
@@ -54,7 +54,7 @@ def configuration(trials: int) -> ExperimentConfig:
         f"repeats={repeats}",
         f"limit={limit}",
     ]
-    return load_config("office", overrides, known_robots)
+    return load("office", overrides)
 
 
 def _soak(config: ExperimentConfig) -> Iterator[Row]:

@@ -18,9 +18,7 @@ from typing import TypeAlias
 
 from asp import load_description
 from asp.language import suggestion
-from testbed.config import ConfigError, ExperimentConfig, load_config
-from testbed.config.grounds import grounds
-from testbed.config.keys import lists_keys
+from testbed.config import ConfigError, ExperimentConfig, grounds, lists_keys, load_config
 from testbed.environment import (
     AECView,
     Core,

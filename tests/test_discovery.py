@@ -12,8 +12,7 @@ import pytest
 
 import testbed
 from testbed import office_v0
-from testbed.config import ConfigError, load_config
-from testbed.config.models import ExperimentConfig, Limits
+from testbed.config import ConfigError, ExperimentConfig, Limits, load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial

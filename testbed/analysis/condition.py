@@ -5,8 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from asp.language import read_domain
-from testbed.config import ExperimentConfig, load_config
-from testbed.config.models import RANDOM_RATE, Observability, ScenarioSettings
+from testbed.config import (
+    RANDOM_RATE,
+    ExperimentConfig,
+    Observability,
+    ScenarioSettings,
+    load_config,
+)
 from testbed.experiment.wording import in_words, listed
 
 NO_RESULT = {"answer_s"}

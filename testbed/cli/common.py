@@ -49,8 +49,9 @@ def say(line: str) -> None:
 def input_errors() -> Iterator[None]:
     """Turn what a user can get wrong into one line per error and the exit code for it."""
     from asp.language import SourceError
-    from testbed.config.errors import ConfigError
+    from testbed.config import ConfigError
     from testbed.experiment.errors import ServingError, StoreError, WorkerError
+    from testbed.registry import RegistryError
 
     try:
         yield
@@ -58,7 +59,7 @@ def input_errors() -> Iterator[None]:
         refuse(map(str, error.all))
     except ConfigError as error:
         refuse(error.lines)
-    except (StoreError, ServingError, WorkerError) as error:
+    except (StoreError, ServingError, WorkerError, RegistryError) as error:
         refuse(str(error).split("\n"))
     except UnicodeDecodeError as error:
         refuse([f"not a text file in UTF-8: {error.reason} at byte {error.start}"])

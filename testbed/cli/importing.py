@@ -1,20 +1,16 @@
-"""Which packages are imported: ours, whatever the working directory holds, and those of users last.
+"""Whether the packages that are imported are ours, whatever the working directory holds.
 
-A process that `testbed` starts imports nothing from the working directory (`-P`). The folder of a
-configuration is searched after everything else; its robots find it by the variable `PATH_VARIABLE`.
+A process that `testbed` starts imports nothing from there (`-P`).
 """
 
 from __future__ import annotations
 
 import importlib.metadata
-import os
-import sys
 from importlib.util import find_spec
 from pathlib import Path
 
 DISTRIBUTION = "intention-testbed"
 PACKAGES = ("asp", "agents")
-PATH_VARIABLE = "TESTBED_PATH"
 _ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -41,16 +37,3 @@ def _owner(name: str) -> str:
     owners = importlib.metadata.packages_distributions().get(name, [])
     others = sorted({owner for owner in owners if owner != DISTRIBUTION})
     return f", but of {', '.join(others)}" if others else ""
-
-
-def search_last(folder: Path) -> None:
-    """Let this process, and those that it starts, import from a folder after everything else."""
-    os.environ[PATH_VARIABLE] = str(folder)
-    search_as_told()
-
-
-def search_as_told() -> None:
-    """As `search_last`, with the folder that the process that started this one has told it."""
-    folder = os.environ.get(PATH_VARIABLE)
-    if folder and folder not in sys.path:
-        sys.path.append(folder)

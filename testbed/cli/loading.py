@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from testbed.cli.importing import search_last
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.robots import STARTERS, known_robots
+from testbed.experiment.provenance import modules_of
+from testbed.experiment.robots import robot_findings
+from testbed.registry import search_last
+
+CHECKS = (robot_findings,)
+"""Of what a configuration calls by name."""
 
 
 def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
@@ -15,7 +19,12 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
 
     What lies beside the file can be imported from then on, but nothing in the place of ours.
     """
-    config = load_config(source, overrides, known_robots, starters=STARTERS)
     if Path(source).is_file():
-        search_last(Path(source).resolve().parent)
-    return config
+        search_beside(Path(source))
+    return load_config(source, overrides, CHECKS)
+
+
+def search_beside(config: Path) -> None:
+    """Let modules be found that lie beside a configuration; of a stored one where those lay."""
+    folder = config.resolve().parent
+    search_last(modules_of(folder) or folder)

@@ -1,7 +1,54 @@
 """Configurations: YAML with dotted overrides in, a validated `ExperimentConfig` out."""
 
-from testbed.config.errors import ConfigError
-from testbed.config.loading import load_config
-from testbed.config.models import ExperimentConfig
+from testbed.config.checking import Check
+from testbed.config.composing import write_yaml
+from testbed.config.keys import lists_keys
+from testbed.config.levels import (
+    SCENARIO_KEYS,
+    Ground,
+    ground_of_files,
+    ground_of_size,
+    grounds,
+    level_size,
+)
+from testbed.config.loading import config_names, find_config, load_config
+from testbed.config.models import (
+    JUDGE_STATES,
+    RANDOM_RATE,
+    AdversarySettings,
+    ExperimentConfig,
+    Limits,
+    Observability,
+    Pace,
+    ScenarioSettings,
+    ScriptEntry,
+)
+from testbed.config.places import ConfigError, Finding
+from testbed.config.scenarios import early_script_findings
 
-__all__ = ["ConfigError", "ExperimentConfig", "load_config"]
+__all__ = [
+    "JUDGE_STATES",
+    "RANDOM_RATE",
+    "SCENARIO_KEYS",
+    "AdversarySettings",
+    "Check",
+    "ConfigError",
+    "ExperimentConfig",
+    "Finding",
+    "Ground",
+    "Limits",
+    "Observability",
+    "Pace",
+    "ScenarioSettings",
+    "ScriptEntry",
+    "config_names",
+    "early_script_findings",
+    "find_config",
+    "ground_of_files",
+    "ground_of_size",
+    "grounds",
+    "level_size",
+    "lists_keys",
+    "load_config",
+    "write_yaml",
+]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import asp
@@ -10,29 +10,33 @@ from asp import Description
 from asp.language import SourceError, atom, check_one_robot, complement, read_domain, suggestion
 from asp.reasoning.diagnosis import cannot_hold, never_together
 from asp.translation import translate
-from testbed.config.errors import ConfigError
-from testbed.config.grounds import grounds
-from testbed.config.levels import ground_findings, map_findings, settings_findings
-from testbed.config.lines import lines_of, lines_of_the_domain, lines_of_the_map, without_left_out
+from testbed.config.levels import ground_findings, grounds, map_findings, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings
-from testbed.config.places import Key, Places
-from testbed.config.scenarios import scenario_findings, scenarios_of
-from testbed.config.scripts import first_step_findings, script_findings
-from testbed.config.words import NO_ROBOT, Finding, unknown_atom
+from testbed.config.places import (
+    NO_ROBOT,
+    ConfigError,
+    Finding,
+    Key,
+    Places,
+    lines_of,
+    lines_of_the_domain,
+    lines_of_the_map,
+    unknown_atom,
+    without_left_out,
+)
+from testbed.config.scenarios import scenario_findings, scenarios_of, script_findings
 from testbed.world import StateError, world_of
 
-Robots = Callable[[bool], Collection[str]]
-"""The robots that may be asked for, at the fine resolution or at the coarse one."""
+Check = Callable[[ExperimentConfig], Iterable[Finding]]
+"""Finds what is wrong with a configuration for those who use it, such as its robots."""
 
 
-def check(
-    config: ExperimentConfig, places: Places, robots: Robots | None, starters: Collection[str]
-) -> None:
+def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> None:
     """Raise ConfigError with a line for everything in `config` that its domain does not allow.
 
-    `starters`: as for `load_config`.
+    `checks` are further ones, which do not need the domain.
     """
-    findings = [*_twice(config), *_robots(config, robots), *first_step_findings(config, starters)]
+    findings = [*_twice(config), *(found for own in checks for found in own(config))]
     if config.is_fine:
         lines = [*lines_of(findings, places), *_of_the_levels(config, places)]
     else:
@@ -116,21 +120,6 @@ def _twice(config: ExperimentConfig) -> Iterator[Finding]:
         for index, name in enumerate(names):
             if name in names[:index]:
                 yield (key, index), f"'{name}' is listed twice; keep one of the two"
-
-
-def _robots(config: ExperimentConfig, robots: Robots | None) -> Iterator[Finding]:
-    if robots is None:
-        return
-    known, others = robots(config.is_fine), robots(not config.is_fine)
-    for index, kind in enumerate(config.robots):
-        if kind in known:
-            continue
-        resolution = "fine" if config.is_fine else "coarse"
-        what = f"'{kind}' does not act at the {resolution} resolution; robots that do: "
-        if kind in others:
-            yield ("robots", index), what + ", ".join(known)
-        else:
-            yield ("robots", index), f"unknown robot '{kind}'; {suggestion(kind, known)}"
 
 
 def _observability(config: ExperimentConfig, description: Description) -> Iterator[Finding]:

@@ -1,19 +1,62 @@
-"""Check what a configuration says of trials at the fine resolution, against each of its levels."""
+"""The levels of a configuration: their descriptions, and whether its settings fit these."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache
 from itertools import islice, product
 from pathlib import Path
 
-from asp.domains.levels import LEVELS
-from asp.language import Signature, atom, literals, suggestion
-from asp.refinement import Refinement, refined_name
+from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.language import Signature, atom, literals, read_domain, suggestion
+from asp.refinement import Refinement, load, read_refinement, refined_name
 from testbed.config.models import Drawing, ExperimentConfig
-from testbed.config.places import Key
-from testbed.config.scripts import moment_findings
-from testbed.config.words import NO_ROBOT, Finding, unknown_atom
+from testbed.config.places import NO_ROBOT, Finding, Key, unknown_atom
+from testbed.config.scenarios import moment_findings
 from testbed.world import StateError, world_of
+
+
+@dataclass(frozen=True)
+class Ground:
+    """A refinement and the text that it was read from, beside the coarse one."""
+
+    refinement: Refinement
+    text: str
+
+
+def grounds(config: ExperimentConfig) -> Iterator[tuple[str, Ground]]:
+    """The levels of a configuration by name; a map of one's own is called as its file is.
+
+    Raises SourceError for a mistake in a map's texts, OSError where one cannot be read.
+    """
+    if config.refinement is not None:
+        yield Path(config.refinement).stem, ground_of_files(config.domain, config.refinement)
+    for name in config.levels:
+        yield name, ground_of_size(level_size(config, name))
+
+
+def level_size(config: ExperimentConfig, name: str) -> LevelSize:
+    """The size of a published level, or of one of the configuration's own. Raises KeyError."""
+    if name in LEVELS:
+        return LEVELS[name]
+    own = config.level_sizes[name]
+    return LevelSize(own.rooms, own.rows, own.columns, own.objects)
+
+
+@cache
+def ground_of_size(size: LevelSize) -> Ground:
+    """The generated level of a size."""
+    coarse, fine = level_text(size.rooms, size.rows, size.columns, size.objects)
+    return Ground(load(coarse, "level.al", fine, "level.fine"), fine)
+
+
+def ground_of_files(domain: str, refinement: str) -> Ground:
+    """A domain and its refinement, by names or paths. Raises SourceError and OSError."""
+    file, text = read_domain(domain)
+    fine_file, fine = read_refinement(refinement)
+    return Ground(load(text, file, fine, fine_file), fine)
+
 
 MOST_CELLS = 20_000
 """Of a level, and parts of its objects."""

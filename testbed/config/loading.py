@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +13,10 @@ from pydantic_core import ErrorDetails
 
 import asp
 from asp.language import suggestion
-from testbed.config.checking import Robots, check
+from testbed.config.checking import Check, check
 from testbed.config.composing import compose
-from testbed.config.errors import ConfigError
 from testbed.config.models import ExperimentConfig, Section
-from testbed.config.packaged import find_config
-from testbed.config.places import Key, Places
+from testbed.config.places import ConfigError, Key, Places
 from testbed.config.scenarios import with_scenarios
 
 LONGEST = 80
@@ -42,17 +40,14 @@ FINE_KEYS = ("levels", "level_sizes", "refinement", "draw", "statistics")
 def load_config(
     source: str | Path,
     overrides: Sequence[str] = (),
-    robots: Robots | None = None,
+    checks: Sequence[Check] = (),
     given_in: str = "command line",
-    starters: Collection[str] = (),
 ) -> ExperimentConfig:
     """The validated configuration of a file or a packaged name, with dotted overrides applied.
 
     A `domain` given as a path, and a `refinement`, are taken relative to the configuration, and
-    are absolute in the answer. `robots`, where given, says which kinds of robot may be asked
-    for. `given_in` is what errors call the place of the overrides. `starters` are the robots that
-    never act on the world at step 1, so that a script cannot have an event there beside them unless
-    `exogenous_while_thinking`.
+    are absolute in the answer. `checks` are those of what the configuration calls by name, such
+    as its robots. `given_in` is what errors call the place of the overrides.
 
     Raises:
         ConfigError: one line an error, each with its place and what would be right.
@@ -61,7 +56,7 @@ def load_config(
     places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
     composed = compose(text, overrides, places)
     config = _located(_validate(composed, places), path)
-    check(config, places, robots, starters)
+    check(config, places, checks)
     if config.is_fine:
         return config
     return with_scenarios(config, asp.load_description(config.domain).scenarios)
@@ -172,3 +167,38 @@ def _beside(path: Path, file: str) -> str:
     """The file beside the configuration or here; a packaged one keeps its bare name."""
     found = (candidate for candidate in (path.parent / file, Path(file)) if candidate.is_file())
     return str(next((candidate.resolve() for candidate in found), file))
+
+
+SUFFIX = ".yaml"
+
+
+def config_folder() -> Path:
+    """The folder of the packaged configurations.
+
+    A wheel carries them inside the package; a checkout keeps them beside it.
+    """
+    package = Path(__file__).resolve().parent.parent
+    inside = package / "configs"
+    return inside if inside.is_dir() else package.parent / "configs"
+
+
+def config_names() -> list[str]:
+    """Names under which a packaged configuration can be asked for, sorted."""
+    return sorted(path.stem for path in config_folder().glob("*" + SUFFIX))
+
+
+def find_config(source: str | Path) -> Path:
+    """Path of a configuration given by path or by bare name (`quickstart`).
+
+    Raises:
+        FileNotFoundError: with one line that names the nearest packaged configurations.
+    """
+    path = Path(source)
+    if path.is_file():
+        return path
+    if path.is_dir():
+        raise FileNotFoundError(f"{source}: is a folder; a configuration is a {SUFFIX} file")
+    packaged = config_folder() / (path.name + SUFFIX)
+    if path.name == str(source) and packaged.is_file():
+        return packaged
+    raise FileNotFoundError(f"{source}: no such file; {suggestion(path.stem, config_names())}")

@@ -12,9 +12,9 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from testbed import environment
+from testbed.protocol import Knowledge
 
 LinkKind = Literal["zenoh", "inprocess"]
-KnowledgeKind = Literal["complete", "seen"]
 Strategy = Literal["triggers", "random"]
 Pace = Literal["concrete", "abstract"]
 ScriptPolicy = Literal["error", "skip"]
@@ -213,7 +213,7 @@ class ExperimentConfig(Section):
     repeats: Count = 1
     limit: Count | None = None
     link: LinkKind = "zenoh"
-    knowledge: KnowledgeKind = "complete"
+    knowledge: Knowledge = "complete"
     observability: dict[str, Observability] = Field(default_factory=dict)
     goal_feedback: Flag = True
     exogenous_while_thinking: Flag = False
@@ -243,6 +243,12 @@ class ExperimentConfig(Section):
     def has_random_events(self) -> bool:
         """Whether scenarios without a script have random events in place of triggers."""
         return not self.is_fine and self.adversary.strategy == "random"
+
+    @property
+    def gives_goal_feedback(self) -> bool:
+        """Whether in every scenario a robot is told that it finished without its goal."""
+        own = (settings.goal_feedback for settings in self.scenario_settings.values())
+        return self.goal_feedback and False not in own
 
     def rules_of_news(self) -> dict[str, environment.Observability]:
         """`observability` as the environment has it, by the name of the exogenous action."""

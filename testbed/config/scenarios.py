@@ -1,12 +1,13 @@
-"""Which scenarios a configuration plays, and whether there are such scenarios."""
+"""Check which scenarios a configuration plays, and its scripts: what they name, and when."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
+from asp import Description
 from asp.language import suggestion
-from testbed.config.models import NONE, ExperimentConfig, ScenarioSettings
-from testbed.config.words import Finding
+from testbed.config.models import NONE, ExperimentConfig, ScenarioSettings, ScriptEntry
+from testbed.config.places import Finding, Key, unknown_atom
 
 SCRIPT, RANDOM = "script", "random"
 """Names of the one scenario of a run without scenarios that has a script, or random events."""
@@ -60,3 +61,69 @@ def _what_is_known(name: str, known: Collection[str]) -> str:
         "the domain has no scenarios: with 'scenarios: none' nothing exogenous happens, with "
         "'adversary.strategy: random' events are drawn, and a script may have any name"
     )
+
+
+MOMENTS = {"step": "step", "at_action": "action of the robot"}
+"""The keys that say when an entry happens, and what they count."""
+
+
+def script_findings(
+    key: Key, entries: Sequence[ScriptEntry], description: Description
+) -> Iterator[Finding]:
+    """Entries that the domain does not know, or of which it is not clear when they happen."""
+    known = description.exogenous_actions
+    for index, entry in enumerate(entries):
+        if entry.action not in known:
+            yield (*key, index, "action"), unknown_atom(entry.action, known, "exogenous action")
+    yield from moment_findings(key, entries)
+
+
+def moment_findings(key: Key, entries: Sequence[ScriptEntry]) -> Iterator[Finding]:
+    """Entries without a moment or with two, and moments that have two entries."""
+    for index, entry in enumerate(entries):
+        given = {name: getattr(entry, name) for name in MOMENTS if getattr(entry, name) is not None}
+        if len(given) != 1:
+            yield (*key, index), "give the entry one of step and at_action"
+        for name, number in given.items():
+            if any(getattr(earlier, name) == number for earlier in entries[:index]):
+                what = f"{MOMENTS[name]} {number} has an action already; one a {MOMENTS[name]}"
+                yield (*key, index, name), what
+
+
+def early_script_findings(
+    config: ExperimentConfig, first_action_steps: Mapping[str, int]
+) -> Iterator[Finding]:
+    """Entries before a listed robot acts on the world: all of its trials would end in error.
+
+    Nothing exogenous happens while a robot waits. `first_action_steps` are, by the robot's name,
+    the first step at which it may act; no later step is certain beforehand.
+    """
+    if config.script_policy == "skip" or not first_action_steps:
+        return
+    robot, first = max(first_action_steps.items(), key=lambda item: item[1])
+    for key, entries in dict(_closed_scripts(config)).items():
+        for index, entry in enumerate(entries):
+            if entry.step is not None and entry.step < first:
+                yield (
+                    (*key, index, "step"),
+                    f"at step {entry.step} the robot '{robot}' does not act on the world yet, when "
+                    "nothing exogenous happens; give a later step, or "
+                    "exogenous_while_thinking: true",
+                )
+
+
+def _closed_scripts(config: ExperimentConfig) -> Iterator[tuple[Key, tuple[ScriptEntry, ...]]]:
+    """By their keys the scripts that are played where nothing happens while the robot waits."""
+    for scenario in _played(config):
+        settings = config.settings(scenario)
+        if settings.script and not settings.exogenous_while_thinking:
+            own = config.scenario_settings.get(scenario)
+            shared = own is None or own.script is None
+            yield (() if shared else ("scenario_settings", scenario)) + ("script",), settings.script
+
+
+def _played(config: ExperimentConfig) -> tuple[str, ...]:
+    """The scenarios that a script may be played in; without a name, where all have the same."""
+    if config.scenarios:
+        return config.scenarios
+    return ("",) if config.script is not None else tuple(config.scenario_settings)

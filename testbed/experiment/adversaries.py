@@ -8,7 +8,7 @@ from agents.adversary.base import Adversary, AdversaryView
 from agents.adversary.random import Random
 from agents.adversary.scripted import Script, Triggered
 from asp import Description
-from testbed.config.models import RANDOM_RATE
+from testbed.config import RANDOM_RATE
 from testbed.experiment.specs import Setting, TrialSpec
 
 __all__ = ["Adversary", "AdversaryView", "make_adversary"]

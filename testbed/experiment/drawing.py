@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from asp.refinement import Refinement
-from testbed.config.models import ExperimentConfig
+from testbed.config import ExperimentConfig
 from testbed.environment import RandomGoal, RandomStart
 from testbed.world import world_of
 

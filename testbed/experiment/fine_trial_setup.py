@@ -5,7 +5,7 @@ from __future__ import annotations
 from agents.adversary.base import Adversary
 from agents.adversary.random import Random
 from asp.language import arguments, complement
-from testbed.config.grounds import Ground
+from testbed.config import Ground
 from testbed.environment import Core, fine_core
 from testbed.experiment.adversaries import script_of
 from testbed.experiment.game_rules import known, rules_of

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import msgspec
 
-from testbed.config.grounds import grounds, level_size
-from testbed.config.models import ExperimentConfig
+from testbed.config import ExperimentConfig, grounds, level_size
 from testbed.experiment.drawing import Drawing
 from testbed.experiment.specs import (
     FineSetting,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from testbed.config.models import ExperimentConfig
+from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
 from testbed.experiment.level_plan import level_specs
 from testbed.experiment.record import COARSE

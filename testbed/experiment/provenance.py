@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import json
+import os
 import platform
 import subprocess
 import sys
@@ -17,6 +18,7 @@ import asp
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
 from testbed.experiment.store import PROVENANCE, replace_text
+from testbed.registry import PATH_VARIABLE
 
 DISTRIBUTION = "intention-testbed"
 LIBRARIES = ("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic")
@@ -40,6 +42,7 @@ class Provenance:
             "revision": revision(folder),
             "domain": _domain(config.domain),
             "refinement": _refinement(config.refinement),
+            "modules": os.environ.get(PATH_VARIABLE) or None,
             "before": _sessions(folder / PROVENANCE),
         }
         self._write()
@@ -51,6 +54,13 @@ class Provenance:
 
     def _write(self) -> None:
         replace_text(self._folder / PROVENANCE, json.dumps(self._entry, indent=2) + "\n")
+
+
+def modules_of(folder: Path) -> Path | None:
+    """The folder that was searched for modules of a run's own; None where that is not known."""
+    sessions = _sessions(folder / PROVENANCE)
+    found = next((own["modules"] for own in reversed(sessions) if own.get("modules")), None)
+    return Path(found) if isinstance(found, str) else None
 
 
 def versions() -> dict[str, str]:

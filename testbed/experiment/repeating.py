@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from asp.language import Description, Trigger
-from testbed.config.models import ExperimentConfig
+from testbed.config import ExperimentConfig
 
 
 def repeats_of(config: ExperimentConfig, scenario: str, description: Description) -> int:

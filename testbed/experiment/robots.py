@@ -1,51 +1,91 @@
-"""The robots that can be asked for, by the name that configurations and records give them."""
+"""The robots that can be asked for, and whether they can do what a configuration asks of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol
 
-from agents.intentional import IntentionalRobot
-from agents.intentional.checking import CheckingRobot
-from agents.intentional.joint import JointLogician
-from agents.intentional.joint_reference import UndividedLogician
-from agents.intentional.reference import Logician
-from agents.intentional.refined import EitherRobot
-from agents.traditional import TraditionalRobot
-from agents.traditional.reference import Planner
-from asp.language import suggestion
-from testbed.protocol import Robot
+from testbed.config import ExperimentConfig, Finding, early_script_findings
+from testbed.protocol import Capabilities, Robot
+from testbed.registry import Registry, RegistryError, class_fault
 
-ROBOTS: Mapping[str, Callable[[], Robot]] = {
-    "intentional": EitherRobot,
-    "intentional-nozoom": partial(EitherRobot, zooms=False),
-    "intentional-plain": partial(IntentionalRobot, Logician),
-    "intentional-joint": partial(IntentionalRobot, JointLogician),
-    "intentional-joint-plain": partial(IntentionalRobot, UndividedLogician),
-    "intentional-checking": CheckingRobot,
-    "traditional": TraditionalRobot,
-    "traditional-plain": partial(TraditionalRobot, Planner),
-}
-
-FINE = ("intentional", "intentional-nozoom")
-"""Those that can act at the fine resolution."""
-ONLY_FINE = ("intentional-nozoom",)
-"""Those that act there alone."""
-STARTERS = tuple(name for name in ROBOTS if name.startswith("intentional"))
-"""Those that at step 1 start an activity, or finish: they act on the world from step 2 on."""
+_INTENTIONAL, _TRADITIONAL = "agents.intentional.robots", "agents.traditional.robots"
 
 
-def known_robots(fine: bool) -> tuple[str, ...]:
-    """The names of the robots that can act at the fine, or at the coarse resolution."""
-    return FINE if fine else tuple(name for name in ROBOTS if name not in ONLY_FINE)
+class RobotClass(Protocol):
+    """The class of a robot: it is made without arguments, and says what it can do."""
+
+    capabilities: Capabilities
+
+    def __call__(self) -> Robot: ...
 
 
-def make_robot(kind: str) -> Robot:
-    """A new robot of a kind.
+def _fault(found: Any) -> str | None:
+    if not isinstance(getattr(found, "capabilities", None), Capabilities) and isinstance(
+        found, type
+    ):
+        return "declares no capabilities; for example: capabilities = Capabilities()"
+    return class_fault(found, "begin", "act")
 
-    Raises:
-        ValueError: for an unknown kind, naming the nearest known one.
-    """
-    if kind not in ROBOTS:
-        raise ValueError(f"unknown robot '{kind}'; {suggestion(kind, ROBOTS)}")
-    return ROBOTS[kind]()
+
+ROBOTS: Registry[RobotClass] = Registry(
+    "robot",
+    "intention_testbed.robots",
+    {
+        "intentional": f"{_INTENTIONAL}:Intentional",
+        "intentional-nozoom": f"{_INTENTIONAL}:WithoutZooming",
+        "intentional-plain": f"{_INTENTIONAL}:Reference",
+        "intentional-joint": f"{_INTENTIONAL}:Joint",
+        "intentional-joint-plain": f"{_INTENTIONAL}:JointReference",
+        "intentional-checking": f"{_INTENTIONAL}:Checking",
+        "traditional": f"{_TRADITIONAL}:Traditional",
+        "traditional-plain": f"{_TRADITIONAL}:TraditionalReference",
+    },
+    _fault,
+)
+
+
+def make_robot(name: str) -> Robot:
+    """A new robot. Raises RegistryError as `Registry.find` does."""
+    return ROBOTS.find(name)()
+
+
+def only(name: str) -> Callable[[str], Robot]:
+    """As `make_robot`, of one robot alone: another one is refused. Raises RegistryError."""
+    robot = ROBOTS.find(name)
+
+    def make(asked: str) -> Robot:
+        if asked != name:
+            raise ValueError(f"this process serves '{name}', and was asked for '{asked}'")
+        return robot()
+
+    return make
+
+
+def robot_findings(config: ExperimentConfig) -> Iterator[Finding]:
+    """Robots that there are not, and those that cannot do what is asked of them."""
+    first_action_steps = {}
+    for index, name in enumerate(config.robots):
+        try:
+            able = ROBOTS.find(name).capabilities
+        except RegistryError as error:
+            yield ("robots", index), str(error)
+            continue
+        first_action_steps[name] = able.first_action_step
+        for lack in _lacks(able, config):
+            yield ("robots", index), f"'{name}' {lack}"
+    yield from early_script_findings(config, first_action_steps)
+
+
+def _lacks(able: Capabilities, config: ExperimentConfig) -> Iterator[str]:
+    """What a configuration asks for and a robot cannot do."""
+    resolution = "fine" if config.is_fine else "coarse"
+    if resolution not in able.resolutions:
+        others = (n for n, robot in ROBOTS.usable() if resolution in robot.capabilities.resolutions)
+        known = ", ".join(others)
+        yield f"does not act at the {resolution} resolution; robots that do: {known}"
+    if config.knowledge not in able.knowledge:
+        kinds = " or ".join(able.knowledge)
+        yield f"cannot begin with knowledge: {config.knowledge}; give knowledge: {kinds}"
+    if able.needs_goal_feedback and not config.gives_goal_feedback:
+        yield "needs to be told that its goal does not hold; give goal_feedback: true"

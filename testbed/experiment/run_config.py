@@ -6,9 +6,13 @@ import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from testbed.config import ConfigError, ExperimentConfig, load_config
-from testbed.config.levels import SCENARIO_KEYS
-from testbed.config.yaml_core import write_yaml
+from testbed.config import (
+    SCENARIO_KEYS,
+    ConfigError,
+    ExperimentConfig,
+    load_config,
+    write_yaml,
+)
 from testbed.experiment.errors import StoreError
 from testbed.experiment.run_folder import CONFIG, naming, replace_text
 

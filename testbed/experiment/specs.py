@@ -13,14 +13,9 @@ import msgspec
 import numpy as np
 
 from asp.domains.levels import LevelSize
-from testbed.config.models import (
-    JUDGE_STATES,
-    ExperimentConfig,
-    KnowledgeKind,
-    Pace,
-    ScriptEntry,
-)
+from testbed.config import JUDGE_STATES, ExperimentConfig, Pace, ScriptEntry
 from testbed.environment import Observability
+from testbed.protocol import Knowledge
 
 
 class FineSetting(msgspec.Struct, frozen=True, kw_only=True):
@@ -48,7 +43,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     goal: tuple[str, ...]
     script: tuple[tuple[int, str], ...] | None
     observability: dict[str, Observability]
-    knowledge: KnowledgeKind
+    knowledge: Knowledge
     goal_feedback: bool
     exogenous_while_thinking: bool
     rate: float | None

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Protocol
 
 from agents.adversary.base import Adversary
-from testbed.config.grounds import Ground, of_files, of_size
+from testbed.config import Ground, ground_of_files, ground_of_size
 from testbed.environment import Core
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.domains import load_world
@@ -89,8 +89,8 @@ def load_ground(setting: Setting) -> Ground:
     """The descriptions of a setting of the fine resolution. Raises SourceError and OSError."""
     fine = fine_part(setting)
     if fine.size is not None:
-        return of_size(fine.size)
-    return of_files(setting.domain, fine.refinement or "")
+        return ground_of_size(fine.size)
+    return ground_of_files(setting.domain, fine.refinement or "")
 
 
 @lru_cache(maxsize=8)

@@ -185,7 +185,7 @@ def test_a_trial_in_error_gives_exit_code_1_and_keeps_the_rest() -> None:
         (["check", "quickstart", "robots=[intentinal]"], "did you mean 'intentional'?"),
         (
             ["check", "quickstart", "script=[{step: 1, action: exo_lock(library)}]"],
-            "script[0].step: at step 1 the robot 'intentional' starts its activity and waits",
+            "script[0].step: at step 1 the robot 'intentional' does not act on the world yet",
         ),
         (["report", "nowhere"], "nowhere: is not a run folder"),
         (["export", "nowhere"], "nowhere: is not a run folder"),

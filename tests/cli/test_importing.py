@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from testbed.cli import app
-from testbed.cli.importing import PATH_VARIABLE
+from testbed.registry import PATH_VARIABLE
 
 RUN = ["run", "quickstart", "scenarios=[1]", "--workers", "2", "--out", "run"]
 ROOT = Path(__file__).parents[2]

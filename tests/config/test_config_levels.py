@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from testbed.config import ConfigError, load_config
-from testbed.config.grounds import grounds, level_size
+from testbed.cli.loading import load
+from testbed.config import ConfigError, grounds, level_size, load_config
 
 VALID = """\
 name: tiny
@@ -259,23 +259,21 @@ def test_where_the_goal_is_missing_it_may_be_the_levels_that_are(
     assert "levels" not in line
 
 
-def _robots(fine: bool) -> list[str]:
-    return ["both", "zooming"] if fine else ["both", "planning"]
-
-
 @pytest.mark.parametrize(
     ("robot", "line"),
     [
-        ("planning", "'planning' does not act at the fine resolution; robots that do: both, zoom"),
-        ("zoming", "unknown robot 'zoming'; did you mean 'zooming'?"),
+        ("traditional", "'traditional' does not act at the fine resolution; robots that do: inten"),
+        ("intentonal", "unknown robot 'intentonal'; did you mean 'intentional'?"),
     ],
 )
 def test_a_robot_is_one_that_acts_at_the_resolution(tmp_path: Path, robot: str, line: str) -> None:
     with pytest.raises(ConfigError) as caught:
-        load_config(_file(tmp_path, VALID), [f"robots=[both,{robot}]"], _robots)
+        load(_file(tmp_path, VALID), [f"robots=[intentional,{robot}]"])
     assert str(caught.value).startswith(f"command line: robots[1]: {line}")
 
 
 def test_a_robot_of_the_fine_resolution_is_refused_without_levels() -> None:
-    with pytest.raises(ConfigError, match="'zooming' does not act at the coarse resolution"):
-        load_config("office", ["robots=[zooming]"], _robots)
+    with pytest.raises(
+        ConfigError, match="'intentional-nozoom' does not act at the coarse resolution"
+    ):
+        load("office", ["robots=[intentional-nozoom]"])

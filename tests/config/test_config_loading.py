@@ -1,5 +1,6 @@
 """Configurations: what is composed, and what is refused with which line."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -7,9 +8,16 @@ import yaml
 
 import asp
 from asp.language import load_description
-from testbed.config import ConfigError, ExperimentConfig, load_config
-from testbed.config.models import AdversarySettings, Limits, Observability
-from testbed.config.packaged import find_config
+from testbed.cli.loading import load
+from testbed.config import (
+    AdversarySettings,
+    ConfigError,
+    ExperimentConfig,
+    Limits,
+    Observability,
+    find_config,
+    load_config,
+)
 
 pytestmark = pytest.mark.versions
 
@@ -34,9 +42,11 @@ def _file(folder: Path, text: str) -> Path:
     return path
 
 
-def _refusal(folder: Path, text: str, *overrides: str, robots: tuple[str, ...] = ()) -> list[str]:
+def _refusal(
+    folder: Path, text: str, *overrides: str, read: Callable[..., object] = load_config
+) -> list[str]:
     with pytest.raises(ConfigError) as caught:
-        load_config(_file(folder, text), overrides, (lambda _: robots) if robots else None)
+        read(_file(folder, text), overrides)
     prefix = f"{folder / 'tiny.yaml'}"
     return [line.replace(prefix, "tiny.yaml") for line in str(caught.value).splitlines()]
 
@@ -106,7 +116,7 @@ def test_literals_need_no_quotes_and_no_exact_spacing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["quickstart", "office", "table1"])
 def test_packaged_configurations_are_found_by_name(name: str) -> None:
-    assert load_config(name, robots=lambda _: ["intentional", "traditional"]).name == name
+    assert load(name).name == name
 
 
 @pytest.mark.parametrize(
@@ -237,7 +247,7 @@ def test_a_forbidden_initial_state_names_its_key_and_the_law(
 
 def test_every_mistake_is_reported_at_once(tmp_path: Path) -> None:
     text = VALID.replace("book1,library", "bok1,library").replace("[1, random]", "[7]")
-    lines = _refusal(tmp_path, text, "robots=[intentinal]", robots=("intentional",))
+    lines = _refusal(tmp_path, text, "robots=[intentinal]", read=load)
     places = [line.partition(":")[0] + line.partition(":")[2].partition(": ")[0] for line in lines]
     assert sorted(places) == ["command line robots[0]", "tiny.yaml3", "tiny.yaml5"]
 
@@ -408,15 +418,15 @@ def test_the_dump_of_a_configuration_is_the_configuration(tmp_path: Path) -> Non
 
 AT_ONCE = 'script: [{step: 2, action: "exo_lock(library)"}, {step: 1, action: "exo_lock(library)"}]'
 EARLY = (
-    "at step 1 the robot 'slow' starts its activity and waits, when nothing exogenous happens; "
-    "give a later step, or exogenous_while_thinking: true"
+    "at step 1 the robot 'intentional' does not act on the world yet, when nothing exogenous "
+    "happens; give a later step, or exogenous_while_thinking: true"
 )
 
 
 def _loaded(folder: Path, text: str, *overrides: str) -> list[str]:
-    """The lines of a refusal, where `slow` only starts at step 1; none if it is accepted."""
+    """The lines of a refusal, where a robot only starts at step 1; none if it is accepted."""
     try:
-        load_config(_file(folder, text), overrides, lambda _: ["slow", "quick"], starters=["slow"])
+        load(_file(folder, text), overrides)
     except ConfigError as error:
         return [line.rpartition("tiny.yaml")[2] for line in error.lines]
     return []
@@ -425,19 +435,22 @@ def _loaded(folder: Path, text: str, *overrides: str) -> list[str]:
 @pytest.mark.parametrize(
     ("overrides", "lines"),
     [
-        (["robots=[quick,slow]"], [f":7: scenario_settings.1.script[1].step: {EARLY}"]),
-        (["robots=[quick]"], []),
-        (["robots=[slow]", "exogenous_while_thinking=true"], []),
-        (["robots=[slow]", "scenario_settings.1.exogenous_while_thinking=true"], []),
+        (
+            ["robots=[traditional,intentional]"],
+            [f":7: scenario_settings.1.script[1].step: {EARLY}"],
+        ),
+        (["robots=[traditional]"], []),
+        (["robots=[intentional]", "exogenous_while_thinking=true"], []),
+        (["robots=[intentional]", "scenario_settings.1.exogenous_while_thinking=true"], []),
         (
             [
-                "robots=[slow]",
+                "robots=[intentional]",
                 "exogenous_while_thinking=true",
                 "scenario_settings.1.exogenous_while_thinking=false",
             ],
             [f":7: scenario_settings.1.script[1].step: {EARLY}"],
         ),
-        (["robots=[slow]", "scenarios=[random]"], []),
+        (["robots=[intentional]", "scenarios=[random]"], []),
     ],
 )
 def test_nothing_can_happen_at_step_1_beside_a_robot_that_waits_then(
@@ -448,7 +461,7 @@ def test_nothing_can_happen_at_step_1_beside_a_robot_that_waits_then(
 
 @pytest.mark.parametrize("scenarios", ["scenarios: [1, 2, random]\n", ""])
 def test_a_script_that_scenarios_share_is_refused_once(tmp_path: Path, scenarios: str) -> None:
-    text = f"name: tiny\ngoal: [loc(book1,library)]\n{AT_ONCE}\nrobots: [slow]\n{scenarios}"
+    text = f"name: tiny\ngoal: [loc(book1,library)]\n{AT_ONCE}\nrobots: [intentional]\n{scenarios}"
     assert _loaded(tmp_path, text) == [f":3: script[1].step: {EARLY}"]
 
 

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from testbed.config import ConfigError, ExperimentConfig, load_config
-from testbed.config.models import Limits
+from testbed.config import ConfigError, ExperimentConfig, Limits, load_config
 from testbed.experiment.run_config import read_config, write_config
 
 SWITCH = """\

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-import testbed.config.packaged
-from testbed.config.packaged import config_names, find_config
+import testbed.config.loading
+from testbed.config import config_names, find_config
 
 
 def test_every_packaged_name_leads_to_its_file() -> None:
@@ -26,9 +26,7 @@ def test_an_installed_package_carries_its_own(
     package = tmp_path / "site-packages" / "testbed"
     (package / "configs").mkdir(parents=True)
     (package / "configs" / "only.yaml").write_text("name: only\n", encoding="utf-8")
-    monkeypatch.setattr(
-        testbed.config.packaged, "__file__", str(package / "config" / "packaged.py")
-    )
+    monkeypatch.setattr(testbed.config.loading, "__file__", str(package / "config" / "loading.py"))
     assert config_names() == ["only"]
     assert find_config("only").read_text(encoding="utf-8") == "name: only\n"
     with pytest.raises(FileNotFoundError, match="did you mean 'only'"):

@@ -57,7 +57,9 @@ shows
   hitch(T, B) shows tows(T, B).
   slip(T, B)  shows tows(T, B).
 """
-ALONE = [name for name in ROBOTS if name not in ("intentional-nozoom", "intentional-joint-plain")]
+ALONE = [
+    name for name in ROBOTS.names() if name not in ("intentional-nozoom", "intentional-joint-plain")
+]
 """Those that explain in a phase of its own, at the coarse resolution."""
 
 NO_CLOCK = {"decision_s": None, "steps": 40, "plan": 8}

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks.own import Own
-from testbed.config.errors import ConfigError
+from testbed.config import ConfigError
 from tests.experiment.gardens import GARDEN, PIECES
 
 WORDS = ["wait", "finish", "none", "start", "stop", "fewer", "by", "step", "activity", "hpd"]

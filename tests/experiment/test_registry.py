@@ -3,7 +3,7 @@
 import pytest
 
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.robots import ONLY_FINE, ROBOTS, STARTERS, make_robot
+from testbed.experiment.robots import ROBOTS, make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from tests.experiment.samples import Configure
@@ -11,7 +11,14 @@ from tests.experiment.samples import Configure
 EVENT = "script=[{step: 1, action: 'exo_lock(library)'}]"
 
 
-@pytest.mark.parametrize("robot", [name for name in ROBOTS if name not in ONLY_FINE])
+COARSE = {
+    name: robot.capabilities
+    for name, robot in ROBOTS.usable()
+    if "coarse" in robot.capabilities.resolutions
+}
+
+
+@pytest.mark.parametrize("robot", COARSE)
 @pytest.mark.parametrize("goal", ["loc(rob1,office1)", "loc(rob1,kitchen)"])
 def test_an_event_at_step_1_is_an_error_beside_those_that_only_start(
     configure: Configure, robot: str, goal: str
@@ -20,4 +27,4 @@ def test_an_event_at_step_1_is_an_error_beside_those_that_only_start(
     (spec,) = plan_trials(config)
     outcome = play_trial(spec, InProcessRobot(lambda _: make_robot(robot))).record.outcome
     nothing_to_do = goal == "loc(rob1,kitchen)"  # then whoever it is finishes at once
-    assert (outcome == "error") == (robot in STARTERS or nothing_to_do)
+    assert (outcome == "error") == (COARSE[robot].first_action_step > 1 or nothing_to_do)

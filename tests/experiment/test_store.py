@@ -8,8 +8,7 @@ import pytest
 import yaml
 
 import asp
-from testbed.config import ExperimentConfig, load_config
-from testbed.config.models import Limits
+from testbed.config import ExperimentConfig, Limits, load_config
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import decode, encode

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from testbed.analysis.condition import deviations
-from testbed.config.models import ExperimentConfig
+from testbed.config import ExperimentConfig
 from testbed.studies.levels.published import OWN, PAPER, Paper
 
 PROTOCOL = "levels"

@@ -1,0 +1,167 @@
+"""Find a class by name: built-in, of another distribution's entry points, or as `module:Class`.
+
+A module of a user's own may lie in the folder of the configuration, which is searched after
+everything else, so that nothing in it takes the place of another module. Processes that are started
+find that folder by the environment variable `PATH_VARIABLE`.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+from inspect import signature
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Generic, TypeVar
+
+from asp.language import suggestion
+
+T = TypeVar("T")
+PATH_VARIABLE = "TESTBED_PATH"
+OURS = "intention-testbed"
+"""The distribution that a built-in name belongs to."""
+
+
+class RegistryError(ValueError):
+    """A name that leads to nothing, or to what cannot be used: one line that says why."""
+
+
+class Registry(Generic[T]):
+    """What configurations call by name: robots, adversaries, studies.
+
+    Parameters
+    ----------
+    kind : what is found, as messages call it (`robot`).
+    group : the entry point group in which other distributions register theirs.
+    built_in : by name the `module:attribute` of each built-in one.
+    fault : what is wrong with something that was found; None if it can be used.
+    """
+
+    def __init__(
+        self,
+        kind: str,
+        group: str,
+        built_in: Mapping[str, str],
+        fault: Callable[[Any], str | None],
+    ) -> None:
+        self.kind = kind
+        self._group = group
+        self._built_in = built_in
+        self._fault = fault
+        self._found: dict[str, T] = {}
+
+    def names(self) -> list[str]:
+        """The registered names, sorted. Nothing is imported."""
+        return sorted(self._claims())
+
+    def find(self, name: str) -> T:
+        """What is registered under a name, or stands at `module:attribute`.
+
+        Raises:
+            RegistryError: for an unknown name, one that two distributions claim, a module that
+                cannot be imported, and what cannot be used.
+        """
+        if name not in self._found:
+            found = _attribute(name if ":" in name else self._place(name))
+            fault = self._fault(found)
+            if fault is not None:
+                raise RegistryError(f"'{name}' is no {self.kind}: it {fault}")
+            self._found[name] = found
+        return self._found[name]
+
+    def usable(self) -> Iterator[tuple[str, T]]:
+        """The registered ones by name, without those that cannot be used."""
+        for name in self.names():
+            try:
+                yield name, self.find(name)
+            except RegistryError:
+                continue
+
+    def _place(self, name: str) -> str:
+        claims = self._claims()
+        if name not in claims:
+            raise RegistryError(f"unknown {self.kind} '{name}'; {suggestion(name, claims)}")
+        by_owner = claims[name]
+        if len(by_owner) > 1:
+            owners = " and ".join(sorted(by_owner))
+            raise RegistryError(
+                f"the {self.kind} '{name}' is registered by {owners}; uninstall one of them, or "
+                "give module:Class"
+            )
+        (place,) = by_owner.values()
+        return place
+
+    def _claims(self) -> dict[str, dict[str, str]]:
+        """By name, and by the distribution that registers it, where it stands."""
+        claims = {name: {OURS: place} for name, place in self._built_in.items()}
+        for point in entry_points(group=self._group):
+            claims.setdefault(point.name, {})[_owner(point)] = point.value
+        return claims
+
+
+def class_fault(found: object, *methods: str, arguments: int = 0) -> str | None:
+    """What is wrong with a class that is made with so many arguments and is to have these methods.
+
+    Returns None where nothing is.
+    """
+    if not isinstance(found, type):
+        return "is not a class"
+    missing = [name for name in methods if not callable(getattr(found, name, None))]
+    if missing:
+        return f"has no method {' and no method '.join(missing)}"
+    try:
+        signature(found).bind(*range(arguments))
+    except TypeError as error:
+        given = f"{arguments} arguments" if arguments else "no arguments"
+        return f"cannot be made with {given}: {error}"
+    return None
+
+
+def _owner(point: EntryPoint) -> str:
+    return point.dist.name if point.dist else "an unnamed distribution"
+
+
+def _attribute(place: str) -> Any:
+    module_name, _, path = place.partition(":")
+    if not all(part.isidentifier() for name in (module_name, path) for part in name.split(".")):
+        raise RegistryError(f"'{place}' should be module:Class, as in my_package.my_module:MyClass")
+    found: Any = _imported(module_name)
+    for part in path.split("."):
+        if not hasattr(found, part):
+            public = (name for name in vars(found) if not name.startswith("_"))
+            raise RegistryError(f"'{place}': {module_name} has no {part}; {_near(part, public)}")
+        found = getattr(found, part)
+    return found
+
+
+def _imported(name: str) -> ModuleType:
+    try:
+        return import_module(name)
+    except (Exception, SystemExit) as error:  # whatever a module of a user's does
+        if isinstance(error, ModuleNotFoundError) and f"{name}.".startswith(f"{error.name}."):
+            where = "it can lie beside the configuration, or be installed"
+            raise RegistryError(f"there is no module '{error.name}'; {where}") from None
+        said = " ".join(f"{type(error).__name__}: {error}".split())
+        raise RegistryError(f"the module '{name}' cannot be imported: {said}") from error
+
+
+def _near(word: str, known: Iterator[str]) -> str:
+    """The nearest of many names; of these all would be too many to list."""
+    found = suggestion(word, known)
+    return found if found.startswith("did") else "look at how it is spelled there"
+
+
+def search_last(folder: Path) -> None:
+    """Let this process, and those that it starts, import from a folder after everything else."""
+    os.environ[PATH_VARIABLE] = str(folder)
+    search_as_told()
+
+
+def search_as_told() -> None:
+    """As `search_last`, with the folder that the process that started this one has told it."""
+    folder = os.environ.get(PATH_VARIABLE)
+    if folder and folder not in sys.path:
+        sys.path.append(folder)
