@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from asp.domains.levels import LevelSize
-from asp.reasoning.fine_planning import FinePlanner
+from asp.reasoning.fine_planning import IncrementalFinePlanner
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, within
 from benchmarks.sheets import DisagreementError, Row, Sheet, gathered
@@ -38,7 +38,7 @@ def _beside(level: LevelSize, count: int) -> Row:
     """What both kinds take in one process, in turn."""
     refinement = refined(level)
     planners = {
-        kind: FinePlanner(refinement.weak, refinement.weak_signature, largest=largest)
+        kind: IncrementalFinePlanner(refinement.weak, refinement.weak_signature, largest=largest)
         for kind, largest in LARGEST.items()
     }
     problems = drawn(refinement, count, seed=1)
@@ -52,7 +52,9 @@ def _beside(level: LevelSize, count: int) -> Row:
     return row | {"first_times": row["kept_first_s"] / row["own_first_s"]}
 
 
-def _asked(planners: dict[str, FinePlanner], problems: list[FineProblem]) -> dict[str, list[float]]:
+def _asked(
+    planners: dict[str, IncrementalFinePlanner], problems: list[FineProblem]
+) -> dict[str, list[float]]:
     """Milliseconds of each problem, by planner."""
     took: dict[str, list[float]] = {kind: [] for kind in planners}
     for problem in problems:

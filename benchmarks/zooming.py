@@ -12,7 +12,13 @@ from matplotlib.figure import Figure
 
 from asp.domains.levels import LEVELS, LevelSize
 from asp.language import Problems, signature_of
-from asp.reasoning.fine_planning import FinePlan, FinePlanner, NoPlan, PlainProblem, physical
+from asp.reasoning.fine_planning import (
+    FinePlan,
+    IncrementalFinePlanner,
+    LiteralProblem,
+    NoPlan,
+    physical,
+)
 from asp.refinement import zoom_strong
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, quantile, within
@@ -114,7 +120,7 @@ class _Fast:
 
 def _fast(level: LevelSize, zoom: bool, count: int) -> _Fast:
     refinement = refined(level)
-    planner = FinePlanner(refinement.weak, refinement.weak_signature)
+    planner = IncrementalFinePlanner(refinement.weak, refinement.weak_signature)
     problems = drawn(refinement, count, seed=1)
     for problem in problems:
         _ = problem.goal, problem.constants  # are the zooming's, not the planner's
@@ -124,14 +130,14 @@ def _fast(level: LevelSize, zoom: bool, count: int) -> _Fast:
     return _Fast([took for took, _ in again], [n for _, n in again], first / 1e3, planner.kept)
 
 
-def cpu_ms(planner: FinePlanner, problem: FineProblem, zoom: bool) -> tuple[float, int]:
+def cpu_ms(planner: IncrementalFinePlanner, problem: FineProblem, zoom: bool) -> tuple[float, int]:
     """Processor time of a plan, which other work on the machine does not change, and its length."""
     began = time.process_time()
     plan = _plan(planner, problem, zoom)
     return (time.process_time() - began) * 1e3, len(plan)
 
 
-def _plan(planner: FinePlanner, problem: FineProblem, zoom: bool) -> FinePlan:
+def _plan(planner: IncrementalFinePlanner, problem: FineProblem, zoom: bool) -> FinePlan:
     constants = problem.constants if zoom else None
     plan = planner.plan(problem.start, problem.goal, LIMIT, constants)
     if isinstance(plan, NoPlan):
@@ -162,7 +168,7 @@ def _slow(problem: FineProblem, zoom: bool, only_last: bool) -> float:
     lengths = _lengths(expected)
     with no_collection():
         began = time.perf_counter()
-        plain = PlainProblem(source, signature, start, problem.goal)
+        plain = LiteralProblem(source, signature, start, problem.goal)
         tried = [plain.plan(length) for length in (lengths[-1:] if only_last else lengths)]
         took = (time.perf_counter() - began) * 1e3
     if tried[-1] is None or physical(tried[-1]) != expected or any(tried[:-1]):
@@ -170,8 +176,8 @@ def _slow(problem: FineProblem, zoom: bool, only_last: bool) -> float:
     return took
 
 
-def _planner(problem: FineProblem) -> FinePlanner:
-    return FinePlanner(problem.refinement.weak, problem.refinement.weak_signature)
+def _planner(problem: FineProblem) -> IncrementalFinePlanner:
+    return IncrementalFinePlanner(problem.refinement.weak, problem.refinement.weak_signature)
 
 
 def _lengths(plan: FinePlan) -> range:

@@ -1,4 +1,4 @@
-"""What was used last, and no more of it than so many."""
+"""What was used last, and no more of it than so much."""
 
 from __future__ import annotations
 
@@ -11,37 +11,40 @@ Value = TypeVar("Value")
 
 
 class Recent(Generic[Key, Value]):
-    """Keeps the `most` values that were used last; others are made anew when they are asked for.
+    """Keeps the values that were used last, which weigh at most so much together.
 
-    These are no answers, which may be forgotten at any time, but what answers are found with.
+    `weight` is what they weigh. Others are made anew when they are asked for. The one used last is
+    kept, whatever it weighs.
+
+    Unlike `functools.lru_cache` over a method this has no reference to what it belongs to. A cycle
+    of references keeps sessions in memory until the garbage collector comes by, which counts
+    objects and knows nothing of the size of a session.
     """
 
     def __init__(self, most: int) -> None:
         self._most = most
-        self._kept: OrderedDict[Key, Value] = OrderedDict()
+        self._kept: OrderedDict[Key, tuple[Value, int]] = OrderedDict()
+        self.weight = 0
 
-    def get(self, key: Key, make: Callable[[], Value]) -> Value:
+    def get(self, key: Key, make: Callable[[], Value], weight: int = 1) -> Value:
         """The value of a key, made if need be."""
         if key not in self._kept:
-            # Room is made first, so that there are never more of them at a time.
-            while len(self._kept) >= self._most:
-                self._kept.popitem(last=False)
-            self._kept[key] = make()
+            # Room is made first, so that there is never more of it at a time.
+            while self._kept and self.weight + weight > self._most:
+                self.weight -= self._kept.popitem(last=False)[1][1]
+            self._kept[key] = make(), weight
+            self.weight += weight
         self._kept.move_to_end(key)
-        return self._kept[key]
+        return self._kept[key][0]
 
     def __len__(self) -> int:
         return len(self._kept)
 
 
 class Answers(Recent[Key, Value]):
-    """The answers that were asked for last, which may be forgotten at any time.
-
-    Unlike `functools.lru_cache` over a method it has no reference to what it belongs to. A cycle of
-    references keeps controls in memory until the garbage collector comes by, which counts objects
-    and knows nothing of the size of a control.
-    """
+    """Answers, which may be forgotten at any time, where others are what answers are found with."""
 
     def forget(self) -> None:
         """All answers are found anew."""
         self._kept.clear()
+        self.weight = 0

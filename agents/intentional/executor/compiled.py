@@ -18,7 +18,6 @@ from asp.reasoning.fine_planning import (
     MOST_STEPS,
     FinePlanner,
     Horizons,
-    LiteralPlanner,
     fine_planner,
 )
 from asp.refinement import Refinement, shared_places
@@ -32,13 +31,13 @@ class Means:
     """Planner, inferences and laws of one refinement, each made when it is first asked for."""
 
     def __init__(self, refinement: Refinement, horizons: Horizons) -> None:
-        """`horizons` has the controls of concrete plans, of other refinements too."""
+        """`horizons` has the sessions of concrete plans, of other refinements too."""
         self._refinement = refinement
         self._horizons = horizons
         self._tests: dict[str, Tests] = {}
 
     @cached_property
-    def planner(self) -> FinePlanner | LiteralPlanner:
+    def planner(self) -> FinePlanner:
         """Plans of concrete actions."""
         refinement = self._refinement
         with preparation():
@@ -111,7 +110,7 @@ class Means:
             return direct_effects(self._refinement)
 
 
-_HORIZONS = Horizons(MOST_STEPS)
+_HORIZONS: Horizons = Horizons(MOST_STEPS)
 _MEANS: Recent[Refinement, Means] = Recent(MOST_REFINEMENTS)
 
 

@@ -1,17 +1,18 @@
 """Shortest plans at the fine resolution."""
 
-from asp.reasoning.fine_planning.horizon_cache import Horizons
 from asp.reasoning.fine_planning.incremental import (
     MOST_STEPS,
-    FinePlanner,
-    LiteralPlanner,
+    Horizons,
+    IncrementalFinePlanner,
     fine_planner,
 )
 from asp.reasoning.fine_planning.reference import (
     FinePlan,
+    FinePlanner,
     FineStart,
+    LiteralProblem,
     NoPlan,
-    PlainProblem,
+    ReferenceFinePlanner,
     physical,
 )
 
@@ -21,9 +22,10 @@ __all__ = [
     "FinePlanner",
     "FineStart",
     "Horizons",
-    "LiteralPlanner",
+    "IncrementalFinePlanner",
+    "LiteralProblem",
     "NoPlan",
-    "PlainProblem",
+    "ReferenceFinePlanner",
     "fine_planner",
     "physical",
 ]

@@ -1,51 +1,80 @@
-"""Shortest plans at the fine resolution, zoomed or not, from controls that are grounded once."""
+"""Shortest plans at the fine resolution, zoomed or not, from sessions that are grounded once.
+
+What only large problems need is switched here.
+"""
 
 from __future__ import annotations
 
-from collections import OrderedDict
-from collections.abc import Iterable
-from functools import lru_cache, partial
+from collections.abc import Mapping
+from functools import cached_property, lru_cache
 from itertools import chain
 
 from asp.language import (
+    Function,
     Signature,
     arguments,
     functions,
     ground,
-    narrowed,
-    restrict,
     subject,
     syntax,
     without_exogenous,
 )
-from asp.reasoning.fine_planning.abstraction import Narrow, Narrower
-from asp.reasoning.fine_planning.horizon_cache import Horizons
-from asp.reasoning.fine_planning.large.problem_program import Problem
-from asp.reasoning.fine_planning.large.relaxed_reachability import Reach
+from asp.reasoning.fine_planning.compact_part import CompactDescription, CompactPart
+from asp.reasoning.fine_planning.horizon import Horizon
+from asp.reasoning.fine_planning.large.problem_program import Problem, ProblemPrograms
+from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
 from asp.reasoning.fine_planning.reference import (
     FinePlan,
+    FinePlanner,
     FineStart,
     NoPlan,
     NotCandidatesError,
-    plain_plan,
+    ReferenceFinePlanner,
 )
-from asp.reasoning.fine_planning.restricted_domain import FineDomain
 from asp.reasoning.relevance import Relevance
+from asp.solving import Recent
 from asp.translation import NotCompactError
 
-_MOST_NARROWED = 1_000
-LARGEST_KEPT = 2_000  # constants times steps of a control
-MOST_STEPS = 100_000  # of constants: some 500 MB of controls
+LARGEST_SESSION = 2_000
+"""Constants times steps of a session."""
+
+MOST_STEPS = 100_000
+"""Constants times steps of all sessions: memory grows with that, 100,000 take some 500 MB."""
+
+_MOST_PARTS, _MOST_NARROWED = 32, 1_000
 
 
-class FinePlanner:
-    """Plans in one refined description, or in parts of it. Making it may raise NotCompactError.
+class _Part:
+    """What plans in a part of a description are made with."""
+
+    def __init__(self, part: CompactPart, known: Mapping[str, Function]) -> None:
+        self.size = len(part.names)
+        self.relaxed = Relaxed(part.program)
+        self._part = part
+        self._functions = known
+
+    def horizon(self, length: int) -> Horizon:
+        """A session for all problems of so many steps."""
+        return Horizon(self._part.program, self._part.actions, length)
+
+    @cached_property
+    def problems(self) -> ProblemPrograms:
+        """Programs for single problems."""
+        return ProblemPrograms(self._part, self.relaxed, self._functions)
+
+
+Horizons = Recent[tuple[_Part, int], Horizon]
+"""Sessions by part and length; each weighs its length times the constants of its part."""
+
+
+class IncrementalFinePlanner:
+    """A `FinePlanner` without tests. Making it may raise NotCompactError.
 
     What a plan can do without is left out (`Relevance`), what is left gets names by position
-    (`Narrower`), so that problems that differ in names only share controls; of these there is one
-    for each length, asked from a lower bound on
-    (`asp.reasoning.fine_planning.large.relaxed_reachability`). Problems whose control would be
-    large have one for themselves, which knows where a plan can pass
+    (`CompactPart`), so that problems that differ in names only share sessions; of these there is
+    one for each length, asked from a lower bound on
+    (`asp.reasoning.fine_planning.large.relaxed_reachability`). Problems whose session would be
+    large have a program for themselves, which knows where a plan can pass
     (`asp.reasoning.fine_planning.large.problem_program`).
     """
 
@@ -53,25 +82,23 @@ class FinePlanner:
         self,
         source: syntax.Source,
         signature: Signature,
-        most: int = 32,
         horizons: Horizons | None = None,
-        largest: int = LARGEST_KEPT,
+        most: int = _MOST_PARTS,
+        largest: int = LARGEST_SESSION,
     ) -> None:
         """`source` has the physics only.
 
-        The controls of at most `most` parts of it are kept, as far as `horizons` does, which may
-        be those of other planners too; without, there are up to MOST_STEPS of its own. What
-        takes more steps times constants than `largest` gets a control for itself.
+        At most `most` parts of it are kept. `horizons` may be those of other planners too;
+        without, there are up to MOST_STEPS of its own. `largest` are constants times steps of a
+        session; what takes more gets a program for itself.
         """
         self._constants = signature.constants
         self._functions = functions(source, signature)
         self._relevance = Relevance(without_exogenous(source, signature), signature)
-        self._narrower = Narrower(source, signature)
-        self._narrow = lru_cache(_MOST_NARROWED)(self._narrower.narrow)
-        self._most = most
+        self._narrowed = lru_cache(_MOST_NARROWED)(CompactDescription(source, signature).part)
         self._largest = largest
-        self._kept: OrderedDict[object, FineDomain] = OrderedDict()
-        self._horizons = Horizons(MOST_STEPS) if horizons is None else horizons
+        self._parts: Recent[object, _Part] = Recent(most)
+        self._horizons: Horizons = Recent(MOST_STEPS) if horizons is None else horizons
 
     def plan(
         self,
@@ -82,10 +109,9 @@ class FinePlanner:
     ) -> FinePlan | NoPlan:
         """The first of the shortest plans of at most `limit` actions.
 
-        Of candidates those are assumed that make it short. `constants` are those of the part of
-        the description that is planned in (None: the whole). A goal is out of reach if it is even
-        where nothing becomes false again, or if no state satisfies it; others of which no plan is
-        found are beyond the limit, though there may be none of any length.
+        A goal is out of reach if it is even where nothing becomes false again, or if no state
+        satisfies it; others of which no plan is found are beyond the limit, though there may be
+        none of any length.
         Raises LimitError, NotCandidatesError, ValueError for a goal about other constants.
         """
         if not all(start.candidates):
@@ -95,95 +121,59 @@ class FinePlanner:
             if not kept.issuperset(arguments(literal)):
                 raise ValueError(f"{literal}: not about what is planned for")
         kept -= self._relevance.spare(chain(start.true, *start.candidates), goal)
-        return self._search(self._narrow(kept), start.within(kept), goal, limit)
+        names = self._narrowed(kept)
+        problem = self._problem(names, start.within(kept), goal)
+        part = self._parts.get(names.key, lambda: _Part(names, self._functions))
+        plan = self._search(part, problem, limit)
+        return plan if isinstance(plan, NoPlan) else names.back(plan)
 
-    def _search(
-        self, narrow: Narrow, start: FineStart, goal: tuple[str, ...], limit: int
-    ) -> FinePlan | NoPlan:
-        true = frozenset(narrow.seen(start.true))
-        candidates = self._by_function(map(narrow.seen, start.candidates))
-        wanted = narrow.seen(goal)
-        domain = self._domain(narrow)
-        reach = domain.relaxed.reach(chain(true, *candidates.values()), wanted)
+    @property
+    def kept(self) -> int:
+        """Of how many parts of the description sessions are kept."""
+        return len(self._parts)
+
+    def _search(self, part: _Part, problem: Problem, limit: int) -> FinePlan | NoPlan:
+        possible = chain(problem.true, *problem.candidates.values())
+        reach = part.relaxed.reach(possible, problem.goal)
         if reach is None:
             return NoPlan.OUT_OF_REACH
-        problem = Problem(true, candidates, wanted)
         for length in range(reach.least, limit + 1):
-            plan = self._of_length(length, domain, problem, reach)
+            plan = self._of_length(length, part, problem, reach)
             if plan is not None:
-                return narrow.back(plan)
-            if length == reach.least and not self._is_consistent(domain, wanted):
+                return plan
+            # Where the goal holds in no state at all, no length need be tried.
+            if length == reach.least and self._horizon(part, 0).plan((), problem.goal) is None:
                 return NoPlan.OUT_OF_REACH
         return NoPlan.BEYOND_LIMIT
 
-    def _is_consistent(self, domain: FineDomain, goal: tuple[str, ...]) -> bool:
-        """Whether the goal holds in any state at all; where not, no length need be tried."""
-        state = self._horizons.get(domain, 0, domain.size, partial(domain.horizon, 0))
-        return state.plan((), goal) is not None
-
     def _of_length(
-        self, length: int, domain: FineDomain, problem: Problem, reach: Reach
-    ) -> tuple[str, ...] | None:
-        if length * domain.size > self._largest:
-            return domain.fitted(problem, reach, length)
-        make = partial(domain.horizon, length)
-        horizon = self._horizons.get(domain, length, domain.size, make)
+        self, length: int, part: _Part, problem: Problem, reach: Reach
+    ) -> FinePlan | None:
+        if length * part.size > self._largest:
+            return part.problems.plan(problem, reach, length)
+        horizon = self._horizon(part, length)
         return horizon.plan(horizon.start(problem.true, problem.candidates), problem.goal)
 
-    def _by_function(self, groups: Iterable[tuple[str, ...]]) -> dict[str, tuple[str, ...]]:
-        """The groups of candidates by what they give a value. Raises NotCandidatesError."""
-        found: dict[str, tuple[str, ...]] = {}
-        for group in groups:
+    def _horizon(self, part: _Part, length: int) -> Horizon:
+        return self._horizons.get((part, length), lambda: part.horizon(length), length * part.size)
+
+    def _problem(self, part: CompactPart, start: FineStart, goal: tuple[str, ...]) -> Problem:
+        """The problem in canonical names. Raises NotCandidatesError."""
+        candidates: dict[str, tuple[str, ...]] = {}
+        for group in map(part.seen, start.candidates):
             function = subject(group[0], self._functions)
             if function is None:
                 message = f"{group[0]}: not a value of a function that always has one"
                 raise NotCandidatesError(message)
-            found[ground(function[0], function[1:])] = group
-        return found
-
-    @property
-    def kept(self) -> int:
-        """Of how many parts of the description controls are kept."""
-        return len(self._kept)
-
-    def _domain(self, narrow: Narrow) -> FineDomain:
-        """What is kept of a narrowed description, used last of all."""
-        if narrow.key not in self._kept:
-            self._kept[narrow.key] = FineDomain(self._narrower, narrow, self._functions)
-        self._kept.move_to_end(narrow.key)
-        while len(self._kept) > self._most:
-            self._horizons.forget(self._kept.popitem(last=False)[1])
-        return self._kept[narrow.key]
-
-
-class LiteralPlanner:
-    """Plans as `FinePlanner` does, for any laws: by their literal translation, from scratch."""
-
-    def __init__(self, source: syntax.Source, signature: Signature) -> None:
-        self._source = source
-        self._signature = signature
-
-    def plan(
-        self,
-        start: FineStart,
-        goal: tuple[str, ...],
-        limit: int,
-        constants: frozenset[str] | None = None,
-    ) -> FinePlan | NoPlan:
-        """The first of the shortest plans of at most `limit` actions."""
-        kept = self._signature.constants if constants is None else constants
-        dropped = self._signature.constants - kept
-        source = restrict(self._source, dropped)
-        return plain_plan(
-            source, narrowed(self._signature, dropped), start.within(kept), goal, limit
-        )
+            candidates[ground(function[0], function[1:])] = group
+        return Problem(frozenset(part.seen(start.true)), candidates, part.seen(goal))
 
 
 def fine_planner(
     source: syntax.Source, signature: Signature, horizons: Horizons | None = None
-) -> FinePlanner | LiteralPlanner:
-    """The fastest planner for a description of the physics; its controls are in `horizons`."""
+) -> FinePlanner:
+    """The fastest planner for a description of the physics; its sessions are in `horizons`."""
     try:
-        return FinePlanner(source, signature, horizons=horizons)
+        return IncrementalFinePlanner(source, signature, horizons)
     except NotCompactError:
-        return LiteralPlanner(source, signature)
+        return ReferenceFinePlanner(source, signature)

@@ -6,10 +6,20 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import product
+from typing import Protocol
 
 from clingo import Symbol
 
-from asp.language import Function, Signature, functions, literals, subject, syntax
+from asp.language import (
+    Function,
+    Signature,
+    functions,
+    literals,
+    narrowed,
+    restrict,
+    subject,
+    syntax,
+)
 from asp.solving import fact, first_model, ground, select, theory
 from asp.translation import term_text, translate_source
 
@@ -48,7 +58,26 @@ class FineStart:
         return FineStart(frozenset(true), tuple(group for group in groups if group))
 
 
-class PlainProblem:
+class FinePlanner(Protocol):
+    """Shortest plans in a refined description, or in parts of it."""
+
+    def plan(
+        self,
+        start: FineStart,
+        goal: tuple[str, ...],
+        limit: int,
+        constants: frozenset[str] | None = None,
+    ) -> FinePlan | NoPlan:
+        """The first of the shortest plans of at most `limit` actions.
+
+        Of candidates those are assumed that make it short. `constants` are those of the part of
+        the description that is planned in (None: the whole). A goal is out of reach if no plan of
+        any length achieves it, as far as the planner can tell.
+        Raises LimitError, NotCandidatesError.
+        """
+
+
+class LiteralProblem:
     """A planning problem in the literal translation of the strong refinement.
 
     Every concrete action is followed by a test of its outcome, and what is not certain is found by
@@ -84,22 +113,37 @@ class PlainProblem:
         return tuple(str(action) for action, _ in steps)
 
 
-def plain_plan(
-    source: syntax.Source,
-    signature: Signature,
-    start: FineStart,
-    goal: Sequence[str],
-    limit: int,
-) -> FinePlan | NoPlan:
-    """The first shortest plan of at most `limit` actions and tests. Raises LimitError."""
-    if not all(start.candidates):
-        return NoPlan.OUT_OF_REACH
-    problem = PlainProblem(source, signature, start, goal)
-    for length in range(limit + 1):
-        plan = problem.plan(length)
-        if plan is not None:
-            return plan
-    return NoPlan.BEYOND_LIMIT
+class ReferenceFinePlanner:
+    """A `FinePlanner` for any laws: their literal translation, solved from scratch."""
+
+    def __init__(self, source: syntax.Source, signature: Signature) -> None:
+        """`source` is a refined description: with the theory of observation plans have tests."""
+        self._source = source
+        self._signature = signature
+
+    def plan(
+        self,
+        start: FineStart,
+        goal: tuple[str, ...],
+        limit: int,
+        constants: frozenset[str] | None = None,
+    ) -> FinePlan | NoPlan:
+        """The first of the shortest plans of at most `limit` actions and tests."""
+        if not all(start.candidates):
+            return NoPlan.OUT_OF_REACH
+        kept = self._signature.constants if constants is None else constants
+        dropped = self._signature.constants - kept
+        problem = LiteralProblem(
+            restrict(self._source, dropped),
+            narrowed(self._signature, dropped),
+            start.within(kept),
+            goal,
+        )
+        for length in range(limit + 1):
+            plan = problem.plan(length)
+            if plan is not None:
+                return plan
+        return NoPlan.BEYOND_LIMIT
 
 
 def _within(group: tuple[str, ...], constants: frozenset[str]) -> tuple[str, ...]:

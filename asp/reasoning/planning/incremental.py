@@ -22,17 +22,16 @@ from asp.language import (
 )
 from asp.reasoning.planning.large.operators import Encoding
 from asp.reasoning.planning.large.outcomes import NotEncodableError
-from asp.reasoning.planning.large.search import Spaces
+from asp.reasoning.planning.large.search import StateSpace
 from asp.reasoning.planning.shortest import ShortestPlans
 from asp.reasoning.relevance import Relevance, interchangeable
 from asp.solving import Recent, State, preparation
 from asp.translation import translate_source
 
 STATE_SET_SEARCH = True
-PROBLEM_PROGRAMS = True
 
-MOST_STATES = 2**24
-"""The largest number of states of which sets are made: bits of memory for each set."""
+MOST_STATES = 2**29
+"""The largest number of states that are searched: up to 600 MB of memory were measured."""
 
 MOST_PARTS = 16
 """Of how many parts of a domain planners are kept: those that were used last."""
@@ -104,16 +103,16 @@ class IncrementalPlanner:
                 description,
                 translate_source(source, signature),
                 [[c for c in members if c not in dropped] for members in self._classes],
-                _spaces(description) if STATE_SET_SEARCH else None,
-                PROBLEM_PROGRAMS,
+                _state_space(description) if STATE_SET_SEARCH else None,
             )
 
 
-def _spaces(description: Description) -> Spaces | None:
+def _state_space(description: Description) -> StateSpace | None:
     try:
-        return Spaces(Encoding(description), MOST_STATES)
+        space = StateSpace(Encoding(description))
     except NotEncodableError:
         return None
+    return space if space.size <= MOST_STATES else None
 
 
 class _View:

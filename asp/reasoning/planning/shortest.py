@@ -1,22 +1,20 @@
 """Shortest plans of one description: a search where it can be searched, else clingo.
 
-Where all states can be searched (`asp.reasoning.planning.large.search`) the search gives the plan.
-Else clingo finds it, in a program for each length that is grounded once; or, where a search narrows
-down what each step can be, in one for the problem alone.
+Where states can be searched (`asp.reasoning.planning.large.search`) the search gives the plan. Else
+clingo finds it, in a program for each length that is grounded once.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise, product, repeat
 
 import clingo
 from clingo import Symbol
 
 from asp.language import Description, Literal
-from asp.reasoning.planning.large.problem_program import ProblemPrograms, candidates
-from asp.reasoning.planning.large.search import Bounds, Spaces
+from asp.reasoning.planning.large.search import Search, StateSpace
 from asp.solving import (
     LimitError,
     Recent,
@@ -36,6 +34,9 @@ Where no search gives the length they are asked one after the other, from 1 to t
 were fewer kept than a plan has actions, each decision would ground all of them again.
 """
 
+MOST_LEVELS = 32_767
+"""As many levels of decisions as clasp tells apart: those beyond come in any order."""
+
 _LEAST_HORIZON = 8
 
 Pairs = tuple[tuple[str, str], ...]
@@ -46,7 +47,7 @@ class _Question:
     """A problem that is not answered yet; no plan is shorter than `length`."""
 
     asked: tuple[State, tuple[str, ...]]
-    bounds: Bounds | None
+    search: Search | None
     length: int = 1
 
 
@@ -58,23 +59,18 @@ class ShortestPlans:
         description: Description,
         program: str,
         classes: Iterable[Sequence[str]],
-        spaces: Spaces | None,
-        narrows: bool,
+        space: StateSpace | None,
     ) -> None:
-        """`program` is the description's translation, `spaces` what it is searched in, if it is.
+        """`program` is the description's translation, `space` what it is searched in, if it is.
 
-        `classes` are the interchangeable constants, each class in order of declaration. With
-        `narrows` problems that a search gives bounds for get programs for themselves.
+        `classes` are the interchangeable constants, each class in order of declaration.
         """
         self.classes = tuple(map(tuple, classes))
         self._fluents = description.fluents
         self._actions = description.agent_actions
         self._program = program
         self._facts = tuple(_facts(description, self.classes))
-        self._spaces = spaces
-        self._problems = (
-            ProblemPrograms(description, program, self._facts) if spaces and narrows else None
-        )
+        self._space = space
         self._planning: Recent[int, Session] = Recent(MOST_LENGTHS)
         self._following: Recent[int, Session] = Recent(MOST_LENGTHS)
         self._open: _Question | None = None
@@ -90,7 +86,7 @@ class ShortestPlans:
         """
         question, self._open = self._open, None
         if question is None or question.asked != (state, goal):
-            question = _Question((state, goal), self._bounds(state, goal))
+            question = _Question((state, goal), self._search(state, goal))
         try:
             return self._answer(question, limit, symmetric)
         except LimitError:
@@ -99,8 +95,8 @@ class ShortestPlans:
 
     def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
-        if self._spaces is not None:
-            return self._spaces.succeeds(state, goal, plan)
+        if self._space is not None:
+            return self._space.succeeds(state, goal, plan)
         # Few horizons serve all lengths.
         horizon = 1 << (max(len(plan), _LEAST_HORIZON) - 1).bit_length()
         session = self._following.get(horizon, lambda: self._session("follow", horizon))
@@ -114,23 +110,19 @@ class ShortestPlans:
 
         Raises LimitError.
         """
-        bounds = self._bounds(state, goal)
-        if bounds is None or not bounds.exact:
-            return None
-        return bounds.least(None, current().take_expansions) is not None
+        search = self._search(state, goal)
+        return (
+            None if search is None else search.distance(None, current().take_expansions) is not None
+        )
 
-    def _bounds(self, state: State, goal: tuple[str, ...]) -> Bounds | None:
-        return None if self._spaces is None else self._spaces.bounds(state, goal)
+    def _search(self, state: State, goal: tuple[str, ...]) -> Search | None:
+        return None if self._space is None else self._space.search(state, goal)
 
     def _answer(self, question: _Question, limit: int, pairs: Pairs) -> tuple[str, ...] | None:
-        bounds = question.bounds
-        if bounds is not None:
-            least = bounds.least(limit, current().take_expansions)
-            if least is None:
-                return None
-            question.length = max(question.length, least)
-            if bounds.exact:
-                return bounds.first_plan(least, current().take_expansions)
+        if question.search is not None:
+            spend = current().take_expansions
+            least = question.search.distance(limit, spend)
+            return None if least is None else question.search.first_plan(spend)
         while question.length <= limit:
             plan = self._of_length(question, pairs)
             if plan is not None:
@@ -141,10 +133,6 @@ class ShortestPlans:
     def _of_length(self, question: _Question, pairs: Pairs) -> tuple[str, ...] | None:
         """The first plan of the question's length in the order of declaration, or None."""
         (state, goal), length = question.asked, question.length
-        if self._problems is not None and question.bounds is not None:
-            allowed = question.bounds.steps(length, current().take_expansions)
-            steps = [[action for action in self._actions if action in some] for some in allowed]
-            return self._problems.first_plan(state, goal, steps, pairs) if all(steps) else None
         session = self._planning.get(length, lambda: self._session("plan", length))
         ordered = (fact("symmetric", *pair) for pair in pairs)
         session.switch_on(*goal_externals(goal), *ordered)
@@ -155,7 +143,7 @@ class ShortestPlans:
             return None if model is None else self._read(session, model, length)
 
     def _session(self, part: str, steps: int) -> Session:
-        facts = (*self._facts, *candidates([self._actions] * steps))
+        facts = (*self._facts, *_candidates(self._actions, steps))
         return Session(self._program, "incremental_planning", self._fluents, facts, [part], n=steps)
 
     def _read(self, session: Session, model: clingo.Model, length: int) -> tuple[str, ...]:
@@ -179,3 +167,10 @@ def _facts(description: Description, classes: Iterable[Sequence[str]]) -> Iterat
                     yield fact("names", action, constant)
         for pair in pairwise(members):
             yield fact("neighbours", *pair)
+
+
+def _candidates(actions: Iterable[str], steps: int) -> Iterator[Symbol]:
+    """candidate(A,I,L): the earlier in this order, the higher the level, while there are any."""
+    levels = chain(range(MOST_LEVELS, 0, -1), repeat(0))
+    for (step, action), level in zip(product(range(steps), actions), levels, strict=False):
+        yield fact("candidate", action, step, level)

@@ -8,14 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp.language import parse_description, read_domain
-from asp.reasoning.planning import Encoding, IncrementalPlanner
+from asp.language import read_domain
+from asp.reasoning.planning import IncrementalPlanner
 from asp.reasoning.planning import incremental as plans
 from asp.reasoning.planning import shortest as shared
-from asp.reasoning.planning.large import search
-from asp.reasoning.planning.large.search import Spaces
 from asp.solving import Recent
-from benchmarks.offices import office
 
 OFFICE = read_domain("office")[1]
 # A fluent that is defined by others: no search tells the length of a plan, all are tried.
@@ -52,6 +49,24 @@ def test_the_last_ones_used_are_kept_and_others_made_anew(most: int, keys: list[
         assert len(recent) <= most
 
 
+def test_what_was_not_used_for_longest_goes_until_there_is_room() -> None:
+    recent: Recent[tuple[str, int], object] = Recent(12)
+    made: list[tuple[str, int]] = []
+    for key in [("a", 2), ("a", 4), ("a", 2), ("b", 3), ("a", 2), ("a", 4)]:
+        recent.get(key, lambda key=key: made.append(key), 2 * key[1])  # type: ignore[misc]
+        assert recent.weight <= 12
+    # a, 4 had to go for b, 3, and came back.
+    assert made == [("a", 2), ("a", 4), ("b", 3), ("a", 4)]
+    assert recent.weight == 12
+
+
+def test_what_is_too_heavy_is_kept_alone() -> None:
+    recent: Recent[int, object] = Recent(12)
+    for weight in (1, 2, 20):
+        recent.get(weight, object, weight)
+    assert (len(recent), recent.weight) == (1, 20)
+
+
 @pytest.mark.parametrize("text", [OFFICE, SHELVED])
 def test_with_little_kept_plans_are_the_same(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert text == OFFICE or "shelved if" in text
@@ -67,25 +82,6 @@ def test_with_little_kept_plans_are_the_same(text: str, monkeypatch: pytest.Monk
         assert scarce.succeeds(state, goal, plan)
         assert not scarce.succeeds(state, goal, plan[:-1])
         assert len(scarce._parts) == 1
-    (part,) = scarce._parts._kept.values()
+    ((part, _),) = scarce._parts._kept.values()
     assert len(part._planning) <= 1
     assert len(part._following) <= 1
-
-
-def test_with_one_space_kept_bounds_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    encoding = Encoding(parse_description(office(books=3, rooms=8), "office.al"))
-    ample = Spaces(encoding, 2_000)
-    monkeypatch.setattr(search, "MOST_SPACES", 1)
-    scarce = Spaces(encoding, 2_000)
-    state = frozenset(["loc(rob1,library)", *(f"loc(book{n},office1)" for n in (1, 2, 3))])
-    goals = [[f"loc(book{n},library)" for n in some] for some in ((1,), (2,), (1, 2, 3), (1,))]
-    for goal in goals:
-        expected, found = ample.bounds(state, goal), scarce.bounds(state, goal)
-        assert expected is not None
-        assert found is not None
-        length = expected.least(60, lambda _: None)
-        assert found.least(60, lambda _: None) == length
-        assert length is not None
-        assert found.steps(length, lambda _: None) == expected.steps(length, lambda _: None)
-        assert len(scarce._kept) == 1
-    assert len(ample._kept) > 1

@@ -43,11 +43,9 @@ def slow_spaces(monkeypatch: pytest.MonkeyPatch, clock: Clock) -> list[Space]:
     """The spaces that were made, each of which takes a while."""
     made: list[Space] = []
 
-    def slow(
-        sizes: Sequence[int], operators: Iterable[Operator], variables: Sequence[int]
-    ) -> Space:
+    def slow(sizes: Sequence[int], operators: Iterable[Operator]) -> Space:
         clock.goes_on(SLOW_S)
-        made.append(Space(sizes, operators, variables))
+        made.append(Space(sizes, operators))
         return made[-1]
 
     monkeypatch.setattr(search, "Space", slow)

@@ -11,8 +11,7 @@ from functools import reduce
 from operator import or_
 from typing import NamedTuple
 
-from asp.reasoning.fine_planning.large.relaxed_reachability import Reach
-from asp.reasoning.fine_planning.large.relaxed_rules import Body
+from asp.reasoning.fine_planning.large.relaxed_reachability import Body, Reach
 
 Layer = Mapping[int, Sequence[Body]]
 """Nodes that lead to the goal at a step, with the bodies that they may follow from within it."""

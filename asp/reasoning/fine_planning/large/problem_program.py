@@ -1,22 +1,34 @@
-"""Plans of exactly so many steps for one problem alone, where a control to keep would be too large.
+"""Plans of exactly so many steps for one problem alone, where a session would be too large.
 
 The rules are those of `asp.reasoning.fine_planning.horizon`, but start and goal are part of the
 program, and functions are confined to the values that can lead to the goal
 (`asp.reasoning.fine_planning.large.value_pruning`). So clingo grounds what is about states on the
 way only, and not each step for all of the description.
+
+Constants that a plan has nothing to do with are not even instantiated. A constant is out of play if
+nothing that names it can be true on the way, nor an action that names it occur. What a rule says of
+such a constant is void where the rule's head names it, or a condition that has to be true;
+variables that occur elsewhere only are *loose*, and constants that they may stand for stay in play.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import clingo
 from clingo import Number
 
-from asp.language import atom, is_positive
+from asp.language import Function, arguments, atom, is_positive
+from asp.reasoning.fine_planning.compact_part import CompactPart
 from asp.reasoning.fine_planning.horizon import MOST_LEVELS, parts, read
+from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
+from asp.reasoning.fine_planning.large.value_pruning import Valued, Values, confined, valued
 from asp.solving import ground, solving, theory
+from asp.translation import ACTION, BASE, STATE, STEP, Rule
+from asp.translation import confined as worded
 
 
 @dataclass(frozen=True)
@@ -28,27 +40,91 @@ class Problem:
     goal: tuple[str, ...]
 
 
-def fitted_plan(
-    program: str,
-    actions: Mapping[str, int],
-    problem: Problem,
-    confined: Sequence[Mapping[str, Sequence[str]]],
-) -> tuple[str, ...] | None:
-    """The first plan of exactly so many steps, or None. Raises LimitError.
+class ProblemPrograms:
+    """Programs for single problems in a part of a description."""
 
-    `program` has its rules worded for being confined, `actions` their places in the order of
-    declaration; `confined` are for each step the functions confined, with the fluents left.
-    """
-    length = len(confined) - 1
-    facts = (*_given(problem, confined[0]), *_within(confined))
-    control = ground(
-        [program, theory("incremental_fine_planning")], {"n": length}, facts, ["problem"]
+    def __init__(
+        self, part: CompactPart, relaxed: Relaxed, functions: Mapping[str, Function]
+    ) -> None:
+        self._rules = part.worded(worded)
+        self._ranks = {action: rank for rank, action in enumerate(part.actions)}
+        self._loose = loose(part.rules, part.sorts)
+        self._valued = valued(relaxed, functions)
+        self._facts: dict[str, list[str]] = defaultdict(list)  # by their first constant
+        for fact in relaxed.facts:
+            self._facts[next(iter(arguments(fact)), "")].append(fact)
+
+    def plan(self, problem: Problem, reach: Reach, length: int) -> tuple[str, ...] | None:
+        """The first plan of exactly so many steps, or None. Raises LimitError."""
+        steps = confined(reach, self._valued.number, length)
+        left = [dict(self._told(values)) for values in steps]
+        playing = self._loose | in_play(reach, self._valued, steps)
+        static = (f"{fact}." for fact in self._facts_about(playing))
+        program = "\n".join([self._rules, f"#program {BASE}.", *static])
+        given = (*_given(problem, left[0]), *_within(left))
+        texts = [program, theory("incremental_fine_planning")]
+        control = ground(texts, {"n": length}, given, ["problem"])
+        first, *others = parts(length)
+        control.ground([first, ("open", []), *others, ("goal", [Number(length)])])
+        _prefer(control, self._ranks)
+        with solving(control) as model:
+            return None if model is None else read(model)
+
+    def _facts_about(self, constants: Collection[str]) -> Iterator[str]:
+        """What is so at all times of these constants only."""
+        for constant in (*sorted(constants), ""):  # in one order in all processes
+            for fact in self._facts.get(constant, ()):
+                if all(other in constants for other in arguments(fact)):
+                    yield fact
+
+    def _told(self, values: Values) -> Iterator[tuple[str, Sequence[str]]]:
+        """The functions confined at a step, with the fluents left."""
+        for number, nodes in values.items():
+            fluents = [self._valued.text[node] for node in nodes]
+            yield from ((term, fluents) for term in self._valued.terms[number])
+
+
+_VARIABLE = re.compile(r"\b[A-Z]\w*")
+_SORT = re.compile(r"(\w+)\((\w+)\)")
+_DYNAMIC = ("holds(", "occurs(", "allowed(", "2 {")
+
+
+def loose(rules: Iterable[Rule], sorts: Mapping[str, Sequence[str]]) -> frozenset[str]:
+    """The constants that rules name, or that a loose variable of a rule may stand for."""
+    found: set[str] = set()
+    for rule in rules:
+        found |= rule.constants
+        if rule.part in (STATE, STEP):
+            found.update(*(sorts[sort] for sort in _loose_sorts(rule, sorts)))
+    return frozenset(found)
+
+
+def _loose_sorts(rule: Rule, sorts: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    tied = set(_VARIABLE.findall(rule.head))
+    for condition in rule.body:
+        if condition.startswith(_DYNAMIC):
+            tied.update(_VARIABLE.findall(condition))
+    for condition in rule.body:
+        match = _SORT.fullmatch(condition)
+        if match and match[1] in sorts and match[2] not in tied:
+            yield match[1]
+
+
+def in_play(reach: Reach, known: Valued, steps: Sequence[Values]) -> frozenset[str]:
+    """The constants of what may be true, or may occur, at some step, as functions are confined."""
+    free = {
+        number
+        for number, terms in enumerate(known.terms)
+        if any(number not in step for step in (steps[:-1] if ACTION in terms else steps))
+    }
+    left = {node for step in steps for nodes in step.values() for node in nodes}
+    return frozenset(
+        constant
+        for node, level in reach.spread.level.items()
+        if level < len(steps) and node in known.text
+        if node in left or known.number.get(node) in (None, *free)
+        for constant in arguments(known.text[node])
     )
-    first, *others = parts(length)
-    control.ground([first, ("open", []), *others, ("goal", [Number(length)])])
-    _prefer(control, actions)
-    with solving(control) as model:
-        return None if model is None else read(model)
 
 
 def _given(problem: Problem, confined: Mapping[str, Sequence[str]]) -> Iterator[str]:

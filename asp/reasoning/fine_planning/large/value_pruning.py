@@ -1,22 +1,23 @@
 """Which values functions must have on the way of a plan of a given length.
 
-Read as Horn clauses (`asp.reasoning.fine_planning.large.relaxed_rules`), what leads to a literal of
-the goal is a graph of atoms at steps. A function is a *landmark* at a step where every derivation
-of the literal has one of its values at that step. Every plan is such a derivation, of what is true
-on its way; and a function has one value at a time. So at that step it has a value of which
-something leads to the goal, and all others can be left out of the search: no plan of this length is
-lost.
+Read as Horn clauses (`asp.reasoning.fine_planning.large.relaxed_reachability`), what leads to a
+literal of the goal is a graph of atoms at steps. A function is a *landmark* at a step where every
+derivation of the literal has one of its values at that step. Every plan is such a derivation, of
+what is true on its way; and a function has one value at a time. So at that step it has a value of
+which something leads to the goal, and all others can be left out of the search: no plan of this
+length is lost.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
-from asp.reasoning.fine_planning.large.implied_functions import implied
+from asp.language import Function, arguments, ground, name
 from asp.reasoning.fine_planning.large.landmarks import Layer, landmarks
-from asp.reasoning.fine_planning.large.relaxed_reachability import Reach
-from asp.reasoning.fine_planning.large.relaxed_rules import Body
+from asp.reasoning.fine_planning.large.relaxed_reachability import Body, Graph, Reach, Relaxed
+from asp.translation import ACTION
 
 Values = dict[int, list[int]]
 """The functions that are confined at a step, by number, each with the nodes of the values left."""
@@ -105,3 +106,77 @@ class _Ways:
         """Whether it may be true at a step."""
         level = self._reach.spread.level.get(node)
         return level is not None and level <= step and node not in self._impossible[step]
+
+
+def implied(
+    values: Mapping[int, Sequence[int]], functions: Mapping[int, int], graph: Graph
+) -> dict[int, list[int]]:
+    """Functions, by number, with all the values that they can have as far as others have those.
+
+    `values` are the nodes left of the values of functions, one of which each is sure to have;
+    `functions` has for each node that gives a function a value the number of that function.
+    """
+    groups = [list(_groups(nodes, graph)) for nodes in values.values()]
+    certain = {node for group in groups if len(group) == 1 for node in group[0]}
+    found: dict[int, list[int]] = {}
+    for group in groups:
+        images = [_images(nodes, certain, functions, graph) for nodes in group]
+        if images:
+            for number in set(images[0]).intersection(*images[1:]) - values.keys():
+                found[number] = [node for image in images for node in image[number]]
+    return found
+
+
+def _groups(nodes: Iterable[int], graph: Graph) -> Iterator[set[int]]:
+    """What is always true together is one value."""
+    seen: set[int] = set()
+    for node in nodes:
+        if node not in seen:
+            together = graph.same(node)
+            seen |= together
+            yield together
+
+
+def _images(
+    nodes: Iterable[int], certain: set[int], functions: Mapping[int, int], graph: Graph
+) -> dict[int, set[int]]:
+    """The values, by function, that are sure where a value is had and what is certain is true."""
+    found: dict[int, set[int]] = {}
+    for node in nodes:
+        for others, head in graph.implied.get(node, ()):
+            if certain.issuperset(others) and head in functions:
+                found.setdefault(functions[head], set()).update(graph.same(head))
+    return found
+
+
+@dataclass(frozen=True)
+class Valued:
+    """`number` is, for each node that gives a function a value, the number of the function.
+
+    Functions that by the laws have the same value at all times, as the places of a thing's parts,
+    share their number; `terms` are those of each number. `text` is what each node stands for.
+    """
+
+    number: Mapping[int, int]
+    terms: Sequence[Sequence[str]]
+    text: Mapping[int, str]
+
+
+def valued(relaxed: Relaxed, functions: Mapping[str, Function]) -> Valued:
+    """The functions among the fluents of a program, and ACTION."""
+    nodes: dict[str, list[int]] = defaultdict(list)
+    nodes[ACTION] = [*relaxed.actions.values()]
+    fluents = {node: fluent for fluent, node in relaxed.nodes.items()}
+    for node, fluent in fluents.items():
+        function = functions.get(name(fluent))
+        if function is not None:
+            others = list(arguments(fluent))
+            del others[function.place]
+            nodes[ground(name(fluent), others)].append(node)
+    classes: dict[frozenset[int], list[str]] = defaultdict(list)
+    for term, values in nodes.items():
+        classes[frozenset(min(relaxed.graph.same(node)) for node in values)].append(term)
+    numbered = enumerate(classes.values())
+    numbers = {node: number for number, terms in numbered for term in terms for node in nodes[term]}
+    actions = {node: action for action, node in relaxed.actions.items()}
+    return Valued(numbers, [*classes.values()], fluents | actions)

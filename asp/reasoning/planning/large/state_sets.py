@@ -24,46 +24,29 @@ MOST_BITS = 2**17
 class Move:
     """What an operator does with the states of one place: mask, shift to the left, go."""
 
-    action: int
+    action: str
     to: int
     mask: int
     shift: int
 
 
 class Space:
-    """The states over some of the variables of an encoding, with the operators that change them.
+    """The states of an encoding, with the operators that change them."""
 
-    `actions` are those that change something in this space, `elsewhere` those that may leave all of
-    it as it is and change another variable.
-    """
-
-    def __init__(
-        self, sizes: Sequence[int], operators: Iterable[Operator], variables: Sequence[int]
-    ) -> None:
-        """`sizes` are the numbers of values of all variables, `variables` those of the space."""
-        seen = _projected(operators, frozenset(variables))
-        projected = [operator for operator in seen if operator.after]
-        self.actions = tuple(dict.fromkeys(operator.action for operator in projected))
-        self.elsewhere = frozenset(
-            operator.action
-            for operator in seen
-            if not operator.after and len(variables) < len(sizes)
-        )
-        outer, inner = _arranged(sizes, projected, variables)
+    def __init__(self, sizes: Sequence[int], operators: Iterable[Operator]) -> None:
+        """`sizes` are the numbers of values of the variables."""
+        changing = [operator for operator in operators if operator.after]
+        outer, inner = _arranged(sizes, changing)
         self._sizes = sizes
         self._outer = _Numbering(sizes, outer)
         self._inner = _Numbering(sizes, inner)
         self._masks: dict[tuple[tuple[int, int], ...], int] = {(): (1 << self._inner.count) - 1}
         self.moves: dict[int, list[Move]] = {}
-        numbers = {action: number for number, action in enumerate(self.actions)}
-        for operator in projected:
-            self._add(operator, numbers[operator.action])
+        for operator in changing:
+            self._add(operator)
 
     def states(self, conditions: Iterable[tuple[int, int, bool]]) -> dict[int, int]:
-        """The states that satisfy conditions: variable, value, whether it has this value.
-
-        Conditions on variables outside of the space are taken for satisfied.
-        """
+        """The states that satisfy conditions: variable, value, whether it has this value."""
         allowed: dict[int, set[int]] = {}
         for variable, value, truth in conditions:
             values = allowed.setdefault(variable, set(range(self._sizes[variable])))
@@ -83,7 +66,7 @@ class Space:
             found |= self._mask(((variable, value),))
         return found
 
-    def _add(self, operator: Operator, action: int) -> None:
+    def _add(self, operator: Operator) -> None:
         before = dict(operator.before)
         free = [v for v, _ in operator.after if v not in before]
         for values in product(*(range(self._sizes[v]) for v in free)):
@@ -93,7 +76,9 @@ class Space:
             step = self._outer.difference(now, operator.after)
             fixed = {v: {x} for v, x in now.items() if v in self._outer.strides}
             for place in self._outer.numbers(fixed):
-                self.moves.setdefault(place, []).append(Move(action, place + step, mask, shift))
+                self.moves.setdefault(place, []).append(
+                    Move(operator.action, place + step, mask, shift)
+                )
 
     def _mask(self, values: tuple[tuple[int, int], ...]) -> int:
         """The states of a place in which variables have these values."""
@@ -139,28 +124,13 @@ class _Numbering:
         return ((((1 << stride) - 1) << (value * stride)) * every) if every else 0
 
 
-def _projected(operators: Iterable[Operator], variables: frozenset[int]) -> list[Operator]:
-    """Each operator as seen by these variables, once."""
-    found = (
-        Operator(
-            operator.action,
-            tuple(entry for entry in operator.before if entry[0] in variables),
-            tuple(entry for entry in operator.after if entry[0] in variables),
-        )
-        for operator in operators
-    )
-    return list(dict.fromkeys(found))
-
-
-def _arranged(
-    sizes: Sequence[int], operators: Sequence[Operator], variables: Sequence[int]
-) -> tuple[list[int], list[int]]:
+def _arranged(sizes: Sequence[int], operators: Sequence[Operator]) -> tuple[list[int], list[int]]:
     """The variables that make the place of a state, and the others."""
-    asked = dict.fromkeys(variables, 0)
+    asked = dict.fromkeys(range(len(sizes)), 0)
     for operator in operators:
         for variable, _ in operator.before:
             asked[variable] += 1
-    order = sorted(variables, key=lambda variable: -asked[variable])
+    order = sorted(asked, key=lambda variable: -asked[variable])
     outer = 0
     while outer < len(order) and (
         2 * asked[order[outer]] > len(operators)

@@ -62,7 +62,7 @@ def test_controls_of_all_refinements_have_one_bound(monkeypatch: pytest.MonkeyPa
     before = len(_horizons())
     for cells in CELLS:
         _played(_row(cells))
-        assert len(horizons) == 1 or horizons.size <= 20
+        assert len(horizons) == 1 or horizons.weight <= 20
         assert len(_horizons()) - before == len(horizons)
 
 

@@ -11,7 +11,7 @@ import pytest
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
 from asp.language import read_domain
-from asp.reasoning.fine_planning import FinePlanner
+from asp.reasoning.fine_planning import IncrementalFinePlanner
 from asp.refinement import Refinement, load
 from asp.translation import NotCompactError
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
@@ -78,7 +78,7 @@ HANDS = _with_free_hands()
 def test_an_indirect_effect_that_nobody_sees_follows() -> None:
     """By a law about what is false, so that its plans are those of the literal translation."""
     with pytest.raises(NotCompactError):
-        FinePlanner(HANDS.weak, HANDS.weak_signature)
+        IncrementalFinePlanner(HANDS.weak, HANDS.weak_signature)
     start = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "free(rob1)"]
     went = play(RefinedRobot(), HANDS, start, ["loc(object1,room2)"])
     assert went.achieved

@@ -8,8 +8,12 @@ import random
 import pytest
 
 from asp.domains.levels import LevelSize
-from asp.reasoning.fine_planning import FinePlanner, NoPlan, physical
-from asp.reasoning.fine_planning.reference import plain_plan
+from asp.reasoning.fine_planning import (
+    IncrementalFinePlanner,
+    NoPlan,
+    ReferenceFinePlanner,
+    physical,
+)
 from asp.refinement import Refinement, zoom_strong
 from tests.asp.reasoning.fine_planning.fine_problems import (
     FineProblem,
@@ -29,8 +33,8 @@ LIMIT = 12
 TESTS = 2 * LIMIT + 2
 
 
-def _planner(refinement: Refinement) -> FinePlanner:
-    return FinePlanner(refinement.weak, refinement.weak_signature)
+def _planner(refinement: Refinement) -> IncrementalFinePlanner:
+    return IncrementalFinePlanner(refinement.weak, refinement.weak_signature)
 
 
 def _plain(problem: FineProblem) -> tuple[str, ...] | NoPlan:
@@ -38,7 +42,7 @@ def _plain(problem: FineProblem) -> tuple[str, ...] | NoPlan:
     source = zoom_strong(problem.refinement, problem.relevant)
     known = signature(source)
     start = problem.start.within(known.constants)
-    return plain_plan(source, known, start, problem.goal, TESTS)
+    return ReferenceFinePlanner(source, known).plan(start, problem.goal, TESTS)
 
 
 @pytest.mark.parametrize("name", SMALL)
@@ -56,9 +60,8 @@ def test_whole_and_zoomed_the_literal_translation_plans_the_same_actions(name: s
     for _ in range(10):
         problem = drawn_problem(SMALL[name], draw)
         refinement = problem.refinement
-        plain = plain_plan(
-            refinement.strong, refinement.strong_signature, problem.start, problem.goal, TESTS
-        )
+        reference = ReferenceFinePlanner(refinement.strong, refinement.strong_signature)
+        plain = reference.plan(problem.start, problem.goal, TESTS)
         assert not isinstance(plain, NoPlan)
         assert physical(plain) == planner.plan(problem.start, problem.goal, LIMIT), problem
 

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import random
 from pathlib import Path
-from typing import cast
 
 import pytest
 
 from asp.language import analyse
-from asp.reasoning.fine_planning import FinePlanner, FineStart, Horizons, NoPlan, fine_planner
-from asp.reasoning.fine_planning.horizon import Horizon
+from asp.reasoning.fine_planning import (
+    FineStart,
+    Horizons,
+    IncrementalFinePlanner,
+    NoPlan,
+    fine_planner,
+)
 from asp.refinement import Refinement, load, load_refinement
 from asp.translation import NotCompactError
 from tests.asp.reasoning.fine_planning.fine_problems import drawn_goal, drawn_state, first_shortest
@@ -27,8 +31,8 @@ DOMAINS = {
 LIMIT = 6
 
 
-def _planner(refinement: Refinement, most: int = 32) -> FinePlanner:
-    return FinePlanner(refinement.weak, refinement.weak_signature, most)
+def _planner(refinement: Refinement, most: int = 32) -> IncrementalFinePlanner:
+    return IncrementalFinePlanner(refinement.weak, refinement.weak_signature, most=most)
 
 
 @pytest.mark.parametrize("name", DOMAINS)
@@ -153,37 +157,12 @@ def test_no_more_is_kept_than_was_asked_for() -> None:
 
 def test_plans_are_the_same_where_little_is_kept() -> None:
     draw, planner = random.Random(3), _planner(level("L2"))
-    forgetful = FinePlanner(level("L2").weak, level("L2").weak_signature, horizons=Horizons(1))
+    forgetful = IncrementalFinePlanner(
+        level("L2").weak, level("L2").weak_signature, horizons=Horizons(1)
+    )
     for _ in range(20):
         start, goal = drawn_state(level("L2"), draw), drawn_goal(level("L2"), draw)
         assert forgetful.plan(start, goal, LIMIT) == planner.plan(start, goal, LIMIT)
-
-
-class TestHorizons:
-    """Of description and length alone, made by name."""
-
-    def test_those_not_used_for_longest_go_first(self) -> None:
-        horizons, made = Horizons(12), list[None]()
-        asked = [("a", 2), ("a", 4), ("a", 2), ("b", 3), ("a", 2), ("a", 4)]
-        for description, length in asked:
-            horizons.get(description, length, 2, lambda: cast(Horizon, made.append(None)))
-            assert horizons.size <= 12
-        # a, 4 had to go for b, 3, and came back.
-        assert len(made) == 4
-        assert horizons.size == 12
-
-    def test_one_too_large_is_kept_alone(self) -> None:
-        horizons = Horizons(12)
-        for length in (1, 2, 20):
-            horizons.get("a", length, 1, lambda: cast(Horizon, None))
-        assert (len(horizons), horizons.size) == (1, 20)
-
-    def test_those_of_one_description_are_forgotten(self) -> None:
-        horizons = Horizons(12)
-        for description in ("a", "b"):
-            horizons.get(description, 1, 1, lambda: cast(Horizon, None))
-        horizons.forget("a")
-        assert len(horizons) == 1
 
 
 LAMP = """
@@ -206,7 +185,7 @@ laws
 def test_laws_about_what_is_false_are_translated_literally() -> None:
     source, signature = analyse(LAMP)
     with pytest.raises(NotCompactError, match="line 13"):
-        FinePlanner(source, signature)
+        IncrementalFinePlanner(source, signature)
     planner = fine_planner(source, signature)
     assert planner.plan(FineStart(frozenset({"lit(lamp1)"})), ("dark(lamp1)",), LIMIT) == (
         "quench(lamp1)",
@@ -231,6 +210,6 @@ laws
 
 
 def test_no_plan_has_an_action_whose_effects_contradict_each_other() -> None:
-    planner = FinePlanner(*analyse(BROKEN))
+    planner = IncrementalFinePlanner(*analyse(BROKEN))
     start = FineStart(frozenset({"broken(lamp1)"}))
     assert planner.plan(start, ("lit(lamp1)",), LIMIT) == ("mend(lamp1)", "light(lamp1)")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LevelSize
-from asp.reasoning.fine_planning import FinePlanner, NoPlan
+from asp.reasoning.fine_planning import IncrementalFinePlanner, NoPlan
 from asp.refinement import Refinement, load, load_refinement
 from tests.asp.reasoning.fine_planning.fine_problems import (
     drawn_goal,
@@ -37,14 +37,14 @@ LARGE = {
 LIMIT = 12
 
 
-def _fitted(refinement: Refinement) -> FinePlanner:
+def _fitted(refinement: Refinement) -> IncrementalFinePlanner:
     """One that keeps no control, however small."""
-    return FinePlanner(refinement.weak, refinement.weak_signature, largest=-1)
+    return IncrementalFinePlanner(refinement.weak, refinement.weak_signature, largest=-1)
 
 
-def _kept(refinement: Refinement) -> FinePlanner:
+def _kept(refinement: Refinement) -> IncrementalFinePlanner:
     """One that keeps each, however large."""
-    return FinePlanner(refinement.weak, refinement.weak_signature, largest=10**9)
+    return IncrementalFinePlanner(refinement.weak, refinement.weak_signature, largest=10**9)
 
 
 @pytest.mark.parametrize("name", SMALL)

@@ -11,12 +11,11 @@ import pytest
 
 from asp.domains.levels import LevelSize
 from asp.language import analyse, arguments, functions
-from asp.reasoning.fine_planning import FinePlanner, FineStart
-from asp.reasoning.fine_planning.abstraction import Narrower
-from asp.reasoning.fine_planning.large.function_values import valued
+from asp.reasoning.fine_planning import FineStart, IncrementalFinePlanner
+from asp.reasoning.fine_planning.compact_part import CompactDescription
+from asp.reasoning.fine_planning.large.problem_program import in_play, loose
 from asp.reasoning.fine_planning.large.relaxed_reachability import Relaxed
-from asp.reasoning.fine_planning.large.value_pruning import confined
-from asp.reasoning.fine_planning.relevant_constants import in_play, loose
+from asp.reasoning.fine_planning.large.value_pruning import confined, valued
 from asp.refinement import Refinement, load, load_refinement
 from asp.translation import ACTION
 from testbed.world import World, world_of
@@ -44,27 +43,24 @@ class Confining:
 
     def __init__(self, refinement: Refinement) -> None:
         source, signature = refinement.weak, refinement.weak_signature
-        self._narrower = Narrower(source, signature)
-        self._narrow = self._narrower.narrow(signature.constants)
-        self._relaxed = Relaxed(self._narrower.program(self._narrow))
+        self._part = CompactDescription(source, signature).part(signature.constants)
+        self._relaxed = Relaxed(self._part.program)
         self._known = valued(self._relaxed, functions(source, signature))
         self.playing: set[str] = set()
-        self._loose = loose(self._narrower.kept(self._narrow), dict(self._narrow.sorts))
+        self._loose = loose(self._part.rules, self._part.sorts)
 
     def steps(self, start: FineStart, goal: tuple[str, ...], length: int) -> list[Step] | None:
         """What is left at each step; None where the goal cannot be reached so soon."""
-        true, wanted = self._narrow.seen(start.true), self._narrow.seen(goal)
+        true, wanted = self._part.seen(start.true), self._part.seen(goal)
         reach = self._relaxed.reach(true, wanted)
         if reach is None or reach.least > length:
             return None
         steps = confined(reach, self._known.number, length)
         playing = in_play(reach, self._known, steps) | self._loose
-        self.playing = {c for c, seen in self._narrow.names.items() if seen in playing}
+        self.playing = {c for c, seen in self._part.names.items() if seen in playing}
         return [
             {
-                self._narrow.back([term])[0]: {
-                    *self._narrow.back(self._known.text[n] for n in left)
-                }
+                self._part.back([term])[0]: {*self._part.back(self._known.text[n] for n in left)}
                 for number, left in step.items()
                 for term in self._known.terms[number]
             }
@@ -187,10 +183,9 @@ facts
 
 def test_what_a_law_speaks_of_without_naming_it_otherwise_stays_in_play() -> None:
     source, signature = analyse(MARKED)
-    narrower = Narrower(source, signature)
-    narrow = narrower.narrow(signature.constants)
-    kept = loose(narrower.kept(narrow), dict(narrow.sorts))
-    assert {narrow.names[f"spot{n}"] for n in (1, 2, 3)} <= kept
-    planner = FinePlanner(source, signature, largest=-1)
+    part = CompactDescription(source, signature).part(signature.constants)
+    kept = loose(part.rules, part.sorts)
+    assert {part.names[f"spot{n}"] for n in (1, 2, 3)} <= kept
+    planner = IncrementalFinePlanner(source, signature, largest=-1)
     plan = planner.plan(FineStart(frozenset()), ("glad(rob1)",), 3)
     assert plan == ("sweep(rob1,spot2)", "sing(rob1)")

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 
 import pytest
+from clingo import Control
 
 from asp.language import Description, analyse, parse_description, read_domain
-from asp.reasoning.planning import Encoding, IncrementalPlanner
+from asp.reasoning.planning import Encoding, IncrementalPlanner, shortest
 from asp.reasoning.planning.incremental import symmetric_pairs
 from asp.reasoning.planning.large.outcomes import NotEncodableError
-from asp.reasoning.planning.large.problem_program import MOST_LEVELS, ProblemPrograms, candidates
-from asp.reasoning.planning.large.search import Spaces
+from asp.reasoning.planning.large.search import StateSpace
 from asp.reasoning.relevance import Relevance
 from asp.solving import Limits, deciding
 from asp.solving.budget import TimeLimitError
@@ -100,12 +100,10 @@ laws
   impossible switch_off(L) if -on(L).
 """
 
-# The ways in which a plan may be looked for: the sizes of spaces, and what is switched off.
+# The ways in which a plan may be looked for.
 WAYS: dict[str, dict[str, int]] = {
     "searched": {},
-    "bounded, in a program of its own": {"MOST_STATES": 30},
-    "bounded, in a program for all problems": {"MOST_STATES": 30, "PROBLEM_PROGRAMS": False},
-    "hardly bounded": {"MOST_STATES": 1},
+    "with too many states": {"MOST_STATES": 30},
     "without a search": {"STATE_SET_SEARCH": False},
 }
 
@@ -203,33 +201,10 @@ def test_a_plan_succeeds_too_where_the_goal_is_defined() -> None:
     assert not plans.succeeds(now, ("-free(rob1,kitchen)",), (there,))
 
 
-@pytest.mark.parametrize("levels", [1, 3, 40])
-def test_with_few_levels_the_plan_is_chosen_bit_by_bit(
-    levels: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("asp.reasoning.planning.incremental.MOST_STATES", 1)
-    monkeypatch.setattr("asp.reasoning.planning.large.problem_program.MOST_LEVELS", levels)
-    description = parse_description(OFFICE, "office.al")
-    world, plans, draw = world_of(description), _planner(OFFICE), random.Random(8)
-    states = list(world.initial_states())
-    for _ in range(10):
-        state, goal = draw.choice(states), _some_goal(description, draw)
-        if not world.satisfies(state, goal):
-            found = plans.shortest(frozenset(world.true_atoms(state)), goal, 6)
-            assert found == _first_shortest(world, state, goal, 6), (world.true_atoms(state), goal)
-
-
-def test_no_two_choices_share_a_level_that_clasp_knows() -> None:
-    steps = [[f"a({number})" for number in range(600)] for _ in range(60)]
-    levels = [str(c.arguments[2]) for c in candidates(steps)]
-    assert levels[: MOST_LEVELS + 1] == [str(n) for n in range(MOST_LEVELS, -1, -1)]
-    assert set(levels[MOST_LEVELS:]) == {"0"}
-
-
 def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
     asked = []
-    bounds = Spaces.bounds
-    monkeypatch.setattr(Spaces, "bounds", lambda *given: asked.append(given) or bounds(*given))
+    search = StateSpace.search
+    monkeypatch.setattr(StateSpace, "search", lambda *given: asked.append(given) or search(*given))
     plans = IncrementalPlanner(OFFICE, "office.al")
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
     goal = ("loc(book1,library)", "loc(book2,library)")
@@ -243,26 +218,20 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
 
 
 def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("asp.reasoning.planning.incremental.MOST_STATES", 30)
+    monkeypatch.setattr("asp.reasoning.planning.incremental.STATE_SET_SEARCH", False)
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
-    goal = ("loc(book1,library)", "loc(book2,library)")
-    whole = IncrementalPlanner(OFFICE, "office.al").shortest(state, goal, 20)
-    first_plan, interrupted = ProblemPrograms.first_plan, set[int]()
+    goal = ("loc(book1,library)",)
+    whole = _planner(OFFICE).shortest(state, goal, 20)
+    solving, interrupted = shortest.solving, set[object]()
 
-    def at_second_attempt(
-        self: ProblemPrograms,
-        state: frozenset[str],
-        goal: tuple[str, ...],
-        steps: Sequence[Sequence[str]],
-        symmetric: Iterable[tuple[str, str]],
-    ) -> tuple[str, ...] | None:
-        if len(steps) not in interrupted:
-            interrupted.add(len(steps))
+    def at_second_attempt(control: Control, start: Sequence[int]) -> object:
+        if control not in interrupted:
+            interrupted.add(control)
             raise TimeLimitError
-        return first_plan(self, state, goal, steps, symmetric)
+        return solving(control, start)
 
-    monkeypatch.setattr(ProblemPrograms, "first_plan", at_second_attempt)
-    plans, found = IncrementalPlanner(OFFICE, "office.al"), None
+    monkeypatch.setattr(shortest, "solving", at_second_attempt)
+    plans, found = _planner(OFFICE), None
     for _ in range(20):
         with suppress(TimeLimitError):
             found = plans.shortest(state, goal, 20)
