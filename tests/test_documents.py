@@ -37,9 +37,19 @@ def _blocks(language: str) -> list[str]:
     ]
 
 
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the configurations of the project and a run."""
+    folder = tmp_path_factory.mktemp("home")
+    (folder / "configs").symlink_to(ROOT / "configs")
+    run = ["run", "quickstart", "scenarios=[1]", "link=inprocess", "--quiet", "--out"]
+    assert CliRunner().invoke(app, [*run, str(folder / "runs" / "quickstart")]).exit_code == 0
+    return folder
+
+
 @pytest.mark.parametrize("code", _blocks("python"))
-def test_python_blocks_run(code: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(ROOT)
+def test_python_blocks_run(code: str, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(home)
     exec(compile(code, "<document>", "exec"), {})
 
 

@@ -21,7 +21,7 @@ def command(
     with input_errors():
         for folder in folders:
             read_config(folder)
-        from testbed.experiment.export import export as write
+        from testbed.analysis.table import export as write
 
         for folder in folders:
             for path in write(folder):

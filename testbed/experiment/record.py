@@ -5,10 +5,13 @@ Steps are the environment's: 0 is the selection of the goal, the robot's first a
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any, Literal, TypeAlias, get_args
+from zlib import crc32
 
 import msgspec
 
+from testbed.experiment.errors import StoreError
 from testbed.protocol import Count, Minimality, NoPlan
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
@@ -34,6 +37,10 @@ TIMES = (
 
 MOST_BYTES = 4 * 2**20
 """Of one record as a line."""
+VERSION = 1
+"""Of the keys of a record. Lines without a version, which older testbeds wrote, are 0."""
+SEAL = re.compile(rb'\{"version":(\d+),"crc32":"([0-9a-f]{8})",')
+"""How a line begins; the checksum is that of the rest of the line, a brace before it."""
 Total: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1e15)]
 """A finite sum of seconds."""
 
@@ -221,14 +228,27 @@ class TrialRecord(msgspec.Struct, kw_only=True):
         return html_of(self)
 
 
+class _Seal(msgspec.Struct):
+    """What a line says of itself, wherever in it."""
+
+    version: Count = 0
+    crc32: str | None = None
+
+
+class NewerVersionError(StoreError):
+    """A record that a newer testbed wrote: nothing is wrong with it, but it is not read here."""
+
+
 # Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
 # once end the interpreter.
 _decoder = msgspec.json.Decoder(TrialRecord)
+_seal = msgspec.json.Decoder(_Seal)
 
 
 def encode(record: TrialRecord) -> bytes:
-    """The record as one line of JSON, newline included."""
-    return msgspec.json.encode(record, enc_hook=str) + b"\n"
+    """The record as one line of JSON with its version and checksum, newline included."""
+    body = msgspec.json.encode(record, enc_hook=str)
+    return b'{"version":%d,"crc32":"%08x",%s\n' % (VERSION, crc32(body), body[1:])
 
 
 def check(record: TrialRecord) -> None:
@@ -241,11 +261,33 @@ def check(record: TrialRecord) -> None:
 
 
 def decode(line: bytes) -> TrialRecord:
-    """The record in a line. Raises msgspec.DecodeError for anything else."""
+    """The record in a line.
+
+    Raises:
+        msgspec.DecodeError: for anything else, and where the checksum is not that of the line.
+        NewerVersionError: for a record that a newer testbed wrote.
+    """
     try:
+        _check_seal(line)
         return _decoder.decode(line)
     except (UnicodeDecodeError, RecursionError) as error:
         raise msgspec.DecodeError(str(error)) from error
+
+
+def _check_seal(line: bytes) -> None:
+    """A line without version and checksum is an older one, and is read as it is."""
+    told = SEAL.match(line)
+    if told is None:
+        seal = _seal.decode(line)
+        version, sound = seal.version, seal.crc32 is None
+    else:
+        version = int(told[1])
+        sound = int(told[2], 16) == crc32(b"{" + line[told.end() :].rstrip(b"\n"))
+    if not sound:
+        raise msgspec.DecodeError("its checksum (crc32) is not that of the line")
+    if version > VERSION:
+        newer = f"a record of version {version}, and this testbed reads up to {VERSION}"
+        raise NewerVersionError(f"{newer}; install the one that provenance.json names")
 
 
 def logical(record: TrialRecord) -> dict[str, object]:

@@ -12,8 +12,9 @@ from pathlib import Path
 import msgspec
 
 from testbed.experiment.conformity import strangeness
+from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.record import TrialRecord, decode, logical
+from testbed.experiment.record import NewerVersionError, TrialRecord, decode, logical
 from testbed.experiment.retries import settle
 from testbed.experiment.run_config import read_config
 from testbed.experiment.run_folder import TRIALS, locked, replace_lines
@@ -34,11 +35,13 @@ class _Line:
 def repair(folder: Path, say: Callable[[str], None]) -> None:
     """Drop the lines of a run's records that are not whole, and say which and why.
 
-    Dropped are lines that are no records, records of no planned trial, and further ones of a
-    trial; all of it where these have different results. The old file is kept beside the new one.
+    Dropped are lines that are no records or do not match their checksums, records of no planned
+    trial, and further ones of a trial; all of it where these have different results. The old file
+    is kept beside the new one.
 
     Raises:
-        StoreError: for a folder without a run, or with one that goes on.
+        StoreError: for a folder without a run, with one that goes on, or with records that a
+            newer testbed wrote.
         ConfigError: where the stored configuration is not valid any more.
     """
     planned = {spec.trial: spec for spec in plan_trials(read_config(folder))}
@@ -47,7 +50,9 @@ def repair(folder: Path, say: Callable[[str], None]) -> None:
         settle(folder)
         path.touch()
         with path.open("rb") as file:
-            lines = [_read(number, line, planned) for number, line in enumerate(file, start=1)]
+            lines = [
+                _read(path, number, line, planned) for number, line in enumerate(file, start=1)
+            ]
         dropped = _dropped(lines)
         for number, fault in sorted(dropped.items()):
             say(f"{path}:{number}: dropped: {fault}")
@@ -60,13 +65,15 @@ def repair(folder: Path, say: Callable[[str], None]) -> None:
         say(f"{path}: {whole} of {counted(len(planned), 'trial')} whole, {len(dropped)} dropped")
 
 
-def _read(number: int, line: bytes, planned: Mapping[str, TrialSpec]) -> _Line:
+def _read(path: Path, number: int, line: bytes, planned: Mapping[str, TrialSpec]) -> _Line:
     if not line.endswith(b"\n"):
         return _Line(number, fault="torn")
     try:
         record = decode(line)
     except msgspec.DecodeError as error:
         return _Line(number, fault=f"not a record of a trial: {error}")
+    except NewerVersionError as error:
+        raise StoreError(f"{path}:{number}: {error}") from None
     fault = strangeness(record, planned.get(record.trial))
     return _Line(number, record.trial, _results(record), fault)
 

@@ -12,7 +12,8 @@ from typing import BinaryIO
 
 import msgspec
 
-from testbed.experiment.record import decode
+from testbed.experiment.errors import StoreError
+from testbed.experiment.record import NewerVersionError, decode
 from testbed.experiment.run_folder import TRIALS, replace_lines
 
 RETRIES = "retries.jsonl"
@@ -32,24 +33,28 @@ def trial_of(line: bytes) -> str | None:
         return None
 
 
-def _whole(line: bytes) -> str | None:
+def _whole(path: Path, number: int, line: bytes) -> str | None:
     """The same, of nothing but a whole record."""
     try:
         return decode(line).trial if line.endswith(b"\n") else None
     except msgspec.DecodeError:
         return None
+    except NewerVersionError as error:
+        raise StoreError(f"{path}:{number}: {error}") from None
 
 
 def settle(folder: Path) -> None:
     """Put the results of a retry in the places of the records of the same trials.
 
-    A line of the retry that is damaged takes nobody's place.
+    A line of the retry that is damaged takes nobody's place. Raises StoreError for one that a newer
+    testbed wrote.
     """
     retries = folder / RETRIES
     if not retries.is_file():
         return
     with retries.open("rb") as file:
-        again = {trial: line for line in file if (trial := _whole(line)) is not None}
+        whole = ((_whole(retries, number, line), line) for number, line in enumerate(file, 1))
+        again = {trial: line for trial, line in whole if trial is not None}
     (folder / TRIALS).touch()
     with (folder / TRIALS).open("rb") as file:
         replace_lines(folder / TRIALS, _replaced(file, again))

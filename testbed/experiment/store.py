@@ -12,7 +12,13 @@ from typing import BinaryIO, Self
 import msgspec
 
 from testbed.experiment.errors import StoreError
-from testbed.experiment.record import FAILURES, TrialRecord, decode, encode
+from testbed.experiment.record import (
+    FAILURES,
+    NewerVersionError,
+    TrialRecord,
+    decode,
+    encode,
+)
 from testbed.experiment.retries import RETRIES, settle
 from testbed.experiment.run_config import (
     check_unchanged,
@@ -99,6 +105,8 @@ def _record(line: bytes, folder: Path, number: int) -> TrialRecord:
         return decode(line)
     except msgspec.DecodeError as error:
         raise damaged(folder, number, f"not a record of a trial: {error}") from None
+    except NewerVersionError as error:
+        raise StoreError(f"{folder / TRIALS}:{number}: {error}") from None
 
 
 class TrialWriter:

@@ -3,6 +3,7 @@
 import json
 import re
 import shutil
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from testbed.cli import app
 
 RUN = ("run", "quickstart", "scenarios=[1,2]", "link=inprocess", "--quiet", "--out")
 Lines = list[bytes]
+SEAL = ("version", "crc32")
 
 
 def _do(*arguments: object) -> Result:
@@ -28,8 +30,18 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def _keys(line: bytes) -> dict[str, object]:
+    """A line as testbeds wrote it before lines had a version and a checksum."""
+    return {key: value for key, value in json.loads(line).items() if key not in SEAL}
+
+
 def _with(line: bytes, **keys: object) -> bytes:
-    return json.dumps(json.loads(line) | keys).encode() + b"\n"
+    return json.dumps(_keys(line) | keys).encode() + b"\n"
+
+
+def _changed(line: bytes) -> bytes:
+    """A record like any other, but not the one that was written."""
+    return re.sub(rb'"seed":(\d)', lambda found: b'"seed":%d' % ((int(found[1]) + 1) % 10), line)
 
 
 DAMAGES: dict[str, tuple[Callable[[Lines], Lines], list[int]]] = {
@@ -41,6 +53,11 @@ DAMAGES: dict[str, tuple[Callable[[Lines], Lines], list[int]]] = {
     "another result, twice": (lambda own: [own[1], *own, _with(own[1], plans=9)], [1, 3, 6]),
     "a stranger": (lambda own: [*own, _with(own[0], trial="0" * 16)], [5]),
     "another seed": (lambda own: [*own[:2], _with(own[2], seed=4), own[3]], [3]),
+    "a digit": (lambda own: [own[0], _changed(own[1]), *own[2:]], [2]),
+    "another order": (
+        lambda own: [own[0], json.dumps(json.loads(own[1])).encode() + b"\n", *own[2:]],
+        [2],
+    ),
     "another goal": (lambda own: [*own[:3], _with(own[3], goal=["loc(book1,kitchen)"])], [4]),
 }
 
@@ -141,3 +158,38 @@ def test_a_retry_whose_records_are_gone_is_repaired(whole: Path, tmp_path: Path)
     assert _do("repair", folder).exit_code == 0
     assert _do(*RUN, folder, "--resume").exit_code == 0
     assert len((folder / "trials.jsonl").read_bytes().splitlines()) == 4
+
+
+def test_each_line_has_a_version_and_the_checksum_of_its_rest(whole: Path) -> None:
+    for line in (whole / "trials.jsonl").read_bytes().splitlines():
+        own = json.loads(line)
+        assert list(own)[:2] == list(SEAL)
+        rest = line[line.index(b'"trial"') :]
+        assert int(own["crc32"], 16) == zlib.crc32(b"{" + rest)
+
+
+def test_records_without_version_and_checksum_are_read(whole: Path, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(whole, tmp_path / "run"))
+    trials = folder / "trials.jsonl"
+    older = [_with(line) for line in trials.read_bytes().splitlines(keepends=True)]
+    trials.write_bytes(b"".join(older))
+    for command in (("report", folder), (*RUN, folder, "--resume"), ("repair", folder)):
+        assert _do(*command).exit_code == 0
+    assert trials.read_bytes() == b"".join(older)
+    digests = [json.loads((run / "summary.json").read_text())["digest"] for run in (whole, folder)]
+    assert digests[0] == digests[1]
+
+
+@pytest.mark.parametrize("name", ["trials.jsonl", "retries.jsonl"])
+def test_records_of_a_newer_version_are_refused_and_kept(
+    whole: Path, tmp_path: Path, name: str
+) -> None:
+    folder = Path(shutil.copytree(whole, tmp_path / "run"))
+    newer = re.sub(rb'"version":\d+', b'"version":999', (folder / "trials.jsonl").read_bytes())
+    (folder / name).write_bytes(newer)
+    for command in (("repair", folder), (*RUN, folder, "--resume")):
+        told = _do(*command)
+        assert (told.exit_code, len(told.stderr.splitlines())) == (2, 1)
+        assert f"{name}:1:" in told.stderr
+        assert "999" in told.stderr
+        assert (folder / name).read_bytes() == newer

@@ -8,8 +8,9 @@ import msgspec
 import pytest
 from msgspec import inspect
 
-from testbed.experiment.export import export
+from testbed.analysis.table import export
 from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.record import encode
 from testbed.experiment.store import TrialWriter, read_records, write_config
 from testbed.experiment.trial import Result, play_trial
 from testbed.link import InProcessRobot
@@ -82,7 +83,7 @@ def test_what_is_bounded_in_each_answer_is_bounded_in_all(spec: TrialSpec) -> No
     said = {"step": 1, "unobserved": [], "exceptions": ["-x" * 4000] * 50}
     record = _play(spec, Saying({"explanation": said})).record
     assert (record.outcome, record.cause) == ("robot_lost", "robot")
-    assert len(msgspec.json.encode(record)) < 10_000
+    assert len(encode(record)) < 10_000
 
 
 def test_an_error_of_any_length_leaves_a_record_of_few_characters(spec: TrialSpec) -> None:

@@ -1,18 +1,21 @@
-"""Trials as Parquet and CSV: nothing is lost on the way, whatever a run holds."""
+"""A run as one table, in Python, Parquet and CSV: nothing is lost, whatever a run holds."""
 
 import json
+import re
 from pathlib import Path
 
 import msgspec
 import polars as pl
 import pytest
 
+import testbed
+from testbed.analysis import table
+from testbed.analysis.table import export
 from testbed.config import ConfigError
 from testbed.experiment.errors import StoreError
-from testbed.experiment.export import export
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run_trials
-from testbed.experiment.store import TrialWriter, read_records, write_config
+from testbed.experiment.store import TrialWriter, read_config, read_records, write_config
 from tests.experiment.samples import Configure, a_record
 
 pytestmark = pytest.mark.versions
@@ -32,6 +35,34 @@ def test_parquet_gives_the_records_back(run: Path) -> None:
     stored = list(read_records(run))
     assert [msgspec.convert(row, TrialRecord) for row in rows] == stored
     assert any(record.explanations for record in stored)
+
+
+def test_the_table_has_a_row_per_record_and_a_column_per_key(run: Path) -> None:
+    loaded, stored = testbed.load_run(run), list(read_records(run))
+    assert [msgspec.convert(row, TrialRecord) for row in loaded.trials.to_dicts()] == stored
+    assert list(loaded.records(pl.col("scenario") == "4")) == stored[len(stored) // 2 :]
+    assert loaded.config == read_config(run)
+
+
+def test_a_run_that_has_not_begun_has_a_table_without_rows(
+    tmp_path: Path, configure: Configure
+) -> None:
+    write_config(tmp_path, configure())
+    assert testbed.load_run(str(tmp_path)).trials.shape == (0, len(TrialRecord.__struct_fields__))
+
+
+def test_each_column_is_documented() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "results.md").read_text(encoding="utf-8")
+    rows = [" ".join(line.split("|")[1:3]) for line in page.splitlines() if line.startswith("| `")]
+    told = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+    nested = {
+        field.name
+        for kind in table.schema().values()
+        for part in [kind.inner if isinstance(kind, pl.List) else kind]
+        if isinstance(part, pl.Struct)
+        for field in part.fields
+    }
+    assert {*table.schema(), *nested} <= told
 
 
 def test_csv_gives_the_records_back(run: Path) -> None:

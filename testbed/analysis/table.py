@@ -1,0 +1,134 @@
+"""The trials of a run as one table, which everything about a run is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import polars as pl
+from msgspec import inspect
+
+from testbed.config import ExperimentConfig
+from testbed.experiment.errors import StoreError
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.store import PROVENANCE, naming, read_config, read_records
+
+PARQUET, CSV = "trials.parquet", "trials.csv"
+BATCH = 1000
+"""Records that are Python objects at the same time."""
+FORMULA = "^[=+@\t\r\n\u2212\uff1d\uff0b\uff0d\uff20-]"
+"""How text begins that spreadsheets take for a formula."""
+SCALARS: dict[type[inspect.Type], type[pl.DataType]] = {
+    inspect.StrType: pl.String,
+    inspect.LiteralType: pl.String,
+    inspect.BoolType: pl.Boolean,
+    inspect.IntType: pl.Int64,
+    inspect.FloatType: pl.Float64,
+}
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run folder as it was read: its configuration, provenance and trials.
+
+    `trials` has one row per trial on record, in the order in which they ended, and one column per
+    key of a record; what is nested there is a list or a struct here. `provenance` is what
+    `provenance.json` holds, empty where there is none.
+    """
+
+    folder: Path
+    config: ExperimentConfig
+    provenance: dict[str, Any]
+    trials: pl.DataFrame
+
+    def records(self, *conditions: pl.Expr) -> Iterator[TrialRecord]:
+        """The rows as records, one at a time; with conditions those that satisfy all of them."""
+        return records_of(self.trials.filter(*conditions))
+
+
+def load_run(folder: str | Path) -> Run:
+    """Read a run folder, each record once; also while the run goes on.
+
+    Raises:
+        StoreError: for a folder without a run, and for a damaged record, with its line.
+        ConfigError: where the stored configuration is not valid any more.
+    """
+    folder = Path(folder)
+    config, provenance = read_config(folder), folder / PROVENANCE
+    known = msgspec.json.decode(provenance.read_bytes()) if provenance.is_file() else {}
+    return Run(folder, config, known, table_of(read_records(folder)))
+
+
+def table_of(records: Iterable[TrialRecord]) -> pl.DataFrame:
+    """Records as a table; every column has its type, also where it is always empty."""
+    source, columns = iter(records), schema()
+    frames = [pl.DataFrame(schema=columns)]
+    while batch := [msgspec.to_builtins(own, enc_hook=str) for own in islice(source, BATCH)]:
+        frames.append(pl.DataFrame(batch, schema=columns, orient="row"))
+    return pl.concat(frames)
+
+
+def records_of(trials: pl.DataFrame) -> Iterator[TrialRecord]:
+    """The rows of a table as records."""
+    return (msgspec.convert(row, TrialRecord) for row in trials.iter_rows(named=True))
+
+
+def schema() -> dict[str, pl.DataType]:
+    """The columns of the table with their types, which follow from those of a record."""
+    shape = inspect.type_info(TrialRecord)
+    assert isinstance(shape, inspect.StructType)
+    return {field.name: _column(field.type) for field in shape.fields}
+
+
+def _column(kind: inspect.Type) -> pl.DataType:
+    if isinstance(kind, inspect.UnionType):
+        (kind,) = (item for item in kind.types if not isinstance(item, inspect.NoneType))
+    if isinstance(kind, inspect.ListType):
+        return pl.List(_column(kind.item_type))
+    if isinstance(kind, inspect.StructType):
+        return pl.Struct({field.name: _column(field.type) for field in kind.fields})
+    return SCALARS[type(kind)]()
+
+
+def export(folder: Path) -> tuple[Path, Path]:
+    """Write the table of a run into its folder as `trials.parquet` and `trials.csv`; their paths.
+
+    Raises:
+        StoreError: for a folder without a run, or a run without trials.
+        ConfigError: where the stored configuration is not valid any more.
+    """
+    trials = load_run(folder).trials
+    if not len(trials):
+        raise StoreError(f"{folder}: has no trials to export yet")
+    paths = folder / PARQUET, folder / CSV
+    columnar = BytesIO()
+    trials.write_parquet(columnar)
+    with naming(paths[0]):
+        paths[0].write_bytes(columnar.getbuffer())
+    with naming(paths[1]):
+        paths[1].write_text(flat(trials).write_csv(), encoding="utf-8", newline="")
+    return paths
+
+
+def flat(trials: pl.DataFrame) -> pl.DataFrame:
+    """The same with lists and parts of a record as JSON text, for CSV.
+
+    Text that a spreadsheet would take for a formula has an apostrophe before it. Literals, which
+    may begin with `-`, are in lists, whose text begins with a bracket: they stay as they are.
+    """
+    nested = [name for name, kind in trials.schema.items() if kind.is_nested()]
+    texts = (
+        pl.Series(name, [None if item is None else _json(item) for item in trials[name].to_list()])
+        for name in nested
+    )
+    inert = trials.select(pl.col(pl.String).str.replace(FORMULA, "'$0"))
+    return trials.with_columns(*inert, *(text.cast(pl.String) for text in texts))
+
+
+def _json(value: object) -> str:
+    return msgspec.json.encode(value, enc_hook=str).decode()
