@@ -13,7 +13,7 @@ from benchmarks.memory import resident_mb
 from benchmarks.sheets import Row, Sheet, gathered
 from testbed.cli.loading import load
 from testbed.config import ExperimentConfig
-from testbed.experiment.runner import Tally, run_trials
+from testbed.experiment.resume import RunStatus, play_missing
 
 TRIALS = {"small": 120, "full": 20_000}
 SAMPLES = 10
@@ -61,12 +61,12 @@ def _soak(config: ExperimentConfig) -> Iterator[Row]:
     """A row when the trials are planned, and after each tenth of them."""
     samples: list[tuple[int, float]] = []
 
-    def sample(tally: Tally) -> None:
+    def sample(tally: RunStatus) -> None:
         if tally.done % max(1, tally.planned // SAMPLES) == 0:
             samples.append((tally.done, resident_mb()))
 
     with tempfile.TemporaryDirectory() as folder:
-        run_trials(config, Path(folder), 2, sample)
+        play_missing(config, Path(folder), 2, sample)
     before: float | None = None
     for trials, now in samples:
         growth = None if before is None else now - before
@@ -78,7 +78,7 @@ def throughput(config: ExperimentConfig, workers: int) -> Row:
     """Worker processes count when they have ended, so that what they used is known after a run."""
     began, used = time.perf_counter(), _processor_s()
     with tempfile.TemporaryDirectory() as folder:
-        tally = run_trials(config, Path(folder), workers, lambda _: None)
+        tally = play_missing(config, Path(folder), workers, lambda _: None)
     seconds = time.perf_counter() - began
     return {
         "workers": workers,

@@ -1,9 +1,7 @@
-"""The command line with one robot more, which a file `hold` stops after a number of trials.
+"""A robot that a file `hold` stops after a number of trials, and the command line beside it.
 
-With a file `broken` it fails. A file `stuck` holds the command where trials are planned, deaf to
-interrupts as only foreign code can be.
-
-Worker processes import this module as their main one, and so know the robot, too.
+With a file `broken` the robot fails. A file `stuck` holds the command where trials are planned,
+deaf to interrupts as only foreign code can be.
 """
 
 from __future__ import annotations
@@ -11,15 +9,18 @@ from __future__ import annotations
 import time
 from contextlib import suppress
 from pathlib import Path
+from typing import ClassVar
 
 from agents.intentional import IntentionalRobot
+from agents.intentional.robots import Reference
 from testbed import cli
 from testbed.config import ExperimentConfig
-from testbed.experiment import plan, runner
-from testbed.experiment import robots as registry
+from testbed.experiment import plan, resume
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import Task
 
+BROKEN = Path("broken")
+"""With what it says the robot fails."""
 HOLD = Path("hold")
 """Says how many trials the robot of each process may begin; all, where it is not there."""
 
@@ -27,11 +28,12 @@ HOLD = Path("hold")
 class Held(IntentionalRobot):
     """An intentional robot that waits where it may not begin another trial."""
 
+    capabilities: ClassVar = Reference.capabilities
     begun = 0
 
     def begin(self, task: Task) -> None:
-        if Path("broken").exists():
-            raise RuntimeError("broken")
+        if BROKEN.exists():
+            raise RuntimeError(BROKEN.read_text() or "broken")
         while HOLD.exists() and Held.begun >= int(HOLD.read_text()):
             time.sleep(0.01)
         Held.begun += 1
@@ -45,8 +47,7 @@ def _plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
     return plan.plan_trials(config)
 
 
-runner.plan_trials = _plan_trials
-registry.ROBOTS = {**registry.ROBOTS, "held": Held}
+resume.plan_trials = _plan_trials
 
 if __name__ == "__main__":
     cli.main()

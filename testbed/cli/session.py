@@ -3,31 +3,21 @@
 from __future__ import annotations
 
 import shlex
+import sys
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.conformity import check_planned
-from testbed.experiment.coverage import coverage_of
-from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
-from testbed.experiment.provenance import Provenance, session_arguments
-from testbed.experiment.runner import Tally, go_on
-from testbed.experiment.store import (
-    CONFIG,
-    REPORT,
-    check_unchanged,
-    choose_folder,
-    holds_run,
-    locked,
-    read_records,
-    refuse_second_run,
-    write_config,
-)
+from testbed.experiment.resume import RunStatus
+from testbed.experiment.runner import exit_code, run_in
+from testbed.experiment.store import CONFIG, REPORT, choose_folder, holds_run, locked
 from testbed.experiment.wording import counted
+from testbed.protocol import shortened
 from testbed.report import Tables, write_report
 from testbed.report.tables import grid
 from testbed.studies.levels.table import level_grid
@@ -37,7 +27,8 @@ from testbed.text.terminal import Printer, Say, columns
 if TYPE_CHECKING:
     from testbed.studies.table1.analysis import Analysis
 
-DONE, FAILED, BAD_INPUT = 0, 1, 2
+MOST_OF_REASON = 200
+"""Characters of a reason that are said on the terminal; the report has all of it."""
 
 
 def run_session(
@@ -59,21 +50,15 @@ def run_session(
     if resume and not holds_run(folder):
         say(f"nothing to resume: a new run in {folder}")
     with locked(folder), stoppable(_to_go_on(folder), quiet):
-        _prepare(folder, config, resume)
-        provenance = Provenance(folder, config, session_arguments())
+        with progress(quiet) as notify:
+            command = ["testbed", *sys.argv[1:]]
+            run = run_in(folder, config, workers, notify, resume, retry_failed, command)
         try:
-            tally = _played(config, folder, workers, quiet, retry_failed)
-        except WorkerError:
-            provenance.close(BAD_INPUT, workers=0)
-            raise
-        code = _exit_code(tally)
-        provenance.close(code, tally.workers)
-        try:
-            _conclude(folder, config, tally, say)
+            _conclude(folder, config, run, say)
         except KeyboardInterrupt:  # the trials are on record, the report is not made
             say(f"interrupted; for the report: testbed report {_quoted(folder)}")
             return INTERRUPTED
-    return code
+    return exit_code(run)
 
 
 def report_again(folder: Path, config: ExperimentConfig) -> None:
@@ -85,46 +70,21 @@ def report_again(folder: Path, config: ExperimentConfig) -> None:
     say(f"report: {folder / REPORT}")
 
 
-def _prepare(folder: Path, config: ExperimentConfig, resume: bool) -> None:
-    refuse_second_run(folder, resume)  # another may have begun, and ended, since it was chosen
-    if holds_run(folder):
-        check_unchanged(folder, config)
-    else:
-        write_config(folder, config)
-
-
-def _played(
-    config: ExperimentConfig, folder: Path, workers: int | None, quiet: bool, retry_failed: bool
-) -> Tally:
-    try:
-        with progress(quiet) as notify:
-            return go_on(config, folder, workers, notify, retry_failed)
-    except KeyboardInterrupt:  # while the trials were planned: none was played
-        covered = coverage_of(read_records(folder), config)
-        planned = sum(covered.planned.values())
-        done = planned - sum(covered.missing.values())
-        return Tally(planned, done, failed=0, workers=0, interrupted=True)
-
-
-def _exit_code(tally: Tally) -> int:
-    if tally.interrupted:
-        return INTERRUPTED
-    return FAILED if tally.failed else DONE
-
-
-def _conclude(folder: Path, config: ExperimentConfig, tally: Tally, say: Say) -> None:
+def _conclude(folder: Path, config: ExperimentConfig, run: RunStatus, say: Say) -> None:
     tables = write_report(folder, config)
     if tables.rows:
         _show(say, tables)
-    if tally.interrupted:
-        kept = f"{tally.done} of {counted(tally.planned, 'trial')}"
+    if run.interrupted:
+        kept = f"{run.done} of {counted(run.planned, 'trial')}"
         say(f"interrupted: {kept} kept in {folder}")
         say(_to_go_on(folder))
         if not tables.rows:
             return
-    if tally.failed:
-        failed = counted(tally.failed, "trial")
-        say(f"{failed} ended in error or without a robot; see the report")
+    if run.failed:
+        failed = counted(run.failed, "trial")
+        first = "; the first" if run.failed > 1 else ""
+        reason = shortened(run.reason or "no reason is known", MOST_OF_REASON)
+        say(f"{failed} ended in error or without a robot{first}: {reason} (see the report)")
     say(f"report: {folder / REPORT}")
 
 

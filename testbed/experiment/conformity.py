@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from testbed.experiment.record import TrialRecord
+from testbed.experiment.recorder import blank_record
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import damaged, numbered_records
-from testbed.experiment.trial import blank_record
 
 GIVEN = ("pair", "scenario", "seed", "robot", "domain", "level", "initial", "goal")
 """Keys of a record that follow from the plan."""

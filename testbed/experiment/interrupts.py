@@ -1,4 +1,4 @@
-"""What ends a run early: an interrupt, a SIGTERM or a SIGHUP, and how it ends then."""
+"""Signals that end a run early: SIGINT, SIGTERM and SIGHUP, and how a run ends then."""
 
 from __future__ import annotations
 
@@ -7,15 +7,17 @@ import select
 import signal
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from multiprocessing import active_children
+from multiprocessing import active_children, resource_tracker
+from multiprocessing.process import BaseProcess
 from threading import Thread, current_thread, main_thread
 from types import FrameType
 
-from testbed.experiment.processes import SIGNALS, kill
 from testbed.text.terminal import mute
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""What ends a run early; for the driver to handle, where all of a group get one."""
 INTERRUPTED = 130
 ENDING_S = 60.0
 HURRY_S = 2.0
@@ -120,3 +122,43 @@ def _leave_terminal() -> None:
         except (OSError, ValueError):
             with suppress(OSError, ValueError):
                 mute(stream.fileno())
+
+
+@contextmanager
+def interrupts_later() -> Iterator[None]:
+    """Deliver a signal that comes in this block at its end.
+
+    A process started in it is deaf to them from its first moment. Blocking the signal does
+    that; it does not spare this process, whose other threads may get it.
+    """
+    if current_thread() is not main_thread():
+        yield
+        return
+    resource_tracker.ensure_running()  # its start, with that of a process, would lift the block
+    missed: list[int] = []
+    handlers = {own: signal.signal(own, lambda n, _: missed.append(n)) for own in SIGNALS}
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        if missed:
+            _deliver(missed[0], handlers[signal.Signals(missed[0])])
+
+
+def _deliver(number: int, handler: Callable[..., object] | int | None) -> None:
+    """Not by the signal again, where that can be helped: the guard has heard of it already."""
+    if callable(handler):
+        handler(number, None)
+    else:
+        signal.raise_signal(number)
+
+
+def kill(process: BaseProcess) -> None:
+    """Kill a process that was started, and where it leads a group, all of that."""
+    assert process.pid is not None
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.kill()

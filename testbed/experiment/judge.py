@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from typing import NamedTuple
 
 from testbed.experiment.oracle import BudgetError
-from testbed.experiment.record import MinimalReason
+from testbed.experiment.record import Minimal, MinimalReason
 
 MOST_ANSWERS = 4_096
 """How many answers are remembered: trials from the same state ask the same."""
@@ -18,14 +17,6 @@ Search = Callable[[int, Goal, int], int | None]
 
 It raises BudgetError.
 """
-
-
-class Minimal(NamedTuple):
-    """The least number of actions, and of units, that achieves a goal; where unknown, why."""
-
-    actions: int | None
-    units: int | None
-    reason: MinimalReason | None
 
 
 class Judge:

@@ -18,7 +18,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from testbed.experiment.runner import Notify, Tally
+from testbed.experiment.resume import Notify, RunStatus
 from testbed.experiment.wording import counted
 from testbed.text.terminal import warn
 
@@ -38,8 +38,8 @@ def progress(quiet: bool) -> Iterator[Notify]:
         yield Lines(warn).notify
 
 
-def _nothing(tally: Tally) -> None:
-    del tally
+def _nothing(run: RunStatus) -> None:
+    del run
 
 
 class Lines:
@@ -52,20 +52,20 @@ class Lines:
         self._began: tuple[float, int] | None = None
         self._due = 0.0
 
-    def notify(self, tally: Tally) -> None:
+    def notify(self, run: RunStatus) -> None:
         """Told at the start and after every trial."""
         now = self._clock()
         if self._began is None:
-            self._began, self._due = (now, tally.done), now + EVERY_S
+            self._began, self._due = (now, run.done), now + EVERY_S
         elif now >= self._due:
             self._due = now + EVERY_S
-            self._say(self._line(tally, now, *self._began))
+            self._say(self._line(run, now, *self._began))
 
-    def _line(self, tally: Tally, now: float, began: float, done: int) -> str:
-        rate = (tally.done - done) / (now - began)
-        left = round((tally.planned - tally.done) / rate)
-        failed = f", {tally.failed} failed" if tally.failed else ""
-        trials = f"{tally.done} of {counted(tally.planned, 'trial')}{failed}"
+    def _line(self, run: RunStatus, now: float, began: float, done: int) -> str:
+        rate = (run.done - done) / (now - began)
+        left = round((run.planned - run.done) / rate)
+        failed = f", {run.failed} failed" if run.failed else ""
+        trials = f"{run.done} of {counted(run.planned, 'trial')}{failed}"
         return f"{trials}, {rate:.1f}/s, {left // 3600}:{left // 60 % 60:02}:{left % 60:02} left"
 
 
@@ -89,10 +89,8 @@ def _bar(console: Console) -> Iterator[Notify]:
     with Progress(*columns, console=console) as bar:
         task = bar.add_task("planning the trials", total=None)
 
-        def notify(tally: Tally) -> None:
-            failed = f", {tally.failed} failed" if tally.failed else ""
-            bar.update(
-                task, total=tally.planned, completed=tally.done, description=f"trials{failed}"
-            )
+        def notify(run: RunStatus) -> None:
+            failed = f", {run.failed} failed" if run.failed else ""
+            bar.update(task, total=run.planned, completed=run.done, description=f"trials{failed}")
 
         yield notify

@@ -8,7 +8,6 @@ import json
 import os
 import platform
 import subprocess
-import sys
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
@@ -29,10 +28,10 @@ ROOT = Path(__file__).resolve().parents[2]
 class Provenance:
     """The provenance of one session of a run; those of earlier sessions are kept under `before`."""
 
-    def __init__(self, folder: Path, config: ExperimentConfig, arguments: Sequence[str]) -> None:
+    def __init__(self, folder: Path, config: ExperimentConfig, command: Sequence[str]) -> None:
         self._folder = folder
         self._entry: dict[str, Any] = {
-            "command": ["testbed", *arguments],
+            "command": list(command),
             "start": _now(),
             "end": None,
             "exit": None,
@@ -123,8 +122,3 @@ def _git(root: Path, *arguments: str) -> str | None:
 
 def _now() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
-
-
-def session_arguments() -> list[str]:
-    """The arguments that this process was started with."""
-    return sys.argv[1:]

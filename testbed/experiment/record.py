@@ -6,7 +6,7 @@ Steps are the environment's: 0 is the selection of the goal, the robot's first a
 from __future__ import annotations
 
 import re
-from typing import Annotated, Any, Literal, TypeAlias, get_args
+from typing import Annotated, Any, Literal, NamedTuple, TypeAlias, get_args
 from zlib import crc32
 
 import msgspec
@@ -43,6 +43,14 @@ SEAL = re.compile(rb'\{"version":(\d+),"crc32":"([0-9a-f]{8})",')
 """How a line begins; the checksum is that of the rest of the line, a brace before it."""
 Total: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1e15)]
 """A finite sum of seconds."""
+
+
+class Minimal(NamedTuple):
+    """The least number of actions, and of units, that achieves a goal; where unknown, why."""
+
+    actions: int | None
+    units: int | None
+    reason: MinimalReason | None
 
 
 class Attempt(msgspec.Struct):

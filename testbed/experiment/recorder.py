@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import msgspec
+
 from testbed.environment import FINISH, WAIT, Ending
-from testbed.experiment.judge import Minimal
 from testbed.experiment.record import (
     Activity,
     At,
@@ -14,14 +15,27 @@ from testbed.experiment.record import (
     Contradicted,
     Explained,
     FineCounts,
+    Minimal,
     Occurrence,
     Outcome,
     Rejected,
     Report,
     TrialRecord,
 )
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.wording import listed
 from testbed.protocol import Decision, Event, Explanation, FineTrace, NoPlan, Trace, shortened
+
+
+class Result(msgspec.Struct):
+    """A record, and where the trial failed what is known of the failure."""
+
+    record: TrialRecord
+    details: str | None = None
+
+    def _repr_html_(self) -> str:
+        """As of the record."""
+        return self.record._repr_html_()
 
 
 class Recorder:
@@ -198,3 +212,36 @@ class FineRecorder(Recorder):
         counts.planning_cpu_s += fine.planning_cpu_s
         counts.infer_cpu_s += fine.infer_cpu_s
         self.record.reasoning_time_s += counts.planning_time_s + counts.infer_time_s
+
+
+def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
+    """The result of a trial whose worker process ended in the middle of it."""
+    recorder = recorder_of(spec)
+    reason = f"worker process ended with exit code {exit_code}"
+    recorder.fail("error", reason, "infrastructure")
+    return Result(recorder.record)
+
+
+def recorder_of(spec: TrialSpec) -> Recorder:
+    """The recorder of a trial, at its resolution."""
+    record, fine = blank_record(spec), spec.setting.fine
+    if fine is None or record.fine is None:
+        return Recorder(record)
+    certain = all(probability == 1.0 for probability in fine.statistics.values())
+    return FineRecorder(record, record.fine, certain)
+
+
+def blank_record(spec: TrialSpec) -> TrialRecord:
+    """A record with what is known before the trial is played."""
+    return TrialRecord(
+        trial=spec.trial,
+        pair=spec.pair,
+        scenario=spec.scenario,
+        seed=spec.seed,
+        robot=spec.robot,
+        domain=spec.domain,
+        level=spec.level,
+        initial=list(spec.initial),
+        goal=list(spec.setting.goal),
+        fine=None if spec.setting.fine is None else FineCounts(),
+    )

@@ -12,10 +12,11 @@ from testbed.experiment.errors import StoreError
 from testbed.experiment.narration import Say, teller_of
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord, logical
+from testbed.experiment.recorder import Result
 from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_config, read_records
-from testbed.experiment.trial import Result, play_trial
+from testbed.experiment.trial import play_trial
 from testbed.experiment.wording import counted, in_words, of_place, place
 from testbed.link import InProcessRobot
 

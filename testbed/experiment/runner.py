@@ -1,142 +1,94 @@
-"""Run the trials of a configuration into a run folder, and go on where a run was left."""
+"""Run a configuration into a run folder: its configuration, provenance and trials."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
-from functools import partial
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.conformity import check_planned
-from testbed.experiment.plan import plan_trials
-from testbed.experiment.record import FAILURES
-from testbed.experiment.robots import make_robot
-from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import ERRORS, TrialWriter, locked, naming
-from testbed.experiment.trial import Result, play_trial
-from testbed.experiment.worker import Play
-from testbed.experiment.worker_pool import play_all, workers_for
-from testbed.link import connect
-from testbed.protocol import RobotClient
+from testbed.experiment.coverage import coverage_of
+from testbed.experiment.errors import WorkerError
+from testbed.experiment.interrupts import INTERRUPTED
+from testbed.experiment.provenance import Provenance
+from testbed.experiment.resume import Notify, RunStatus, play_missing
+from testbed.experiment.store import (
+    check_unchanged,
+    choose_folder,
+    holds_run,
+    locked,
+    read_records,
+    refuse_second_run,
+    write_config,
+)
+
+DONE, FAILED, BAD_INPUT = 0, 1, 2
+"""Exit codes, as the provenance has them."""
 
 
-@dataclass
-class Tally:
-    """How a run stands: trials planned, finished, and of these failed; whether it was stopped.
-
-    `workers` are the processes that play what was missing.
-    """
-
-    planned: int
-    done: int
-    failed: int
-    workers: int = 1
-    interrupted: bool = False
-
-
-Notify = Callable[[Tally], None]
-
-
-def run_trials(
-    config: ExperimentConfig, folder: Path, workers: int | None, notify: Notify
-) -> Tally:
-    """As `go_on`, in a folder that is locked meanwhile."""
-    with locked(folder):
-        return go_on(config, folder, workers, notify)
-
-
-def go_on(
+def run(
     config: ExperimentConfig,
-    folder: Path,
-    workers: int | None,
-    notify: Notify,
+    folder: Path | None = None,
+    workers: int | None = None,
+    *,
+    resume: bool = False,
     retry_failed: bool = False,
-) -> Tally:
-    """Play every trial of `config` that `folder` has no record of; append them in their order.
+) -> RunStatus:
+    """Play the trials of a configuration into a folder, without one into `runs/NAME`.
 
-    With `retry_failed` those that failed are played, too, and their records replaced.
-    Without a number of `workers` there are as many as the missing trials are worth; 0 plays them
-    in this process. An interrupt ends the run early: what was finished is on record, and the tally
-    says so. `notify` is called once at the start and after every trial.
+    With `resume` a run that the folder holds goes on, with `retry_failed` its failed trials are
+    played again. `workers` are the processes that play, 0 for this one; without a number there
+    are as many as the trials are worth.
 
     Raises:
-        StoreError: when the folder cannot be written to, or has records of other trials.
+        StoreError: for a folder that holds another run, or that another process writes into.
         WorkerError: when no trial can be played.
     """
-    specs = plan_trials(config)
-    with TrialWriter(folder) as writer:
-        check_planned(folder, specs)
-        failed = set(writer.failures)
-        done = writer.done - failed if retry_failed else writer.done
-        missing = [spec for spec in specs if spec.trial not in done]
-        tally = Tally(len(specs), done=len(specs) - len(missing), failed=len(failed & done))
-        tally.workers = workers_for(len(missing)) if workers is None else workers
-        notify(tally)
-        if missing:
-            _play_missing(missing, config, _Filing(folder, writer, tally, notify))
-    return tally
+    folder = choose_folder(folder, config.name, resume)
+    with locked(folder):
+        return run_in(folder, config, workers, _ignore, resume, retry_failed, sys.argv)
 
 
-def _play_missing(missing: Sequence[TrialSpec], config: ExperimentConfig, filing: _Filing) -> None:
-    open_player = partial(player, config.link, config.name, config.limits.answer_s)
-    results = play_all(missing, filing.tally.workers, open_player)
+def _ignore(_: RunStatus) -> None:
+    pass
+
+
+def run_in(
+    folder: Path,
+    config: ExperimentConfig,
+    workers: int | None,
+    notify: Notify,
+    resume: bool,
+    retry_failed: bool,
+    command: Sequence[str],
+) -> RunStatus:
+    """As `run`, in a folder that is locked; `command` is put on record."""
+    refuse_second_run(folder, resume)  # another may have begun, and ended, since it was chosen
+    if holds_run(folder):
+        check_unchanged(folder, config)
+    else:
+        write_config(folder, config)
+    provenance = Provenance(folder, config, command)
     try:
-        for position, result in results:
-            filing.take(position, result)
-    except KeyboardInterrupt:
-        filing.tally.interrupted = True
-    finally:
-        results.close()
-        filing.flush()
+        played = play_missing(config, folder, workers, notify, retry_failed)
+    except WorkerError:
+        provenance.close(BAD_INPUT, workers=0)
+        raise
+    except KeyboardInterrupt:  # while the trials were planned: none was played
+        played = _not_played(folder, config)
+    provenance.close(exit_code(played), played.workers)
+    return played
 
 
-class _Filing:
-    """Puts results on record in the order of the plan, whatever the order in which they come."""
-
-    def __init__(self, folder: Path, writer: TrialWriter, tally: Tally, notify: Notify) -> None:
-        self.tally = tally
-        self._folder, self._writer, self._notify = folder, writer, notify
-        self._early: dict[int, Result] = {}
-        self._next = 0
-
-    def take(self, position: int, result: Result) -> None:
-        self._early[position] = result
-        while self._next in self._early:
-            self._file(self._early.pop(self._next))
-            self._next += 1
-        self.tally.done += 1
-        self.tally.failed += result.record.outcome in FAILURES
-        self._notify(self.tally)
-
-    def flush(self) -> None:
-        """File what came before its turn: on an interrupt its turn does not come any more."""
-        for position in sorted(self._early):
-            self._file(self._early.pop(position))
-
-    def _file(self, result: Result) -> None:
-        self._writer.append(result.record)
-        details = self._folder / ERRORS / f"{result.record.trial}.txt"
-        if result.details:
-            details.parent.mkdir(exist_ok=True)
-            with naming(details):
-                details.write_text(result.details, "utf-8", "backslashreplace")
-        else:  # those of an earlier attempt
-            details.unlink(missing_ok=True)
+def _not_played(folder: Path, config: ExperimentConfig) -> RunStatus:
+    covered = coverage_of(read_records(folder), config)
+    planned = sum(covered.planned.values())
+    done = planned - sum(covered.missing.values())
+    return RunStatus(planned, done, failed=0, workers=0, interrupted=True)
 
 
-@contextmanager
-def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
-    """What plays trials one after the other, with a robot that lives across them.
-
-    Raises:
-        RobotLost: when a robot of another process does not start.
-    """
-    with connect(link, make_robot, run, answer_s, group=os.getpgrp()) as robot:
-        yield partial(_play_with, robot)
-
-
-def _play_with(client: RobotClient, spec: TrialSpec) -> Result:
-    return play_trial(spec, client)
+def exit_code(played: RunStatus) -> int:
+    """0 for a run that is done, 1 where trials failed, 130 where it was interrupted."""
+    if played.interrupted:
+        return INTERRUPTED
+    return FAILED if played.failed else DONE

@@ -13,8 +13,8 @@ import numpy as np
 from agents.adversary.scripted import Script
 from testbed.environment import NONE, Core, IllegalActionError
 from testbed.experiment.adversaries import Adversary, AdversaryView
-from testbed.experiment.record import FineCounts, TrialRecord, check
-from testbed.experiment.recorder import FineRecorder, Recorder
+from testbed.experiment.record import check
+from testbed.experiment.recorder import Recorder, Result, recorder_of
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import load_stage
 from testbed.link import NOT_UNDERSTOOD, in_one_line
@@ -39,17 +39,6 @@ class Moment:
     skipped: tuple[str, ...] = ()
 
 
-class Result(msgspec.Struct):
-    """A record, and where the trial failed what is known of the failure."""
-
-    record: TrialRecord
-    details: str | None = None
-
-    def _repr_html_(self) -> str:
-        """As of the record."""
-        return self.record._repr_html_()
-
-
 MOST_DETAILS = 100_000
 """Characters of what is known of a failure; of more the end is kept."""
 Watch = Callable[[Moment], None]
@@ -57,7 +46,7 @@ Watch = Callable[[Moment], None]
 
 def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None) -> Result:
     """The result of a trial. A lost robot and any error end in the record, never in a raise."""
-    recorder = _recorder(spec)
+    recorder = recorder_of(spec)
     started = time.perf_counter()
     details: str | None = None
     try:
@@ -83,41 +72,9 @@ def _checked(recorder: Recorder, spec: TrialSpec) -> Recorder:
     try:
         check(recorder.record)
     except msgspec.ValidationError as error:
-        recorder = _recorder(spec)
+        recorder = recorder_of(spec)
         recorder.fail("robot_lost", f"{NOT_UNDERSTOOD}: {error}", "robot")
     return recorder
-
-
-def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
-    """The result of a trial whose worker process ended in the middle of it."""
-    recorder = _recorder(spec)
-    reason = f"worker process ended with exit code {exit_code}"
-    recorder.fail("error", reason, "infrastructure")
-    return Result(recorder.record)
-
-
-def _recorder(spec: TrialSpec) -> Recorder:
-    record, fine = blank_record(spec), spec.setting.fine
-    if fine is None or record.fine is None:
-        return Recorder(record)
-    certain = all(probability == 1.0 for probability in fine.statistics.values())
-    return FineRecorder(record, record.fine, certain)
-
-
-def blank_record(spec: TrialSpec) -> TrialRecord:
-    """A record with what is known before the trial is played."""
-    return TrialRecord(
-        trial=spec.trial,
-        pair=spec.pair,
-        scenario=spec.scenario,
-        seed=spec.seed,
-        robot=spec.robot,
-        domain=spec.domain,
-        level=spec.level,
-        initial=list(spec.initial),
-        goal=list(spec.setting.goal),
-        fine=None if spec.setting.fine is None else FineCounts(),
-    )
 
 
 def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch | None) -> None:

@@ -10,16 +10,16 @@ from __future__ import annotations
 import os
 import signal
 from collections import deque
-from collections.abc import Callable
-from contextlib import AbstractContextManager, ExitStack, suppress
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection
 from threading import Thread
 
 from testbed.experiment.errors import WorkerError
-from testbed.experiment.processes import SIGNALS, interrupts_later, kill, safe_path
+from testbed.experiment.interrupts import SIGNALS, interrupts_later, kill
+from testbed.experiment.recorder import Result
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import Result
 from testbed.link import in_one_line
 from testbed.protocol import RobotLost
 
@@ -27,6 +27,7 @@ Play = Callable[[TrialSpec], Result]
 OpenPlayer = Callable[[], AbstractContextManager[Play]]
 
 EXIT_S = 10.0
+SAFE_PATH = "PYTHONSAFEPATH"
 
 
 class Worker:
@@ -45,7 +46,7 @@ class Worker:
 
     def start(self) -> None:
         """Start the process, deaf to the signals that this one gets."""
-        with safe_path(), interrupts_later():
+        with _safe_path(), interrupts_later():
             self._process.start()
         self._far_end.close()
 
@@ -119,3 +120,17 @@ def _end_with_driver() -> None:
     assert driver is not None
     driver.join()
     os.killpg(0, signal.SIGKILL)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Let a Python that is started in this block import nothing from the working directory."""
+    before = os.environ.get(SAFE_PATH)
+    os.environ[SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[SAFE_PATH]
+        else:
+            os.environ[SAFE_PATH] = before

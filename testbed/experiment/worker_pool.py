@@ -13,8 +13,8 @@ from collections.abc import Generator, Iterator, Sequence
 from itertools import groupby
 from multiprocessing.connection import Connection, wait
 
+from testbed.experiment.recorder import Result, lost_worker
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import Result, lost_worker
 from testbed.experiment.worker import OpenPlayer, Play, Worker
 
 AHEAD = 4096  # trials that may wait, finished, for an earlier one: what bounds the memory

@@ -14,7 +14,7 @@ from testbed.analysis.table import export
 from testbed.config import ConfigError
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import TrialWriter, read_config, read_records, write_config
 from tests.experiment.samples import Configure, a_record
 
@@ -26,7 +26,7 @@ def run(tmp_path: Path, configure: Configure) -> Path:
     """A run with explanations and events in some trials and none in others."""
     config = configure("scenarios=[1,4]")
     write_config(tmp_path, config)
-    run_trials(config, tmp_path, 1, lambda _: None)
+    play_missing(config, tmp_path, 1, lambda _: None)
     return tmp_path
 
 

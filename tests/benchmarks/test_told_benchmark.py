@@ -10,7 +10,7 @@ from testbed.config import load_config
 from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_config, read_records, write_config
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
@@ -60,7 +60,7 @@ def test_its_run_has_the_other_trials_as_they_are(tmp_path: Path) -> None:
     folder, out = tmp_path / "run", tmp_path / "told"
     config = load_config("table1", ["scenarios=[1, random]", "limit=4", "scenario_settings={}"])
     write_config(folder, config)
-    run_trials(config, folder, 1, lambda _: None)
+    play_missing(config, folder, 1, lambda _: None)
     assert main([str(folder), str(out), "--order", *FIRST]) == 0
     before = {r.trial: r for r in read_records(folder) if r.scenario == "random"}
     after = {r.trial: r for r in read_records(out)}

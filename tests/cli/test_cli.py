@@ -95,7 +95,13 @@ def test_a_run_can_be_run_again_from_its_folder() -> None:
 @pytest.mark.load
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_an_interrupted_run_keeps_what_is_finished_and_goes_on(workers: str) -> None:
-    arguments = ["run", "quickstart", "scenarios=[2,4,5,6]", "robots=[held]", "link=inprocess"]
+    arguments = [
+        "run",
+        "quickstart",
+        "scenarios=[2,4,5,6]",
+        "robots=[tests.held:Held]",
+        "link=inprocess",
+    ]
     arguments += ["--workers", workers, "--out"]
     process = _held(1, *arguments, "part")
     records = Path("part/trials.jsonl")
@@ -302,7 +308,14 @@ def test_the_version_is_that_of_the_distribution() -> None:
 
 @pytest.mark.load
 def test_an_interrupt_while_workers_start_leaves_no_traceback() -> None:
-    arguments = ["run", "quickstart", "robots=[held]", "link=inprocess", "--workers", "2"]
+    arguments = [
+        "run",
+        "quickstart",
+        "robots=[tests.held:Held]",
+        "link=inprocess",
+        "--workers",
+        "2",
+    ]
     process = _held(0, *arguments, "--out", "run")
     while process.poll() is None and not Path("run/trials.jsonl").exists():
         time.sleep(0.01)

@@ -127,7 +127,7 @@ def test_a_second_interrupt_ends_a_driver_that_cannot_hear_it() -> None:
 
 def test_a_run_that_is_to_outlive_its_terminal_does() -> None:
     Path("hold").write_text("1")
-    with _running("nohup", *HELD, *RUN, "robots=[held]", "link=inprocess") as driver:
+    with _running("nohup", *HELD, *RUN, "robots=[tests.held:Held]", "link=inprocess") as driver:
         trials = Path("run/trials.jsonl")
         while not (trials.exists() and trials.read_bytes()):
             assert driver.poll() is None, driver.communicate()

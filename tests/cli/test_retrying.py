@@ -12,7 +12,15 @@ from typing import Any
 import pytest
 
 HELD = [sys.executable, "-m", "tests.held"]
-RUN = ["run", "quickstart", "scenarios=[1,2]", "robots=[held]", "link=inprocess", "--out", "run"]
+RUN = [
+    "run",
+    "quickstart",
+    "scenarios=[1,2]",
+    "robots=[tests.held:Held]",
+    "link=inprocess",
+    "--out",
+    "run",
+]
 AGAIN = [*RUN, "--resume", "--retry-failed"]
 TRIALS = Path("run/trials.jsonl")
 
@@ -114,3 +122,17 @@ def test_a_run_has_one_driver_from_its_first_moment_on() -> None:
             assert "run" in errors
         assert Path("run/config.yaml").read_bytes() == before
         assert not TRIALS.exists()
+
+
+@pytest.mark.parametrize("again", [[], ["--resume"]])
+def test_the_terminal_says_why_the_first_trial_failed(again: list[str]) -> None:
+    """In one line that is bounded and steers nothing; also of a trial that failed before."""
+    Path("broken").write_text("no oil\x1b[31m" + "x" * 5_000, encoding="utf-8")
+    for more in ([], again) if again else ([],):
+        command = [*HELD, *RUN, *more]
+        done = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert done.returncode == 1
+    (line,) = (line for line in done.stdout.splitlines() if "no oil" in line)
+    assert line.startswith("2 trials")
+    assert "\\x1b[31m" in line
+    assert len(line) < 500

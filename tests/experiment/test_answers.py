@@ -11,8 +11,9 @@ from msgspec import inspect
 from testbed.analysis.table import export
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import encode
+from testbed.experiment.recorder import Result
 from testbed.experiment.store import TrialWriter, read_records, write_config
-from testbed.experiment.trial import Result, play_trial
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, Task
 from tests.experiment.samples import Configure

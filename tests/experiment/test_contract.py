@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.report import write_report
 
 RECORD: dict[str, tuple[type, ...]] = {
@@ -55,7 +55,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder: Path = tmp_path_factory.mktemp("contract")
     script = "scenario_settings.1.script=[{step: 1, action: 'exo_move(book1,office1)'}]"
     config = load_config("quickstart", ["link=inprocess", "scenarios=[2,5,1]", script])
-    run_trials(config, folder, 1, lambda _: None)
+    play_missing(config, folder, 1, lambda _: None)
     write_report(folder, config)
     return folder
 

@@ -12,7 +12,7 @@ from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.coverage import Coverage, coverage_of
 from testbed.experiment.plan import plan_trials, planned_trials
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import write_config
 from testbed.experiment.wording import listed, place
 from tests.experiment.samples import a_level_record, a_record
@@ -81,7 +81,7 @@ def part(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("part")
     config = load_config("table1", TABLE1)
     write_config(folder, config)
-    run_trials(config.model_copy(update={"scenarios": config.scenarios[:2]}), folder, 1, _ignore)
+    play_missing(config.model_copy(update={"scenarios": config.scenarios[:2]}), folder, 1, _ignore)
     path = folder / "trials.jsonl"
     path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[:5]))
     return folder
@@ -114,7 +114,7 @@ def test_the_report_says_that_a_run_is_not_complete(part: Path) -> None:
 def test_the_report_of_a_complete_run_says_nothing_of_it(tmp_path: Path) -> None:
     config = load_config("quickstart", ["link=inprocess", "scenarios=[1]"])
     write_config(tmp_path, config)
-    run_trials(config, tmp_path, 1, _ignore)
+    play_missing(config, tmp_path, 1, _ignore)
     done = CliRunner().invoke(app, ["report", str(tmp_path)])
     assert "incomplete" not in done.output
     assert 'class="notice"' not in (tmp_path / "report.html").read_text(encoding="utf-8")
@@ -140,7 +140,7 @@ def test_the_page_of_table_1_says_it(part: Path, capsys: pytest.CaptureFixture[s
 def test_the_page_of_the_levels_says_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     config = load_config("levels", ["levels=[L1,L3]", "limit=2"])
     write_config(tmp_path, config)
-    run_trials(config.model_copy(update={"levels": ("L1",)}), tmp_path, 1, _ignore)
+    play_missing(config.model_copy(update={"levels": ("L1",)}), tmp_path, 1, _ignore)
     assert levels_page([str(tmp_path)]) == 0
     head, _, _ = capsys.readouterr().out.partition("## What can")
     assert "**Incomplete:** 4 of 8 trials are on record: none of level L3." in head

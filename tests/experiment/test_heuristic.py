@@ -14,7 +14,7 @@ from testbed.config import load_config
 from testbed.experiment import oracle
 from testbed.experiment.domains import load_world
 from testbed.experiment.heuristic import Potentials, blind
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.world import World, world_of
 from tests.experiment.gardens import GARDEN
 from tests.world.test_world_random import HEADER, laws
@@ -273,7 +273,7 @@ def test_six_crates_are_judged_within_the_default_budget(tmp_path: Path) -> None
         f'initial: ["stands(hauler,b0)", {places}]\nrobots: [traditional]\nlimits: {{steps: 1}}\n'
     )
     config = load_config(str(tmp_path / "depot.yaml"), ["link=inprocess", "limits.expansions=1"])
-    run_trials(config, tmp_path / "run", 1, lambda _: None)
+    play_missing(config, tmp_path / "run", 1, lambda _: None)
     (trial,) = map(json.loads, (tmp_path / "run" / "trials.jsonl").read_text().splitlines())
     away = sum(range(2, 8))
     assert trial["minimal_reason"] is None

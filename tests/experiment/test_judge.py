@@ -10,7 +10,7 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import BudgetError
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.report import write_report
 
 Run = Callable[..., tuple[list[dict[str, Any]], dict[str, Any], str]]
@@ -48,7 +48,7 @@ def run(tmp_path: Path) -> Run:
         file.write_text(f"name: lamps\ndomain: lamps.al\ngoal: [{goal}]\ninitial: []\n")
         config = load_config(str(file), ["link=inprocess", "script=[]", *given])
         folder = tmp_path / "-".join(["run", *given])
-        run_trials(config, folder, 1, lambda _: None)
+        play_missing(config, folder, 1, lambda _: None)
         write_report(folder, config)
         lines = (folder / "trials.jsonl").read_text(encoding="utf-8").splitlines()
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))

@@ -14,8 +14,8 @@ from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import logical
+from testbed.experiment.resume import RunStatus, play_missing
 from testbed.experiment.robots import make_robot
-from testbed.experiment.runner import Tally, run_trials
 from testbed.experiment.store import read_records, write_config
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
@@ -31,11 +31,11 @@ def _config(*overrides: str) -> ExperimentConfig:
 
 
 def _run(config: ExperimentConfig, folder: Path, workers: int = 1) -> list[dict[str, object]]:
-    run_trials(config, folder, workers, _ignore)
+    play_missing(config, folder, workers, _ignore)
     return [logical(record) for record in read_records(folder)]
 
 
-def _ignore(tally: Tally) -> None:
+def _ignore(tally: RunStatus) -> None:
     del tally
 
 
@@ -45,7 +45,7 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder: Path = tmp_path_factory.mktemp("levels")
     config = _config()
     write_config(folder, config)
-    run_trials(config, folder, 1, _ignore)
+    play_missing(config, folder, 1, _ignore)
     return folder
 
 
@@ -80,7 +80,7 @@ def test_a_small_size_has_every_level() -> None:
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_at_each_level_both_robots_achieve_what_is_in_reach(tmp_path: Path, level: str) -> None:
-    run_trials(load_config("levels", [f"levels=[{level}]", "limit=1"]), tmp_path, 1, _ignore)
+    play_missing(load_config("levels", [f"levels=[{level}]", "limit=1"]), tmp_path, 1, _ignore)
     records = list(read_records(tmp_path))
     assert sorted(record.robot for record in records) == ["intentional", "intentional-nozoom"]
     for record in records:

@@ -3,7 +3,7 @@
 import pytest
 
 from testbed.experiment.progress import EVERY_S, Lines, progress
-from testbed.experiment.runner import Tally
+from testbed.experiment.resume import RunStatus
 
 
 def _told(*moments: tuple[float, int, int], planned: int = 8000) -> list[str]:
@@ -12,7 +12,7 @@ def _told(*moments: tuple[float, int, int], planned: int = 8000) -> list[str]:
     now = 0.0
     lines = Lines(said.append, lambda: now)
     for now, done, failed in moments:  # noqa: B007  # the clock reads it
-        lines.notify(Tally(planned, done, failed))
+        lines.notify(RunStatus(planned, done, failed))
     return said
 
 
@@ -38,6 +38,6 @@ def test_lines_are_apart_however_fast_trials_end() -> None:
 def test_a_quiet_run_and_a_short_one_say_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     for quiet in (True, False):
         with progress(quiet) as notify:
-            notify(Tally(2, 0, 0))
-            notify(Tally(2, 2, 0))
+            notify(RunStatus(2, 0, 0))
+            notify(RunStatus(2, 2, 0))
     assert capsys.readouterr().err == ""

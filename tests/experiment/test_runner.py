@@ -1,5 +1,6 @@
 """Runs with real robots in real processes, and with faults injected for real."""
 
+import json
 import os
 import signal
 import time
@@ -14,12 +15,14 @@ from pathlib import Path
 import pytest
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment import StoreError, read_config, run
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import logical
+from testbed.experiment.recorder import Result, blank_record
+from testbed.experiment.resume import RunStatus, play_missing, player
 from testbed.experiment.robots import make_robot
-from testbed.experiment.runner import Tally, player, run_trials
 from testbed.experiment.store import read_records
-from testbed.experiment.trial import Moment, Result, blank_record, play_trial
+from testbed.experiment.trial import Moment, play_trial
 from testbed.experiment.worker import Play
 from testbed.experiment.worker_pool import WORTH, play_all, workers_for
 from testbed.link import spawned_robot
@@ -31,12 +34,12 @@ pytestmark = pytest.mark.load
 SMALL = ("scenarios=[1,2,6]",)
 
 
-def _ignore(tally: Tally) -> None:
+def _ignore(tally: RunStatus) -> None:
     del tally
 
 
 def _run(config: ExperimentConfig, folder: Path, workers: int = 1) -> list[dict[str, object]]:
-    run_trials(config, folder, workers, _ignore)
+    play_missing(config, folder, workers, _ignore)
     return [logical(record) for record in read_records(folder)]
 
 
@@ -90,12 +93,14 @@ def test_a_run_goes_on_with_exactly_what_is_missing(tmp_path: Path, configure: C
     first, second, third, _ = path.read_bytes().splitlines(keepends=True)
     path.write_bytes(first + second + third[:50])
     told: list[tuple[int, int]] = []
-    run_trials(config, tmp_path / "part", 1, lambda tally: told.append((tally.planned, tally.done)))
+    play_missing(
+        config, tmp_path / "part", 1, lambda tally: told.append((tally.planned, tally.done))
+    )
     assert told == [(4, 2), (4, 3), (4, 4)]
     assert path.read_bytes().startswith(first + second)
     assert [logical(record) for record in read_records(tmp_path / "part")] == whole
     before = path.read_bytes()
-    tally = run_trials(config, tmp_path / "part", 1, _ignore)
+    tally = play_missing(config, tmp_path / "part", 1, _ignore)
     assert (tally.done, tally.failed, path.read_bytes()) == (4, 0, before)
 
 
@@ -277,12 +282,12 @@ def test_a_run_without_a_number_of_workers_chooses_one(
 ) -> None:
     """The choice is for what is missing: a trial that is left over has one worker."""
     monkeypatch.setattr("testbed.experiment.worker_pool._cores", lambda: cores)
-    monkeypatch.setattr("testbed.experiment.runner.player", _instantly)
+    monkeypatch.setattr("testbed.experiment.resume.player", _instantly)
     config = load_config("office", ["link=inprocess", "scenarios=[1]", f"limit={WORTH}"])
-    assert run_trials(config, tmp_path, given, _ignore).workers == used
+    assert play_missing(config, tmp_path, given, _ignore).workers == used
     path = tmp_path / "trials.jsonl"
     path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[1:]))
-    assert run_trials(config, tmp_path, None, _ignore).workers == 1
+    assert play_missing(config, tmp_path, None, _ignore).workers == 1
     assert len(list(read_records(tmp_path))) == 2 * WORTH
 
 
@@ -298,11 +303,11 @@ def test_a_caller_that_stops_listening_leaves_no_worker_behind(configure: Config
 def test_an_interrupt_keeps_what_was_finished(tmp_path: Path, configure: Configure) -> None:
     config = configure("scenarios=[1,2]")
 
-    def interrupt(tally: Tally) -> None:
+    def interrupt(tally: RunStatus) -> None:
         if tally.done == 3 and not tally.interrupted:
             raise KeyboardInterrupt
 
-    tally = run_trials(config, tmp_path, 1, interrupt)
+    tally = play_missing(config, tmp_path, 1, interrupt)
     assert (tally.interrupted, tally.done) == (True, 3)
     assert ids(list(read_records(tmp_path))) == _planned(config)[:3]
     assert len(_run(config, tmp_path)) == 4
@@ -316,8 +321,8 @@ def test_a_failed_robot_leaves_its_traceback_and_the_run_goes_on(
             raise ArithmeticError("out of ideas")
         return make_robot(kind)
 
-    monkeypatch.setattr("testbed.experiment.runner.make_robot", make)
-    tally = run_trials(configure("scenarios=[1,2]"), tmp_path, 0, _ignore)
+    monkeypatch.setattr("testbed.experiment.resume.make_robot", make)
+    tally = play_missing(configure("scenarios=[1,2]"), tmp_path, 0, _ignore)
     records = list(read_records(tmp_path))
     outcomes = sorted((record.robot, record.outcome) for record in records)
     assert outcomes == [("intentional", "achieved")] * 2 + [("traditional", "robot_lost")] * 2
@@ -327,3 +332,17 @@ def test_a_failed_robot_leaves_its_traceback_and_the_run_goes_on(
     assert details.startswith("Traceback")
     assert "in make" in details
     assert not (tmp_path / "errors" / f"{achieved.trial}.txt").exists()
+
+
+def test_run_leaves_a_folder_that_can_be_resumed_and_reported(
+    tmp_path: Path, configure: Configure
+) -> None:
+    config, folder = configure("scenarios=[1]"), tmp_path / "run"
+    played = run(config, folder, 0)
+    assert (played.planned, played.done, played.failed) == (2, 2, 0)
+    assert ids(list(read_records(folder))) == _planned(config)
+    provenance = json.loads((folder / "provenance.json").read_text("utf-8"))
+    assert (provenance["exit"], provenance["end"] is not None) == (0, True)
+    assert run(read_config(folder), folder, 0, resume=True).done == 2
+    with pytest.raises(StoreError, match="--resume"):
+        run(config, folder, 0)

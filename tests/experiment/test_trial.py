@@ -9,7 +9,8 @@ import pytest
 
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.trial import Moment, Result, play_trial
+from testbed.experiment.recorder import Result
+from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import (
     Contradiction,

@@ -10,7 +10,7 @@ from papers.levels.commands import PAGE, commands
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import PROVENANCE, TrialWriter, read_records, write_config
 from testbed.studies.levels.published import NO_ZOOM, ZOOM
 from testbed.text.markdown import WIDTH, paragraph
@@ -29,7 +29,7 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A small run, played in this process."""
     folder = tmp_path_factory.mktemp("levels")
     write_config(folder, _config())
-    run_trials(_config(), folder, 1, lambda _: None)
+    play_missing(_config(), folder, 1, lambda _: None)
     return folder
 
 

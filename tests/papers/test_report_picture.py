@@ -7,7 +7,7 @@ import pytest
 
 from papers.__main__ import main
 from testbed.config import load_config
-from testbed.experiment.runner import Tally, run_trials
+from testbed.experiment.resume import RunStatus, play_missing
 from testbed.experiment.store import write_config
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -17,14 +17,14 @@ RUNS = {
 }
 
 
-def _ignore(tally: Tally) -> None:
+def _ignore(tally: RunStatus) -> None:
     del tally
 
 
 def _run(folder: Path, name: str, *overrides: str) -> None:
     config = load_config(name, overrides)
     write_config(folder, config)
-    run_trials(config, folder, 1, _ignore)
+    play_missing(config, folder, 1, _ignore)
 
 
 @pytest.mark.parametrize("name", RUNS)

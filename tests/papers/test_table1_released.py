@@ -10,7 +10,7 @@ from papers.table1.hypotheses import weigh
 from papers.table1.weighing import Weighing
 from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
 from testbed.studies.table1.published import SCENARIOS
 from testbed.studies.table1.runs import Run, read_run, released_weights
@@ -24,7 +24,7 @@ def _run(folder: Path, *overrides: str) -> Run:
     given = ["scenarios=[random]", "scenario_settings={random: {repeats: 24}}", "seed=1"]
     config = load_config("table1", [*given, f"initial={HOLDING}", *overrides])
     write_config(folder, config)
-    run_trials(config, folder, 1, lambda _: None)
+    play_missing(config, folder, 1, lambda _: None)
     return read_run(folder)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.runner import Tally, run_trials
+from testbed.experiment.resume import RunStatus, play_missing
 from testbed.experiment.store import REPORT
 from testbed.report import write_report
 from tests.report.browser import CHROMIUM, Browser, Tab
@@ -66,12 +66,12 @@ def page(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     name, overrides = RUNS[request.param]
     folder = tmp_path_factory.mktemp(name)
     config = load_config(name, overrides)
-    run_trials(config, folder, 1, _ignore)
+    play_missing(config, folder, 1, _ignore)
     write_report(folder, config)
     return folder / REPORT
 
 
-def _ignore(tally: Tally) -> None:
+def _ignore(tally: RunStatus) -> None:
     del tally
 
 

@@ -7,7 +7,7 @@ import pytest
 from testbed.analysis.statistics import Estimate, Test
 from testbed.analysis.summary import summarise
 from testbed.config import load_config
-from testbed.experiment.runner import Tally, run_trials
+from testbed.experiment.resume import RunStatus, play_missing
 from testbed.report import level_panels, levels, table1
 from testbed.report.figures import Panel
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
@@ -80,11 +80,11 @@ def test_every_measure_and_both_accuracies_are_drawn_and_published_values_with_t
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run of the comparison that ends after one pair."""
     folder = tmp_path_factory.mktemp("table1")
-    run_trials(load_config("table1", ["limit=1", "scenarios=[1]"]), folder, 1, _ignore)
+    play_missing(load_config("table1", ["limit=1", "scenarios=[1]"]), folder, 1, _ignore)
     return folder
 
 
-def _ignore(tally: Tally) -> None:
+def _ignore(tally: RunStatus) -> None:
     del tally
 
 

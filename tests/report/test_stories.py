@@ -8,7 +8,7 @@ import pytest
 from asp.language import arguments
 from testbed.config import load_config
 from testbed.experiment.record import Activity, TrialRecord
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records
 
 Play = Callable[..., list[TrialRecord]]
@@ -27,7 +27,7 @@ PUBLISHED = [
 def told(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Told:
     folder: Path = tmp_path_factory.mktemp(request.param)
     config = load_config("quickstart", [f"link={request.param}"])
-    run_trials(config, folder, 1, lambda _: None)
+    play_missing(config, folder, 1, lambda _: None)
     return {(record.scenario, record.robot): record for record in read_records(folder)}
 
 
@@ -38,7 +38,7 @@ def play(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     def played(*overrides: str) -> list[TrialRecord]:
         folder: Path = tmp_path_factory.mktemp(request.param)
         always = [f"link={request.param}", "robots=[intentional]"]
-        run_trials(load_config("quickstart", [*always, *overrides]), folder, 1, lambda _: None)
+        play_missing(load_config("quickstart", [*always, *overrides]), folder, 1, lambda _: None)
         return list(read_records(folder))
 
     return played
@@ -196,7 +196,7 @@ def test_6_a_failed_move_is_explained_by_the_lock(told: Told) -> None:
 
 def test_undisturbed_every_initial_state_is_solved_with_a_shortest_plan(tmp_path: Path) -> None:
     config = load_config("office", ["scenarios=[1]", "robots=[intentional]", "link=inprocess"])
-    run_trials(config, tmp_path, 2, lambda _: None)
+    play_missing(config, tmp_path, 2, lambda _: None)
     records = list(read_records(tmp_path))
     assert len({tuple(record.initial) for record in records}) == 192
     assert [r.trial for r in records if not (r.achieved and r.finished)] == []

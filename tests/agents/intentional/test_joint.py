@@ -15,7 +15,7 @@ from agents.shared.diagnosis import Explained
 from agents.shared.history import GOAL, Activity, Diagnosis, History
 from agents.shared.knowledge import knowledge
 from testbed.config import load_config
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records
 from testbed.protocol import Event
 from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
@@ -44,7 +44,7 @@ def test_its_explanations_are_as_small_as_those_of_ati(wishes: dict[int, Wish]) 
 
 def test_it_achieves_the_six_published_scenarios(tmp_path: Path) -> None:
     config = load_config("quickstart", ["link=inprocess", "robots=[intentional-joint]"])
-    run_trials(config, tmp_path, 1, lambda _: None)
+    play_missing(config, tmp_path, 1, lambda _: None)
     outcomes = {record.scenario: record.outcome for record in read_records(tmp_path)}
     assert outcomes == dict.fromkeys("123456", "achieved")
 

@@ -12,7 +12,7 @@ from testbed.analysis.summary import summarise
 from testbed.config import load_config
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
 from testbed.report import write_report
 from testbed.report.table1 import analyses
@@ -33,7 +33,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run with its report."""
     run = tmp_path_factory.mktemp("numbers")
     write_config(run, CONFIG)
-    run_trials(CONFIG, run, 1, lambda _: None)
+    play_missing(CONFIG, run, 1, lambda _: None)
     write_report(run, CONFIG)
     return run
 

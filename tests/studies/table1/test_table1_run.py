@@ -12,7 +12,7 @@ from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.runner import run_trials
+from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
 from testbed.studies.table1.pairing import pairs_of
 
@@ -25,7 +25,7 @@ def _config(*overrides: str) -> ExperimentConfig:
 
 def _run(config: ExperimentConfig, folder: Path, workers: int = 1) -> str:
     write_config(folder, config)
-    run_trials(config, folder, workers, lambda _: None)
+    play_missing(config, folder, workers, lambda _: None)
     return digest(read_records(folder))
 
 

@@ -1,0 +1,140 @@
+"""Play the trials that a run folder lacks: all of a new run, the rest of one that was left."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from testbed.config import ExperimentConfig
+from testbed.experiment.conformity import check_planned
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.record import FAILURES
+from testbed.experiment.recorder import Result
+from testbed.experiment.robots import make_robot
+from testbed.experiment.specs import TrialSpec
+from testbed.experiment.store import ERRORS, TrialWriter, naming
+from testbed.experiment.trial import play_trial
+from testbed.experiment.worker import Play
+from testbed.experiment.worker_pool import play_all, workers_for
+from testbed.link import connect
+from testbed.protocol import RobotClient
+
+
+@dataclass
+class RunStatus:
+    """A run as it stands: trials planned, on record, and failed; whether it was stopped.
+
+    `reason` is that of the first failed trial, None where none failed; `workers` are the processes
+    that play what was missing.
+    """
+
+    planned: int
+    done: int
+    failed: int
+    reason: str | None = None
+    workers: int = 1
+    interrupted: bool = False
+
+
+Notify = Callable[[RunStatus], None]
+
+
+def play_missing(
+    config: ExperimentConfig,
+    folder: Path,
+    workers: int | None,
+    notify: Notify,
+    retry_failed: bool = False,
+) -> RunStatus:
+    """Play every trial of `config` that `folder` has no record of; append them in their order.
+
+    With `retry_failed` those that failed are played, too, and their records replaced.
+    Without a number of `workers` there are as many as the missing trials are worth; 0 plays them
+    in this process. An interrupt ends the run early: what was finished is on record, and the run
+    says so. `notify` is called once at the start and after every trial.
+
+    Raises:
+        StoreError: when the folder cannot be written to, or has records of other trials.
+        WorkerError: when no trial can be played.
+    """
+    specs = plan_trials(config)
+    with TrialWriter(folder) as writer:
+        check_planned(folder, specs)
+        failed = {} if retry_failed else {t: own[-1] for t, own in writer.failures.items()}
+        done = writer.done.difference(writer.failures) | failed.keys()
+        missing = [spec for spec in specs if spec.trial not in done]
+        run = RunStatus(len(specs), len(specs) - len(missing), len(failed))
+        run.reason = next(iter(failed.values()), None)
+        run.workers = workers_for(len(missing)) if workers is None else workers
+        notify(run)
+        if missing:
+            _play(missing, config, _Filing(folder, writer, run, notify))
+    return run
+
+
+def _play(missing: Sequence[TrialSpec], config: ExperimentConfig, filing: _Filing) -> None:
+    open_player = partial(player, config.link, config.name, config.limits.answer_s)
+    results = play_all(missing, filing.run.workers, open_player)
+    try:
+        for position, result in results:
+            filing.take(position, result)
+    except KeyboardInterrupt:
+        filing.run.interrupted = True
+    finally:
+        results.close()
+        filing.flush()
+
+
+class _Filing:
+    """Puts results on record in the order of the plan, whatever the order in which they come."""
+
+    def __init__(self, folder: Path, writer: TrialWriter, run: RunStatus, notify: Notify) -> None:
+        self.run = run
+        self._folder, self._writer, self._notify = folder, writer, notify
+        self._early: dict[int, Result] = {}
+        self._next = 0
+
+    def take(self, position: int, result: Result) -> None:
+        self._early[position] = result
+        while self._next in self._early:
+            self._file(self._early.pop(self._next))
+            self._next += 1
+        self.run.done += 1
+        self.run.failed += result.record.outcome in FAILURES
+        self._notify(self.run)
+
+    def flush(self) -> None:
+        """File what came before its turn: on an interrupt its turn does not come any more."""
+        for position in sorted(self._early):
+            self._file(self._early.pop(position))
+
+    def _file(self, result: Result) -> None:
+        if result.record.outcome in FAILURES:
+            self.run.reason = self.run.reason or result.record.reason
+        self._writer.append(result.record)
+        details = self._folder / ERRORS / f"{result.record.trial}.txt"
+        if result.details:
+            details.parent.mkdir(exist_ok=True)
+            with naming(details):
+                details.write_text(result.details, "utf-8", "backslashreplace")
+        else:  # those of an earlier attempt
+            details.unlink(missing_ok=True)
+
+
+@contextmanager
+def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
+    """What plays trials one after the other, with a robot that lives across them.
+
+    Raises:
+        RobotLost: when a robot of another process does not start.
+    """
+    with connect(link, make_robot, run, answer_s, group=os.getpgrp()) as robot:
+        yield partial(_play_with, robot)
+
+
+def _play_with(client: RobotClient, spec: TrialSpec) -> Result:
+    return play_trial(spec, client)
