@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-_LIVES = "tests/agents/intentional/test_kept.py"
+_LIVES = "tests/agents/intentional/test_incremental.py"
 _PREFERENCES = "tests/agents/intentional/test_preferences.py"
 _REPORTS = "tests/agents/intentional/test_reports.py"
 _AXIOMS = "tests/asp/theories/test_axioms.py"
@@ -55,7 +55,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     ),
     "traditional": (
         "tests/agents/traditional/test_told.py",
-        "tests/agents/traditional/test_kept_planner.py",
+        "tests/agents/traditional/test_incremental.py",
     ),
     "transitions": ("tests/asp/translation/test_translation.py",),
     "undivided": (f"{_JOINT}::{_GOES_ON}", _JOINT_LIVES),

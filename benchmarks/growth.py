@@ -6,19 +6,19 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from agents.intentional.controller import Reasoner
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.intention import Intention
-from agents.intentional.reference import Logician
-from agents.shared.history import GOAL, Diagnosis, History
-from agents.shared.knowledge import Knowledge, knowledge
+from agents.intentional.history import History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.thought import Intention, Reasoner
+from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.measuring import forget, median, no_collection, timed, within
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.problems import Problem, delivered, drawn, placed
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
 from benchmarks.sieges import Question, Siege, besiege
 
-Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
+Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner[History]]
 
 PLAN_LIMIT = 30
 LIMIT_S = {"small": inf, "full": 20.0}
@@ -128,14 +128,14 @@ def _fast(problems: Sequence[Problem]) -> _Point:
     """All problems but the last half are played before those that are measured."""
     half = len(problems) // 2
     warm, measured = problems[:half], problems[half:]
-    first, _ = timed(lambda: [first_decision(p, KeptLogician) for p in warm[:1]])
+    first, _ = timed(lambda: [first_decision(p, IncrementalReasoner) for p in warm[:1]])
     for problem in (*warm[1:], *(replace(p, initial=_moved(p)) for p in measured)):
-        first_decision(problem, KeptLogician)
+        first_decision(problem, IncrementalReasoner)
     took, plans = [], []
     for problem in measured:
         forget()
         with no_collection():
-            ms, intention = timed(lambda p=problem: first_decision(p, KeptLogician))  # type: ignore[misc]
+            ms, intention = timed(lambda p=problem: first_decision(p, IncrementalReasoner))  # type: ignore[misc]
         took.append(ms)
         plans.append(intention.plan)
     return _Point(first, took, plans)
@@ -148,7 +148,7 @@ def _moved(problem: Problem) -> tuple[str, ...]:
 
 
 def _slow(problem: Problem) -> tuple[float, tuple[str, ...]]:
-    took, intention = timed(lambda: first_decision(problem, Logician))
+    took, intention = timed(lambda: first_decision(problem, ReferenceReasoner))
     return took, intention.plan
 
 
@@ -159,7 +159,7 @@ def first_decision(problem: Problem, make: Make) -> Intention:
     history.observe([f if f in problem.state else f"-{f}" for f in fluents], 0)
     history.happened(f"select({GOAL})", True, 0)
     reasoner = make(problem.knowledge, problem.goal, problem.limit)
-    return reasoner.intend(history, reasoner.diagnose(history, Diagnosis()))
+    return reasoner.intend(history, reasoner.diagnose(history, Explanation()))
 
 
 def _history(size: str) -> Sheet:
@@ -235,11 +235,11 @@ def _asked_again(
     """How long the reference takes with a question (ms). Raises DisagreementError."""
 
     def ask() -> tuple[float, bool]:
-        reference = Logician(knowledge("office", source), goal, PLAN_LIMIT)
+        reference = ReferenceReasoner(knowledge("office", source), goal, PLAN_LIMIT)
         history = question.history
         diagnosis_ms, explained = timed(lambda: reference.diagnose(history, question.adopted))
         planning_ms, intention = timed(lambda: reference.intend(history, explained))
-        agree = explained.diagnosis == question.explained.diagnosis
+        agree = explained.explanation == question.explained.explanation
         return diagnosis_ms + planning_ms, agree and intention == question.intention
 
     answer = within(limit_s, ask)

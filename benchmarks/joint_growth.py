@@ -13,20 +13,20 @@ import clingo
 from clingo import Symbol
 from matplotlib.figure import Figure
 
-from agents.intentional import joint
+from agents.intentional import joint, reference
 from agents.intentional import joint_reference as undivided
-from agents.intentional import reference as logician
-from agents.intentional.controller import Reasoner
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.joint import JointLogician
-from agents.intentional.joint_reference import UndividedLogician
-from agents.intentional.reference import Logician
-from agents.shared import diagnosis
-from agents.shared.knowledge import Knowledge
+from agents.intentional.history import History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.joint import JointReasoner
+from agents.intentional.joint_reference import JointReferenceReasoner
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.thought import Reasoner
+from asp.reasoning.diagnosis import reference as diagnosis
+from asp.reasoning.knowledge import Knowledge
 from asp.solving import ground
 from benchmarks import one_call
 from benchmarks.measuring import forget, no_collection, timed, within
-from benchmarks.one_call import OneCallLogician
+from benchmarks.one_call import OneCallReasoner
 from benchmarks.sheets import Row, Sheet, Value, gathered
 from benchmarks.vanished import ACTIONS_A_BOOK, Vanished
 
@@ -42,13 +42,13 @@ FIGURES = {
 }
 
 
-Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
+Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner[History]]
 SIDES: Mapping[str, tuple[str, Make]] = {
-    "letter": ("TI to the letter: one call", UndividedLogician),
-    "ati_one_call": ("ATI, a call a phase", OneCallLogician),
-    "ti": ("TI, fewest events found before", JointLogician),
-    "ati": ("ATI, from scratch", Logician),
-    "kept": ("ATI, kept controls", KeptLogician),
+    "letter": ("TI to the letter: one call", JointReferenceReasoner),
+    "ati_one_call": ("ATI, a call a phase", OneCallReasoner),
+    "ti": ("TI, fewest events found before", JointReasoner),
+    "ati": ("ATI, from scratch", ReferenceReasoner),
+    "kept": ("ATI, kept controls", IncrementalReasoner),
 }
 
 
@@ -103,7 +103,7 @@ def _asked(question: Vanished, side: str) -> dict[str, Value]:
     """One decision: its time, when whatever a robot keeps is grounded, and what was solved."""
     make = SIDES[side][1]
     reasoner = make(question.knowledge, question.goal, PLAN_LIMIT)
-    if make is KeptLogician:
+    if make is IncrementalReasoner:
         question.ask(reasoner)
         forget()
         reasoner = make(question.knowledge, question.goal, PLAN_LIMIT)
@@ -136,7 +136,7 @@ def _watched() -> Iterator[list[clingo.Control]]:
         return control
 
     with ExitStack() as stack:
-        for module in (diagnosis, logician, joint, undivided, one_call):
+        for module in (diagnosis, reference, joint, undivided, one_call):
             stack.enter_context(patch.object(module, "ground", watched))
         yield controls
 

@@ -17,7 +17,7 @@ from asp.solving import Answers
 T = TypeVar("T")
 
 _ANSWERS = ("asp.reasoning", "asp.solving", "agents.")
-_NO_ANSWER = ("agents.shared.knowledge", "asp.solving.solver")
+_NO_ANSWER = ("asp.reasoning.knowledge", "asp.solving.solver")
 
 
 def timed(call: Callable[[], T]) -> tuple[float, T]:

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from agents.intentional.intention import Intention
-from agents.intentional.reference import Logician, read_intention
-from agents.shared.diagnosis import Explained
-from agents.shared.history import History
+from agents.intentional.history import History
+from agents.intentional.reference import ReferenceReasoner, read_intention
+from agents.shared.thought import Intention
+from asp.reasoning.diagnosis import Diagnosis
 from asp.solving import fact, ground, optimal_model, theory
 
 
-class OneCallLogician(Logician):
+class OneCallReasoner(ReferenceReasoner):
     """Plans in one call, with a horizon for the longest plan, but under one explanation."""
 
-    def intend(self, history: History, explained: Explained) -> Intention:
+    def intend(self, history: History, explained: Diagnosis) -> Intention:
         horizon = history.step + 1 + self._plan_limit
         constants = self._constants(history, horizon, self._plan_limit)
         constants["plan_limit"] = self._plan_limit
-        adopted = explained.diagnosis
+        adopted = explained.explanation
         facts = [*self._facts(history), *adopted.facts("explained")]
         facts.append(fact("explanation", len(adopted.unobserved), history.step))
         texts = [*self._base, *map(theory, ("planning", "joint", "undivided"))]

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf
 
-from agents.shared.knowledge import knowledge
-from agents.shared.sessions import tools_of
+from agents.shared.sessions import sessions_of
 from asp.language import analyse, parse_description
+from asp.reasoning.knowledge import knowledge
 from asp.reasoning.planning import Encoding
 from benchmarks.measuring import forget, median, timed, within
 from benchmarks.offices import book_names, office, room_names
@@ -159,6 +159,6 @@ def _others(problem: Problem) -> Sequence[Problem]:
 
 
 def _plan(problem: Problem) -> int | None:
-    plans = tools_of(problem.knowledge).plans
+    plans = sessions_of(problem.knowledge).plans
     plan = plans.shortest(problem.state, problem.goal, problem.limit)
     return None if plan is None else len(plan)

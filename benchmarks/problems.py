@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from agents.shared.knowledge import Knowledge, knowledge
 from asp.language import Description
+from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import State
 from benchmarks.offices import book_names, office, room_names
 

@@ -6,12 +6,12 @@ import copy
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
-from agents.intentional.controller import IntentionalRobot, Reasoner
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.intention import Intention
-from agents.shared.diagnosis import Explained
-from agents.shared.history import Diagnosis, History
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.history import History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.shared.thought import Intention, Reasoner
 from asp.language import parse_description
+from asp.reasoning.diagnosis import Diagnosis, Explanation
 from benchmarks.measuring import forget, timed
 from testbed.environment import NONE, Core, Observability, Rules
 from testbed.protocol import Decision, Task
@@ -23,8 +23,8 @@ class Question:
     """What a reasoner was asked at a step, and what it answered."""
 
     history: History
-    adopted: Diagnosis
-    explained: Explained
+    adopted: Explanation
+    explained: Diagnosis
     intention: Intention
 
 
@@ -48,20 +48,20 @@ class Siege:
 class Recording:
     """A reasoner that keeps the questions of some steps."""
 
-    def __init__(self, reasoner: Reasoner, steps: Collection[int], siege: Siege) -> None:
+    def __init__(self, reasoner: Reasoner[History], steps: Collection[int], siege: Siege) -> None:
         self._reasoner = reasoner
         self._steps = steps
         self._siege = siege
 
-    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
-        self._asked: tuple[History, Diagnosis] | None = None
+    def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
+        self._asked: tuple[History, Explanation] | None = None
         if history.step in self._steps:
             took, copied = timed(lambda: copy.deepcopy(history))
             self._siege.copying_ms += took
             self._asked = copied, adopted
         return self._reasoner.diagnose(history, adopted)
 
-    def intend(self, history: History, explained: Explained) -> Intention:
+    def intend(self, history: History, explained: Diagnosis) -> Intention:
         intention = self._reasoner.intend(history, explained)
         if self._asked is not None:
             self._siege.questions[history.step] = Question(*self._asked, explained, intention)
@@ -87,7 +87,7 @@ def besiege(
     siege = Siege()
     robot = IntentionalRobot(
         lambda knowledge, wanted, limit: Recording(
-            KeptLogician(knowledge, wanted, limit), recorded, siege
+            IncrementalReasoner(knowledge, wanted, limit), recorded, siege
         )
     )
     told, untold = (Core(world, _rules(goal, steps, mode), ()) for mode in ("always", "never"))

@@ -19,10 +19,10 @@ from pathlib import Path
 
 import msgspec
 
-from agents.shared.history import GOAL
+from agents.shared.thought import Intention
 from agents.traditional import TraditionalRobot
-from agents.traditional.reference import Plan
 from asp.language import Description
+from asp.reasoning.diagnosis import GOAL
 from testbed.analysis.counting import BASELINE
 from testbed.config import ConfigError, ExperimentConfig
 from testbed.experiment.digest import digest
@@ -62,15 +62,16 @@ class ToldRobot(TraditionalRobot):
         source = reordered(load_world(task.domain).description, self._order)
         super().begin(msgspec.structs.replace(task, source=source))
 
-    def _attempt(self, plan: Plan) -> None:
-        self._explained_goal = self._plan is None and plan.reachable and not plan.actions
-        super()._attempt(plan)
+    def _attempt(self, intention: Intention | None) -> None:
+        if intention is not None:
+            self._explained_goal = self._rest is None and GOAL in intention.believed
+        super()._attempt(intention)
 
     def _observe(self, percept: Percept) -> None:
         super()._observe(percept)
         if percept.goal_holds is False and self._explained_goal:
             self._history.observe([f"-{GOAL}"], percept.step)
-            self._plan = None
+            self._rest = None
 
 
 def reordered(description: Description, order: Sequence[str]) -> str:

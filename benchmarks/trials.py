@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.reference import Logician
+from agents.intentional.reference import ReferenceReasoner
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.trial import play_trial
@@ -18,7 +18,7 @@ from testbed.protocol import Decision, Percept, Robot, Task
 SCENARIOS = ("1", "2", "3", "4", "5", "6")
 ROBOTS: Mapping[str, Callable[[], Robot]] = {
     "fast": IntentionalRobot,
-    "reference": partial(IntentionalRobot, Logician),
+    "reference": partial(IntentionalRobot, ReferenceReasoner),
 }
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from agents.intentional.controller import Reasoner
-from agents.shared.history import GOAL, Diagnosis, History
-from agents.shared.knowledge import Knowledge, knowledge
+from agents.intentional.history import History
+from agents.shared.thought import Reasoner
+from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.problems import delivered, placed
 from benchmarks.sheets import DisagreementError
@@ -40,10 +41,10 @@ class Vanished:
         """How many smallest explanations there are: for each book a step and a room."""
         return int(((self.steps - 1) * (self.rooms - 1)) ** self.books)
 
-    def ask(self, reasoner: Reasoner) -> int:
+    def ask(self, reasoner: Reasoner[History]) -> int:
         """The length of the plan that is decided on at the last step. Raises DisagreementError."""
         history = self.history()
-        plan = reasoner.intend(history, reasoner.diagnose(history, Diagnosis())).plan
+        plan = reasoner.intend(history, reasoner.diagnose(history, Explanation())).plan
         if len(plan) != ACTIONS_A_BOOK * self.books:
             raise DisagreementError(f"{len(plan)} actions for {self}: {type(reasoner).__name__}")
         return len(plan)

@@ -117,7 +117,7 @@ class LeanRobot:
             self._robot.begin(self.leaned.task)
 
     def act(self, percept: Percept) -> Decision:
-        """The other robot's decision. Raises InconsistentHistoryError."""
+        """The other robot's decision. Raises RobotStops."""
         return self.leaned.decision(self._robot.act(self.leaned.percept(percept)))
 
 

@@ -15,8 +15,8 @@ from itertools import product
 import msgspec
 
 from agents.intentional.controller import IntentionalRobot
-from agents.shared.knowledge import knowledge
 from asp.language import Description, Literal, Literals, complement
+from asp.reasoning.knowledge import knowledge
 from asp.solving import deciding
 from testbed.protocol import Decision, Percept, Robot, Task
 
@@ -34,7 +34,7 @@ class CheckingRobot:
             self._robot.begin(to_be_sure(task))
 
     def act(self, percept: Percept) -> Decision:
-        """One round of the loop. Raises InconsistentHistoryError."""
+        """One round of the loop. Raises RobotStops."""
         decision = self._robot.act(percept)
         # What it is sure of is no fluent of the domain.
         belief = [fluent for fluent in decision.trace.belief if fluent in self._fluents]

@@ -1,23 +1,25 @@
-"""The two phases of reasoning on kept controls: the answers of the theory solved from scratch."""
+"""The two phases of reasoning step by step: the answers of the theory solved from scratch."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass, field, replace
 
-from agents.intentional.intention import Intention
-from agents.intentional.reference import Logician
-from agents.shared.believing import Believer
-from agents.shared.diagnosis import Explained
-from agents.shared.history import GOAL, Diagnosis, History
-from agents.shared.knowledge import Knowledge
-from agents.shared.memory import PACE
-from agents.shared.sessions import tools_of
-from asp.reasoning.diagnosis import Pace
+from agents.intentional.history import History
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.sessions import sessions_of
+from agents.shared.thought import Intention
+from asp.reasoning.diagnosis import (
+    GOAL,
+    Compression,
+    Diagnosis,
+    Explanation,
+    IncrementalDiagnoser,
+)
+from asp.reasoning.knowledge import Knowledge
 from asp.solving import State
 
-# (16): nothing else happens while the goal is selected.
-_FIRST_EVENT = 1
+FIRST_EVENT = 1
+"""The first step with events: nothing else happens while the goal is selected (16)."""
 
 
 @dataclass
@@ -28,50 +30,42 @@ class _Active:
     executed: list[tuple[int, str]] = field(default_factory=list)
 
 
-class KeptLogician:
-    """Reasons about one goal in one domain, as `Logician` does, for one trial."""
+class IncrementalReasoner(IncrementalDiagnoser[History]):
+    """Reasons about one goal in one domain, as the reference does, for one trial."""
 
     def __init__(
         self,
         knowledge: Knowledge,
         goal: tuple[str, ...],
         plan_limit: int,
-        pace: Pace = PACE,
+        compression: Compression | None = None,
     ) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
-        plain = Logician(knowledge, goal, plan_limit)
-        self._plans = tools_of(knowledge).plans
-        self._actions = frozenset(knowledge.description.agent_actions)
-        self._goal = goal
+        sessions = sessions_of(knowledge)
+        reference = ReferenceReasoner(knowledge, goal, plan_limit)
+        super().__init__(sessions.diagnosis, goal, FIRST_EVENT, reference, compression)
+        self._plans = sessions.plans
+        self._actions, _ = knowledge.actions
         self._plan_limit = plan_limit
         self._active: _Active | None = None
-        self._believer = Believer(
-            knowledge,
-            goal,
-            _FIRST_EVENT,
-            lambda history, adopted: plain.diagnose(history, adopted).diagnosis,
-            pace,
-        )
 
-    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
+    def diagnose(self, history: History, adopted: Explanation, /) -> Diagnosis:
         """Phase one. Raises InconsistentHistoryError."""
         self._follow(history)
-        diagnosis, kept = self._believer.diagnose(history, adopted)
-        others = partial(self._believer.alternatives, history, diagnosis)
-        return Explained(diagnosis, kept, self._indices(history), others)
+        return replace(super().diagnose(history, adopted), indices=self._indices(history))
 
-    def intend(self, history: History, explained: Explained) -> Intention:
+    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
         """Phase two."""
-        state = self._believer.belief.state
-        holds = self._believer.holds(state)
-        action, plan = ("finish", ()) if holds else self._decide(state, history, explained)
+        state = self.belief.state
+        holds = self.holds(state)
+        action, plan = ("finish", ()) if holds else self._decide(state, history, diagnosis)
         return Intention(action, plan, state | {GOAL} if holds else state)
 
     def _decide(
-        self, state: State, history: History, explained: Explained
+        self, state: State, history: History, diagnosis: Diagnosis
     ) -> tuple[str, tuple[str, ...]]:
         """The intention where the goal does not hold."""
-        for name, index in explained.indices.items():
+        for name, index in diagnosis.indices.items():
             left = history.activities[name - 1].plan[index:]
             if left and self._plans.succeeds(state, self._goal, left):
                 return left[0], ()  # (38)
@@ -101,7 +95,7 @@ class KeptLogician:
         if self._active is None:
             return {}
         plan, index = history.activities[self._active.name - 1].plan, 0
-        held = self._believer.belief.held
+        held = self.belief.held
         for step, action in self._active.executed:
             if step not in held and plan[index : index + 1] == (action,):
                 index += 1

@@ -8,14 +8,13 @@ from msgspec import structs
 
 from agents.intentional.abstraction import LeanRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.executor.coarse_model import CoarseDiagram, State
-from agents.intentional.executor.coarse_percept import Outcome, Reporter
+from agents.intentional.executor.belief import Mind
+from agents.intentional.executor.coarse import CoarseDiagram, Outcome, Reporter
 from agents.intentional.executor.execution import Execution, Steps
-from agents.intentional.executor.state import Mind
-from agents.intentional.executor.step_numbers import Calendar
+from agents.intentional.executor.trace import Calendar
 from asp.language import is_positive
 from asp.refinement import load
-from asp.solving import deciding, preparation, reasoning_clock
+from asp.solving import State, deciding, preparation, reasoning_clock
 from testbed.protocol import Decision, Percept, Robot, Task, Trace
 
 _WAIT, _FINISH = "wait", "finish"
@@ -46,22 +45,22 @@ class RefinedRobot:
             file = f"{task.domain}.al"
             refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
         self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
-        diagram = CoarseDiagram(self._coarse.leaned)
-        self._mind = Mind(refinement, diagram, task, self._zooms)
+        self._diagram = CoarseDiagram(self._coarse.leaned)
+        self._mind = Mind(refinement, self._diagram.robot, task, self._zooms)
         known = [literal for literal in task.initial if self._coarse.leaned.is_about(literal)]
         self._mind.know(task.initial_fine, known)
         self._calendar = Calendar()
-        self._reporter = Reporter(self._mind, self._calendar)
+        self._reporter = Reporter(self._mind, self._diagram, self._calendar)
         self._believed: State = frozenset(filter(is_positive, known))
         self._execution: Execution | None = None
         self._steps: Steps | None = None
         self._outcome: Outcome | None = None
         spent = reasoning_clock().since(began)
-        self._mind.tally.planned(spent)
+        self._mind.tally.spend("planning", spent)
         self._prepared = spent.preparation_cpu
 
     def act(self, percept: Percept) -> Decision:
-        """The next concrete action. Raises InconsistentHistoryError."""
+        """The next concrete action. Raises RobotStops."""
         with deciding() as limited:
             began, prepared = reasoning_clock(), self._prepared
             decision = self._next(percept)
@@ -124,19 +123,18 @@ class RefinedRobot:
         """What is believed now; what was known to the contrary at the fine resolution is old."""
         belief = decision.trace.belief
         self._believed = frozenset(belief) if belief else expected
-        fluents = [f for f in self._mind.coarse.fluents if self._mind.is_magnified(f)]
-        with self._mind.tally.inferring():
+        fluents = [f for f in self._diagram.fluents if self._mind.is_magnified(f)]
+        with self._mind.tally.timing("infer"):
             self._mind.belief.adapt(expected, self._believed, fluents)
-        self._mind.agree(self._believed)
+        self._mind.agree(self._believed, self._diagram.fluents)
 
     def _begin(self, percept: Percept, decision: Decision) -> Decision:
         """Begins the abstract action that was decided."""
-        after = self._mind.coarse.after(self._believed, decision.action, ())
-        assert after is not None, "a robot attempts what it believes to be possible"
-        execution = Execution(self._mind, decision.action, self._believed, after, percept.step)
-        self._execution, self._steps = execution, execution.run()
-        action = self._advance(None)
-        return self._with_trace(structs.replace(decision, action=action or _WAIT))
+        action, believed = decision.action, self._believed
+        self._execution = Execution(self._mind, self._diagram, action, believed, percept.step)
+        self._steps = self._execution.run()
+        first = self._advance(None)
+        return self._with_trace(structs.replace(decision, action=first or _WAIT))
 
     def _concrete(self, percept: Percept, action: str) -> Decision:
         """A decision in the middle of an abstract action."""
@@ -167,5 +165,5 @@ class EitherRobot:
         self._robot.begin(task)
 
     def act(self, percept: Percept) -> Decision:
-        """The robot's decision. Raises InconsistentHistoryError."""
+        """The robot's decision. Raises RobotStops."""
         return self._robot.act(percept)

@@ -6,9 +6,9 @@ from typing import ClassVar
 
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.joint import JointLogician
-from agents.intentional.joint_reference import UndividedLogician
-from agents.intentional.reference import Logician
+from agents.intentional.joint import JointReasoner
+from agents.intentional.joint_reference import JointReferenceReasoner
+from agents.intentional.reference import ReferenceReasoner
 from agents.intentional.refined import EitherRobot
 from testbed.protocol import Capabilities
 
@@ -41,7 +41,7 @@ class Reference(IntentionalRobot):
     capabilities: ClassVar = COARSE
 
     def __init__(self) -> None:
-        super().__init__(Logician)
+        super().__init__(ReferenceReasoner)
 
 
 class Joint(IntentionalRobot):
@@ -50,7 +50,7 @@ class Joint(IntentionalRobot):
     capabilities: ClassVar = COARSE
 
     def __init__(self) -> None:
-        super().__init__(JointLogician)
+        super().__init__(JointReasoner)
 
 
 class JointReference(IntentionalRobot):
@@ -59,7 +59,7 @@ class JointReference(IntentionalRobot):
     capabilities: ClassVar = COARSE
 
     def __init__(self) -> None:
-        super().__init__(UndividedLogician)
+        super().__init__(JointReferenceReasoner)
 
 
 class Checking(CheckingRobot):

@@ -1,55 +1,45 @@
-"""The kept controls of each domain, made once in a process."""
+"""The sessions of the solver in each domain, made once in a process."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from agents.shared.knowledge import Knowledge
-from asp.reasoning.diagnosis import Explanations, Windows
+from asp.reasoning.diagnosis import DiagnosisSessions
+from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.reasoning.successors import Transitions
 from asp.solving import Recent
 
 
 @dataclass(frozen=True)
-class Tools:
-    """The kept controls of one domain; they outlive goals and trials."""
+class Sessions:
+    """The sessions of one domain; they outlive goals and trials."""
 
-    transitions: Transitions
-    explanations: Explanations
-    windows: Windows
+    diagnosis: DiagnosisSessions
     plans: IncrementalPlanner
     reach: Reachability
 
+    @property
+    def transitions(self) -> Transitions:
+        """The transition diagram."""
+        return self.diagnosis.transitions
+
 
 MOST_DOMAINS = 16
-"""Of how many domains controls are kept: those that were used last."""
+"""Of how many domains sessions are kept: those that were used last."""
 
-_TOOLS: Recent[str, Tools] = Recent(MOST_DOMAINS)
+_SESSIONS: Recent[str, Sessions] = Recent(MOST_DOMAINS)
 
 
-def tools_of(knowledge: Knowledge) -> Tools:
-    """The kept controls of a domain, made when they are first asked for.
+def sessions_of(knowledge: Knowledge) -> Sessions:
+    """The sessions of a domain, made when they are first asked for.
 
     A robot whose domain follows from its goal has as many domains as goals.
     """
-    return _TOOLS.get(knowledge.program, lambda: _made(knowledge))
+    return _SESSIONS.get(knowledge.program, lambda: _made(knowledge))
 
 
-def _made(knowledge: Knowledge) -> Tools:
-    description, program, ranks = knowledge.description, knowledge.program, knowledge.ranks
-    fluents = description.fluents
+def _made(knowledge: Knowledge) -> Sessions:
+    description, program = knowledge.description, knowledge.program
     plans = IncrementalPlanner(description.source, f"{description.name}.al")
-    return Tools(
-        Transitions(program, fluents, ranks),
-        Explanations(
-            program,
-            fluents,
-            description.exogenous_actions,
-            [default.name for default in description.defaults],
-            (*ranks, *knowledge.start),
-        ),
-        Windows(program, fluents, description.inertial, description.exogenous_actions, ranks),
-        plans,
-        Reachability(description, program, plans),
-    )
+    return Sessions(DiagnosisSessions(knowledge), plans, Reachability(description, program, plans))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from agents.traditional.reference import Planner
+from agents.traditional.reference import ReferenceReasoner
 from agents.traditional.robot import TraditionalRobot
 from testbed.protocol import Capabilities
 
@@ -23,4 +23,4 @@ class TraditionalReference(TraditionalRobot):
     capabilities: ClassVar = COARSE
 
     def __init__(self) -> None:
-        super().__init__(Planner)
+        super().__init__(ReferenceReasoner)

@@ -34,7 +34,7 @@ class Transitions:
     """The transition diagram of a domain, one transition at a time."""
 
     def __init__(self, program: str, fluents: Sequence[str], ranks: Iterable[Symbol]) -> None:
-        self._kept = Session(
+        self._session = Session(
             program,
             "incremental_transitions",
             fluents,
@@ -51,16 +51,16 @@ class Transitions:
 
         `attempt` is the agent's action, or None; `reported` are exogenous actions that happened.
         """
-        kept = self._kept
-        kept.switch_on(*_actions(attempt, reported))
-        assumptions = kept.assume_state(state, 0)
+        session = self._session
+        session.switch_on(*_actions(attempt, reported))
+        assumptions = session.assume_state(state, 0)
         if assumptions is None:
             return None
-        happened = None if attempt is None else kept.literal("occurs", attempt, 0)
-        with solving(kept.control, assumptions) as model:
+        happened = None if attempt is None else session.literal("occurs", attempt, 0)
+        with solving(session.control, assumptions) as model:
             if model is None:
                 return None
-            return kept.state(model, 1), happened is not None and model.is_true(happened)
+            return session.state(model, 1), happened is not None and model.is_true(happened)
 
     def branches(
         self,
@@ -77,17 +77,17 @@ class Transitions:
         -1 nothing may have happened at all: reports are distrusted, whatever their number. None
         where there are more than `most`, or `size` is above MOST_ASSUMED.
         """
-        kept = self._kept
+        session = self._session
         if size > MOST_ASSUMED:
             return None
         switches = [_BRANCHING, *([_PAST] if size >= 0 else []), *([_FAILING] if failing else [])]
-        kept.switch_on(*switches, *_actions(attempt, reported))
-        assumptions = kept.assume_state(state, 0)
+        session.switch_on(*switches, *_actions(attempt, reported))
+        assumptions = session.assume_state(state, 0)
         if assumptions is None:
             return []
-        more = None if size < 0 else kept.literal("more", size + 1)
+        more = None if size < 0 else session.literal("more", size + 1)
         limited = assumptions if more is None else [*assumptions, -more]
-        found, left_off = answer_sets(kept.control, limited, most)
+        found, left_off = answer_sets(session.control, limited, most)
         return None if left_off else [_branch(shown) for shown in found]
 
 

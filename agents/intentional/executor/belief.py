@@ -1,21 +1,23 @@
-"""What the robot takes for certain at the fine resolution: the history H_f and what follows."""
+"""What the robot knows and believes at the fine resolution: the history H_f and what follows."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
 
-from agents.intentional.executor.compiled import means_of
-from asp.language import arguments, atom, complement
+from agents.intentional.executor.means import means_of
+from agents.intentional.executor.trace import Tally
+from agents.shared.robot import limits_of
+from asp.language import arguments, atom, complement, is_positive, name
 from asp.reasoning.fine_knowledge import Known
 from asp.refinement import Refinement
+from testbed.protocol import Percept, Task
 
 
 class FineBelief:
     """What is known of a trial at the fine resolution.
 
-    Inferences are those of `fine_inference.lp`; where the laws are simple,
-    `asp.reasoning.fine_knowledge.incremental` makes them.
+    Inferences are those of `fine_inference.lp`, made incrementally where the laws are simple.
     """
 
     def __init__(self, refinement: Refinement, literals: Iterable[str]) -> None:
@@ -24,7 +26,7 @@ class FineBelief:
         means = means_of(refinement)
         self._quick, self._theory = means.quick, means.theory
         self._is_value = means.is_value
-        self._plain, self._carriers = means.plain, means.carriers
+        self._unmagnified, self._carriers = means.unmagnified, means.carriers
         self._carrying: frozenset[str] = frozenset()
         self.known = Known()
         self.see(literals)
@@ -37,14 +39,14 @@ class FineBelief:
         seen, known = list(literals), self._with_carriers()
         after = self._quick.after(known, seen) if self._quick.is_enough else None
         after = after or self._theory.infer(known, [seen], ()).known
-        self.known = Known(after.true - self._plain, after.false - self._plain)
+        self.known = Known(after.true - self._unmagnified, after.false - self._unmagnified)
 
-    def suppose(self, plain: Collection[str]) -> None:
+    def suppose(self, unmagnified: Collection[str]) -> None:
         """Goes by these fluents without counterparts: of those that matter here others are false.
 
         Where a thing is that has no components may follow from what carries it.
         """
-        carrying = self._carriers.intersection(plain)
+        carrying = self._carriers.intersection(unmagnified)
         if carrying != self._carrying:
             self._carrying = carrying
             self.see(())
@@ -108,3 +110,158 @@ class FineBelief:
             if complement(literal) in follows or (changed and literal not in follows):
                 groups = self._refinement.counterpart(literal)
                 self.forget(complement(part) for group in groups for part in group)
+
+
+class Mind:
+    """The robot's knowledge and means at the fine resolution, for one trial.
+
+    `unmagnified` are the true fluents without counterparts, as far as they are believed; `shown`
+    are the literals about such fluents that the last percept had, and `noticed` the fluents of
+    which there was any since the coarse robot was last asked; `pending` are the effects of an
+    action that were not tested yet.
+    """
+
+    def __init__(self, refinement: Refinement, robot: str, task: Task, zooms: bool) -> None:
+        """`zooms` if plans are made in the relevant part of the description only."""
+        self.refinement = refinement
+        self.robot = robot
+        self.goal = tuple(task.goal)
+        self.limits = limits_of(task)
+        self.zooms = zooms
+        self.tally = Tally()
+        self.means = means_of(refinement)
+        self.tests = self.means.tests(robot)
+        self.effects = self.means.effects
+        self.belief = FineBelief(refinement, ())
+        self.unmagnified: frozenset[str] = frozenset()
+        self.shown: frozenset[str] = frozenset()
+        self.noticed: set[str] = set()
+        self.pending: tuple[str, ...] = ()
+        self.news: list[tuple[int, str]] = []
+
+    def know(self, literals: Iterable[str], coarse: Collection[str]) -> None:
+        """Begins with what is known of both resolutions.
+
+        Of the coarse one it tells what the robot does not have, or where it is not; where things
+        are is another matter: that is looked for.
+        """
+        magnified = frozenset(filter(self.is_magnified, coarse))
+        self.belief = FineBelief(self.refinement, literals)
+        fluents = [
+            atom(part)
+            for literal in magnified
+            if self.robot in arguments(literal)
+            for parts in self.refinement.counterpart(literal)
+            for part in parts
+            if not is_positive(part) or self.belief.is_false(part)
+        ]
+        self.belief.see(f"-{fluent}" for fluent in fluents)
+        self._suppose(frozenset(filter(is_positive, coarse)) - magnified)
+
+    def is_magnified(self, literal: str) -> bool:
+        """Whether a coarse literal has a counterpart."""
+        return name(literal) in self.refinement.counterparts
+
+    def testable(self, things: Collection[str]) -> Iterator[str]:
+        """The fluents about these things that can be tested now, by what is known and believed."""
+        return self.tests.possible(self.belief.known.true | self.unmagnified, things)
+
+    def can_test(self, fluent: str) -> bool:
+        """Whether a fluent of which there is a test can be tested now, by what is known."""
+        return self.tests.is_possible(fluent, self.belief.known.true | self.unmagnified)
+
+    def is_value(self, fluent: str) -> bool:
+        """Whether a coarse fluent is one of several of which one always holds, as of places."""
+        return self.means.is_value(self.refinement.counterpart(fluent)[0][0])
+
+    def hear(self, percept: Percept) -> frozenset[str]:
+        """Takes in what is told beside the outcome of a test; the constants it is about.
+
+        These are reports of events, and what is seen of fluents without a counterpart.
+        """
+        touched: set[str] = set()
+        for event in percept.events:
+            self.news.append((event.step, event.action))
+            effects = self.effects.of(event.action, self.belief.known.true)
+            self.assume(effects)
+            self.belief.see(self.believable(filter(self._is_fine, effects)))
+            touched.update(c for effect in effects for c in arguments(effect))
+        self.shown = frozenset(filter(self._is_unmagnified, percept.visible))
+        self.noticed.update(map(atom, self.shown))
+        new = [literal for literal in self.shown if not self.holds(literal)]
+        touched.update(c for literal in new for c in arguments(literal))
+        self.assume(new)
+        wholes = self.refinement.wholes
+        return frozenset([*touched, *(wholes.get(constant, constant) for constant in touched)])
+
+    def certain(self) -> FineBelief:
+        """What the robot knows of itself, with what follows: tests of that are always right."""
+        changing = frozenset(map(atom, self.pending))
+        certain = FineBelief(
+            self.refinement, filter(self._is_own, self.belief.known.true - changing)
+        )
+        certain.suppose(frozenset(filter(self._is_own, self.unmagnified - changing)))
+        return certain
+
+    def believable(self, literals: Iterable[str]) -> list[str]:
+        """Those of the literals seen at one moment that agree with what is certain.
+
+        A thing that is held is where the robot is: seen elsewhere, or not seen there, it was
+        mistaken.
+        """
+        seen = list(literals)
+        if all(map(self._is_own, seen)):
+            return seen
+        certain = self.certain()
+        certain.see(filter(self._is_own, seen))
+        return [
+            literal
+            for literal in seen
+            if self._is_own(literal)
+            or not (
+                certain.is_false(literal)
+                if is_positive(literal)
+                else atom(literal) in certain.known.true
+            )
+        ]
+
+    def holds(self, literal: str) -> bool:
+        """Whether a literal without a counterpart is believed."""
+        return (atom(literal) in self.unmagnified) == is_positive(literal)
+
+    def assume(self, literals: Iterable[str]) -> None:
+        """Believes what literals say of fluents without counterparts."""
+        unmagnified = list(filter(self._is_unmagnified, literals))
+        gone = (atom(literal) for literal in unmagnified)
+        self._suppose(self.unmagnified.difference(gone).union(filter(is_positive, unmagnified)))
+
+    def agree(self, believed: Collection[str], fluents: Collection[str]) -> None:
+        """Believes of these fluents, if they have no counterparts, what the coarse robot does."""
+        left = self.unmagnified.difference(fluents)
+        self._suppose(left.union(f for f in believed if not self.is_magnified(f)))
+        self.noticed.clear()
+
+    def _suppose(self, unmagnified: frozenset[str]) -> None:
+        self.unmagnified = unmagnified
+        self.belief.suppose(unmagnified)
+
+    def looked_for(self, wholes: Iterable[str]) -> frozenset[str]:
+        """What is tested for of some coarse constants: one component, where they share a place."""
+        components = (self.refinement.components[whole] for whole in wholes)
+        shares = self.means.shares_places
+        return frozenset(part for parts in components for part in (parts[:1] if shares else parts))
+
+    def is_doubtful(self, literal: str) -> bool:
+        """Whether a coarse literal rests on tests that may be wrong."""
+        return self.is_magnified(literal) and not self._is_own(literal)
+
+    def _is_own(self, literal: str) -> bool:
+        """Whether a literal is about the robot itself."""
+        return self.robot in arguments(literal)
+
+    def _is_fine(self, literal: str) -> bool:
+        return name(literal) in self.refinement.counterparts.values()
+
+    def _is_unmagnified(self, literal: str) -> bool:
+        symbols = self.refinement.coarse_signature.symbols
+        return name(literal) in symbols and not self.is_magnified(literal)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Generator, Iterable
 from typing import TypeVar
 
-from agents.intentional.executor.state import Mind
+from agents.intentional.executor.belief import Mind
 from asp.language import arguments, atom, complement, is_positive
 from testbed.protocol import Percept
 
@@ -15,7 +15,7 @@ Asking = Generator[str, Percept, T]
 """Yields tests and is sent the percepts after them."""
 
 
-class Looking:
+class Sensing:
     """What is observed in the course of one abstract action.
 
     `seen` are the literals newly known by tests, `heard` the constants that news is about, both
@@ -44,7 +44,7 @@ class Looking:
         What a test finds may be what another one needs.
         """
         mind, true = self._mind, self._mind.belief.known.true
-        robots = {c for f in true if mind.coarse.robot in arguments(f) for c in arguments(f)}
+        robots = {c for f in true if mind.robot in arguments(f) for c in arguments(f)}
         tested: set[str] = set()
         while possible := self._open(tested):
             for fluent in filter(mind.belief.is_open, possible):
@@ -64,7 +64,7 @@ class Looking:
         mind = self._mind
         about = {mind.refinement.wholes.get(part, part) for part in arguments(action)}
         things = mind.looked_for(about)
-        with mind.tally.inferring():
+        with mind.tally.timing("infer"):
             doubtful = mind.belief.known.true - mind.certain().known.true
         for fluent in [*mind.testable(things)]:
             if fluent in doubtful and fluent in mind.belief.known.true:
@@ -90,16 +90,16 @@ class Looking:
     def commit(self, literals: Iterable[str]) -> None:
         """Takes observations of the present moment for certain."""
         mind = self._mind
-        with mind.tally.inferring():
+        with mind.tally.timing("infer"):
             seen = mind.believable(literals)
         new = [literal for literal in seen if not self._is_known(literal)]
-        with mind.tally.inferring():
+        with mind.tally.timing("infer"):
             mind.belief.see(seen)
         mind.tally.committed(new)
         self.seen += new
 
     def hear(self, percept: Percept) -> None:
-        with self._mind.tally.inferring():
+        with self._mind.tally.timing("infer"):
             touched = self._mind.hear(percept)
         self.heard |= touched
         self._disturbed |= touched
@@ -131,7 +131,7 @@ class Looking:
         """The outcome of a test; None if it shows nothing."""
         test = self._mind.tests.of(atom(fluent))
         assert test is not None, "only what can be tested is tested"
-        self._mind.tally.test()
+        self._mind.tally.count("tests")
         percept = yield test
         self.hear(percept)
         if atom(fluent) in percept.visible:

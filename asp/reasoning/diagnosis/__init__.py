@@ -1,22 +1,46 @@
-"""Smallest explanations of histories."""
+"""Smallest explanations of histories: the reference, and the incremental twin held equal to it."""
 
-from asp.reasoning.diagnosis.encoding import Account, Assumed, Past, Record
-from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict, misreadings, never_together
-from asp.reasoning.diagnosis.incremental import Explanations
-from asp.reasoning.diagnosis.long_histories.compression import Folding, Pace
-from asp.reasoning.diagnosis.long_histories.suffix_explanations import Windows
+from asp.reasoning.diagnosis.encoding import problem_of
+from asp.reasoning.diagnosis.history import (
+    GOAL,
+    Diagnoser,
+    Diagnosis,
+    Explanation,
+    H_contra,
+    Happening,
+    History,
+    InconsistentHistoryError,
+    record_of,
+)
+from asp.reasoning.diagnosis.inconsistency import (
+    cannot_hold,
+    conflict,
+    distrust_tests,
+    never_together,
+)
+from asp.reasoning.diagnosis.incremental import DiagnosisSessions, IncrementalDiagnoser
+from asp.reasoning.diagnosis.long_histories.compression import Compression
+from asp.reasoning.diagnosis.reference import ReferenceDiagnoser, diagnosis_of, event_limits
 
 __all__ = [
-    "Account",
-    "Assumed",
-    "Explanations",
-    "Folding",
-    "Pace",
-    "Past",
-    "Record",
-    "Windows",
+    "GOAL",
+    "Compression",
+    "Diagnoser",
+    "Diagnosis",
+    "DiagnosisSessions",
+    "Explanation",
+    "H_contra",
+    "Happening",
+    "History",
+    "InconsistentHistoryError",
+    "IncrementalDiagnoser",
+    "ReferenceDiagnoser",
     "cannot_hold",
     "conflict",
-    "misreadings",
+    "diagnosis_of",
+    "distrust_tests",
+    "event_limits",
     "never_together",
+    "problem_of",
+    "record_of",
 ]

@@ -1,4 +1,4 @@
-"""What there is to explain, what explains it, and both as literals of a kept control."""
+"""Histories and their explanations as literals of a session of the solver."""
 
 from __future__ import annotations
 
@@ -9,36 +9,13 @@ import clingo
 from clingo import Symbol
 
 from asp.language import atom, is_positive
+from asp.reasoning.diagnosis.history import Explanation, Happening, History, Record, record_of
+from asp.reasoning.knowledge import Knowledge
 from asp.solving import Session, State, fact
 
-Happening = tuple[int, str]
-"""An exogenous action at a step."""
-
 
 @dataclass(frozen=True)
-class Record:
-    """What one step of a history says.
-
-    `observed` are literals, `attempt` the agent's physical action with whether it took effect,
-    `failing` if its execution failed though it may have been possible, `reported` the exogenous
-    actions that happened, `goal` whether the goal was seen to hold.
-    """
-
-    observed: tuple[str, ...] = ()
-    attempt: tuple[str, bool] | None = None
-    reported: tuple[str, ...] = ()
-    goal: bool | None = None
-    failing: bool = False
-
-    @property
-    def distrustable(self) -> tuple[str, ...]:
-        """What may be distrusted of the step: reports, and an attempt that failed."""
-        failed = (self.attempt[0],) if self.attempt is not None and self.failing else ()
-        return (*self.reported, *failed)
-
-
-@dataclass(frozen=True)
-class Past:
+class Problem:
     """What there is to explain: the records up to `step`, with a goal that some of them tell of.
 
     `since` is the first step at which an event may have occurred.
@@ -49,74 +26,71 @@ class Past:
     step: int
     since: int
 
-    def from_step(self, first: int) -> Past:
-        """The end of this past, from a step on that becomes step 0."""
+    def suffix(self, first: int) -> Problem:
+        """The end of this history, from a step on that becomes step 0."""
         records = {
             step - first: self.records[step]
             for step in range(first, self.step + 1)
             if step in self.records
         }
-        return Past(self.goal, records, self.step - first, max(0, self.since - first))
-
-
-@dataclass(frozen=True)
-class Assumed:
-    """An explanation: unobserved events, false reports and attempts, defaults by name."""
-
-    events: tuple[Happening, ...] = ()
-    distrusted: tuple[Happening, ...] = ()
-    exceptions: tuple[str, ...] = ()
+        return Problem(self.goal, records, self.step - first, max(0, self.since - first))
 
     @property
-    def size(self) -> int:
-        """How many events, and false reports and attempts, it assumes (27)."""
-        return len(self.events) + len(self.distrusted)
+    def distrustable(self) -> Iterator[Happening]:
+        """What may be distrusted, step by step."""
+        for time in range(self.step):
+            record = self.records.get(time, Record())
+            yield from (Happening(time, action) for action in record.distrustable)
+
+    @property
+    def externals(self) -> list[Symbol]:
+        """past(I), reported(E,I), attempted(A,I) and failing(I)."""
+        atoms = [fact("past", time) for time in range(self.since, self.step)]
+        for time, record in self.records.items():
+            if time < self.step:
+                atoms += (fact("reported", event, time) for event in record.reported)
+                if record.action is not None:
+                    atoms.append(fact("attempted", record.action, time))
+                if record.failing:
+                    atoms.append(fact("failing", time))
+        return atoms
+
+
+def problem_of(
+    knowledge: Knowledge, goal: tuple[str, ...], history: History, since: int
+) -> Problem:
+    """All that there is to explain of a history."""
+    records = {
+        step: record_of(moment, *knowledge.actions) for step, moment in history.moments.items()
+    }
+    return Problem(goal, records, history.step, since)
 
 
 @dataclass(frozen=True)
-class Account:
+class Interpretation:
     """An explanation, the initial state, the state at the last step, when the goal held."""
 
-    assumed: Assumed
+    explanation: Explanation
     initial: State
     state: State
     held: frozenset[int]
 
 
-def externals(past: Past) -> list[Symbol]:
-    """past(I), reported(E,I), attempted(A,I) and failing(I) of a past."""
-    atoms = [fact("past", time) for time in range(past.since, past.step)]
-    for time, record in past.records.items():
-        if time < past.step:
-            atoms += (fact("reported", event, time) for event in record.reported)
-            if record.attempt is not None:
-                atoms.append(fact("attempted", record.attempt[0], time))
-            if record.failing:
-                atoms.append(fact("failing", time))
-    return atoms
-
-
-def distrustable(past: Past) -> Iterator[Happening]:
-    """What may be distrusted of a past, step by step."""
-    for time in range(past.step):
-        record = past.records.get(time, Record())
-        yield from ((time, action) for action in record.distrustable)
-
-
-def observations(kept: Session, past: Past) -> list[int] | None:
+def observations(session: Session, problem: Problem) -> list[int] | None:
     """Assumptions for everything observed; None where an atom that must be true cannot be."""
     wanted: list[tuple[int | None, bool]] = []
-    for time, record in past.records.items():
-        if time > past.step:
+    for time, record in problem.records.items():
+        if time > problem.step:
             continue
         wanted += (
-            (kept.holds(atom(literal), time), is_positive(literal)) for literal in record.observed
+            (session.holds(atom(literal), time), is_positive(literal))
+            for literal in record.observed
         )
         if record.goal is not None:
-            wanted.append((kept.literal("reached", time), record.goal))
-        if record.attempt is not None and time < past.step:
+            wanted.append((session.literal("reached", time), record.goal))
+        if record.attempt is not None and time < problem.step:
             action, happened = record.attempt
-            wanted.append((kept.literal("occurs", action, time), happened))
+            wanted.append((session.literal("occurs", action, time), happened))
     return assumptions(wanted)
 
 
@@ -128,45 +102,54 @@ def assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:
     return [lit if truth else -lit for lit, truth in known if lit is not None]
 
 
-def account(
-    kept: Session,
+def interpretation(
+    session: Session,
     model: clingo.Model,
-    past: Past,
-    events: Sequence[str],
+    problem: Problem,
+    knowledge: Knowledge,
     defaults: Sequence[str],
-) -> Account:
-    """What a model says of a past; `events` are the exogenous actions, `defaults` names."""
-    step = past.step
-    unobserved = tuple(
-        (time, event)
-        for time in range(step)
-        for event in events
-        if is_true(model, kept.literal("unobserved", event, time))
+) -> Interpretation:
+    """What a model says of a problem; `defaults` are names."""
+
+    def true(predicate: str, happenings: Iterable[Happening]) -> tuple[Happening, ...]:
+        found = (
+            h for h in happenings if is_true(model, session.literal(predicate, h.action, h.step))
+        )
+        return tuple(sorted(found))
+
+    step, events = problem.step, knowledge.description.exogenous_actions
+    exceptions = (name for name in defaults if is_true(model, session.literal("exception", name)))
+    explanation = Explanation(
+        true("unobserved", (Happening(time, event) for time in range(step) for event in events)),
+        true("distrusted", problem.distrustable),
+        tuple(sorted(exceptions)),
     )
-    distrusted = tuple(
-        (time, action)
-        for time, action in distrustable(past)
-        if is_true(model, kept.literal("distrusted", action, time))
+    held = (time for time in range(step + 1) if is_true(model, session.literal("reached", time)))
+    return Interpretation(
+        explanation, session.state(model, 0), session.state(model, step), frozenset(held)
     )
-    exceptions = tuple(name for name in defaults if is_true(model, kept.literal("exception", name)))
-    held = frozenset(
-        time for time in range(step + 1) if is_true(model, kept.literal("reached", time))
-    )
-    assumed = Assumed(unobserved, distrusted, exceptions)
-    return Account(assumed, kept.state(model, 0), kept.state(model, step), held)
 
 
-def assumed(shown: Iterable[Symbol]) -> Assumed:
+def explanation_of(shown: Iterable[Symbol], proved: bool = True) -> Explanation:
     """The explanation that the shown atoms of an answer set are."""
     found: dict[str, list[list[Symbol]]] = {}
     for symbol in shown:
         found.setdefault(symbol.name, []).append(symbol.arguments)
     unobserved, distrusted = (
-        tuple(sorted((step.number, str(event)) for event, step in found.get(name, [])))
+        tuple(sorted(Happening(step.number, str(a)) for a, step in found.get(name, [])))
         for name in ("unobserved", "distrusted")
     )
-    exceptions = sorted(str(default) for (default,) in found.get("exception", []))
-    return Assumed(unobserved, distrusted, tuple(exceptions))
+    initial = (
+        str(fluent) if str(truth) == "true" else f"-{fluent}"
+        for fluent, truth in found.get("initial", [])
+    )
+    return Explanation(
+        unobserved,
+        distrusted,
+        tuple(sorted(str(default) for (default,) in found.get("exception", []))),
+        tuple(sorted(initial)),
+        proved,
+    )
 
 
 def is_true(model: clingo.Model, literal: int | None) -> bool:

@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from clingo import Symbol
 
 from asp.language import atom, is_positive
+from asp.reasoning.diagnosis.history import History
+from asp.reasoning.knowledge import Knowledge, goal_facts
 from asp.solving import core, fact, ground, optimal_model, select, theory
 
 
@@ -26,17 +28,22 @@ def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...
     return None if found is None else tuple(_text(statements[literal]) for literal in found)
 
 
-def misreadings(program: str, facts: Iterable[Symbol], step: int) -> list[tuple[int, str]] | None:
-    """The fewest doubtful observations that have to be wrong, whatever events occurred.
+def distrust_tests(knowledge: Knowledge, goal: Iterable[str], history: History) -> bool:
+    """Takes the fewest doubtful observations for wrong that have to be, whatever events occurred.
 
-    `program` and `facts` are as for `conflict`, with doubtful(F,I) for observations that rest on
-    tests. They are given as steps and fluents; None where the rest is inconsistent all the same.
-    Raises LimitError.
+    False where the history is inconsistent all the same. Raises LimitError.
     """
-    texts = [program, theory("conflict"), theory("misreadings")]
-    model, _ = optimal_model(ground(texts, {"n": step}, facts))
-    found = None if model is None else select(model, "wrong", 2)
-    return None if found is None else sorted((time.number, str(fluent)) for fluent, time in found)
+    if not history.has_doubts:
+        return False
+    told = [symbol for symbol in history.facts() if not symbol.match("misread", 2)]
+    texts = [knowledge.program, theory("conflict"), theory("misreadings")]
+    facts = [*knowledge.start, *goal_facts(goal), *told]
+    model, _ = optimal_model(ground(texts, {"n": history.step}, facts))
+    wrong = () if model is None else select(model, "wrong", 2)
+    if not wrong:
+        return False
+    history.distrust((time.number, str(fluent)) for fluent, time in wrong)
+    return True
 
 
 def never_together(program: str, literals: Iterable[str]) -> tuple[str, ...] | None:

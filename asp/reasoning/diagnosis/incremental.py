@@ -1,159 +1,233 @@
-"""Smallest explanations of a history: exceptions to defaults, events that nobody reported."""
+"""Phase one step by step: beliefs are carried forward, and explained anew where they fail.
+
+What was believed a step ago is carried forward as one state. It is taken back only when an
+observation contradicts it; then the whole history is explained anew.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection
+from functools import partial
+from typing import Generic
 
-from clingo import Symbol
-
-from asp.reasoning.diagnosis.encoding import (
-    Account,
-    Assumed,
-    Past,
-    account,
-    assumed,
-    assumptions,
-    externals,
-    observations,
+from asp.language import atom, is_positive
+from asp.reasoning.diagnosis.belief import Belief, BeliefTracker
+from asp.reasoning.diagnosis.encoding import Interpretation, Problem
+from asp.reasoning.diagnosis.history import (
+    Diagnoser,
+    Diagnosis,
+    Explanation,
+    H_contra,
+    History,
+    Moment,
+    Record,
+    record_of,
 )
-from asp.solving import (
-    Recent,
-    Session,
-    answer_sets,
-    goal_externals,
-    is_satisfiable,
-    preferring,
-    theory,
-)
+from asp.reasoning.diagnosis.long_histories.compression import CompressedHistory, Compression
+from asp.reasoning.diagnosis.long_histories.suffixes import SuffixExplanations
+from asp.reasoning.diagnosis.reference import SEARCH
+from asp.reasoning.diagnosis.smallest_explanations import SmallestExplanations
+from asp.reasoning.knowledge import Knowledge
+from asp.reasoning.successors import Transitions
+from asp.solving import BudgetError, LimitError, State, current, up_to
 
-_FIRST_HORIZON = 16
-_FEW, _MANY = 4, 16
-_MOST_CONTROLS = 4
+COMPRESSION: Compression | None = Compression()
+"""How long histories are compressed; None: they are not, with the same answers, only later."""
 
 
-class Explanations:
-    """The smallest explanations in one domain; the horizon doubles where a history outgrows it.
+class DiagnosisSessions:
+    """The sessions of the solver that diagnosis in one domain needs; they outlive histories."""
 
-    A control counts events up to a number. Most explanations are of a few, for which a small
-    control is kept; one that counts further is grounded when they do not suffice.
+    def __init__(self, knowledge: Knowledge) -> None:
+        self.knowledge = knowledge
+        self.transitions = Transitions(
+            knowledge.program, knowledge.description.fluents, knowledge.ranks
+        )
+        self.explanations = SmallestExplanations(knowledge)
+        self.suffixes = SuffixExplanations(knowledge)
+
+    def tracker(self, goal: tuple[str, ...], since: int = 0) -> BeliefTracker:
+        """A tracker of beliefs about a goal; `since` is the first step with events."""
+        return BeliefTracker(self.knowledge, self.transitions, goal, since)
+
+
+class IncrementalDiagnoser(Generic[H_contra]):
+    """Explains one history for one goal as the reference does, step after step.
+
+    `since` is the first step at which an exogenous action may have occurred. The `reference`
+    explains the history where that takes more events than a session counts, or more than the
+    budget.
     """
 
     def __init__(
         self,
-        program: str,
-        fluents: Sequence[str],
-        events: Sequence[str],
-        defaults: Sequence[str],
-        ranks: Iterable[Symbol],
+        sessions: DiagnosisSessions,
+        goal: tuple[str, ...],
+        since: int,
+        reference: Diagnoser[H_contra],
+        compression: Compression | None = None,
     ) -> None:
-        """`ranks` are the facts that `order.lp` and `defaults.lp` are given from outside."""
-        self._program = "\n".join([program, theory("defaults"), theory("order")])
-        self._fluents = fluents
-        self._events = events
-        self._defaults = defaults
-        self._ranks = tuple(ranks)
-        self._controls: Recent[tuple[int, int], Session] = Recent(_MOST_CONTROLS)
-
-    def smallest(self, past: Past, fewest: tuple[int, int] = (0, 0)) -> Account | None:
-        """The first of the smallest explanations of the past.
-
-        None has fewer events and distrusted reports than the first number of `fewest`, or as many
-        and fewer exceptions than the second. None stands for "more events than are counted, or no
-        explanation at all", which is left to the theory itself.
-        """
-        tried = fewest[0]
-        for most in (_FEW, _MANY):
-            question = self._question(past, most)
-            if question.possible and tried <= most:
-                for events in range(tried, most + 1):
-                    least = fewest[1] if events == fewest[0] else 0
-                    for exceptions in range(least, len(self._defaults) + 1):
-                        found = self._first(question, events, exceptions)
-                        if found is not None:
-                            return found
-            tried = max(tried, most + 1)
-        return None
-
-    def keeping(self, past: Past, adopted: Assumed) -> Account | None:
-        """The first account with exactly this explanation; None: there is none, or it is long."""
-        question = self._question(past, _FEW if adopted.size <= _FEW else _MANY)
-        kept = question.kept
-        events = [kept.literal("unobserved", name, step) for step, name in adopted.events]
-        events += [kept.literal("distrusted", name, step) for step, name in adopted.distrusted]
-        exceptions = [kept.literal("exception", name) for name in adopted.exceptions]
-        exactly = assumptions((literal, True) for literal in (*events, *exceptions))
-        if question.given is None or exactly is None or len(events) > question.most:
-            return None
-        question = replace(question, given=question.given + exactly)
-        return self._first(question, len(events), len(exceptions))
-
-    def alternatives(
-        self, past: Past, size: tuple[int, int], most: int
-    ) -> tuple[list[Assumed], bool]:
-        """Explanations of the past with so many events and distrusted reports, and exceptions.
-
-        With them, whether there are more than `most`; True also where the control cannot tell. If
-        `size` is the smallest, these are all smallest explanations.
-        """
-        question = self._question(past, _FEW if size[0] <= _FEW else _MANY)
-        limited = question.at_most(*size)
-        if limited is None or size[0] > question.most:
-            return [], True
-        found, more = answer_sets(question.kept.control, limited, most)
-        return [assumed(shown) for shown in found], more
-
-    def _question(self, past: Past, most: int) -> _Question:
-        """The control that counts so far, with the past's externals, and what was observed."""
-        kept = self._reaching(past.step, most)
-        kept.switch_on(*goal_externals(past.goal), *externals(past))
-        return _Question(kept, most, past, observations(kept, past))
-
-    def _first(self, question: _Question, events: int, exceptions: int) -> Account | None:
-        """The preferred explanation with at most so many events and exactly so many exceptions."""
-        limited = question.at_most(events, exceptions)
-        if limited is None:
-            return None
-        kept = question.kept
-        with preferring(kept.control, limited) as model:
-            if model is None:
-                return None
-            return account(kept, model, question.past, self._events, self._defaults)
-
-    def _reaching(self, step: int, most: int) -> Session:
-        # It depends on the history alone, so that budgets do not depend on earlier histories.
-        horizon = _FIRST_HORIZON
-        while horizon < step:
-            horizon *= 2
-        return self._controls.get((horizon, most), lambda: self._made(horizon, most))
-
-    def _made(self, horizon: int, most: int) -> Session:
-        return Session(
-            self._program, "incremental_diagnosis", self._fluents, self._ranks, n=horizon, most=most
-        )
-
-
-@dataclass(frozen=True)
-class _Question:
-    """A control switched to a past, and assumptions for everything observed."""
-
-    kept: Session
-    most: int
-    past: Past
-    given: list[int] | None
+        """`compression` is how long histories are compressed, if not as `COMPRESSION` says."""
+        self._sessions = sessions
+        self._knowledge = sessions.knowledge
+        self._goal = goal
+        self._since = since
+        self._reference = reference
+        self._compression = compression or COMPRESSION
+        self._tracker = sessions.tracker(goal, since)
+        self._records: dict[int, Record] = {}
+        self._compressed: CompressedHistory | None = None
+        self._belief: Belief | None = None
+        self._fewest = (0, 0)
+        self._late_news = 0
 
     @property
-    def possible(self) -> bool:
-        """Whether any explanation has at most as many events as are counted."""
-        if self.most == _FEW:
-            return self.given is not None  # found out while they are counted
-        return self.given is not None and is_satisfiable(self.kept.control, self.given)
+    def belief(self) -> Belief:
+        """What is believed since the last diagnosis."""
+        assert self._belief is not None, "a belief follows a diagnosis"
+        return self._belief
 
-    def at_most(self, events: int, exceptions: int) -> list[int] | None:
-        """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
-        kept = self.kept
-        more = kept.literal("count", self.past.step, events + 1) if events < self.most else None
-        number = kept.literal("number_exceptions", exceptions)
-        if self.given is None or number is None:
+    @property
+    def compressed(self) -> CompressedHistory | None:
+        """The compressed history; None as long as nothing is compressed."""
+        return self._compressed if self._compressed is not None and self._compressed.step else None
+
+    def holds(self, state: State) -> bool:
+        """Whether the goal does."""
+        return self._tracker.holds(state)
+
+    def diagnose(self, history: H_contra, adopted: Explanation, /) -> Diagnosis:
+        """The adopted explanation if it still explains the history, else the first smallest one.
+
+        Raises InconsistentHistoryError and LimitError.
+        """
+        self._record(history)
+        # Where the time ran out after late news, the caller holds what it held before the news.
+        adopted = adopted.left(history)
+        self._compress(history)
+        carried = self._carried(history, adopted)
+        if carried is None:
+            adopted = self._explain(history, adopted)
+        else:
+            self._belief = carried
+        return Diagnosis(adopted, alternatives=partial(self._alternatives, history, adopted))
+
+    def _record(self, history: History) -> None:
+        """Takes over what is new in the history."""
+        is_late = history.late_news > self._late_news
+        first = None
+        for step in range(0 if is_late else max(0, len(self._records) - 1), history.step + 1):
+            record = record_of(history.moments.get(step, Moment()), *self._knowledge.actions)
+            if first is None and record != self._records.get(step):
+                first = step
+            self._records[step] = record
+        if is_late:
+            self._late_news = history.late_news
+            self._belief, self._fewest = None, (0, 0)
+        known = None if self._compressed is None else self._compressed.step + 1
+        if first is not None and known is not None and first <= known:
+            self._compressed = None  # it may have begun with the step after the last one
+
+    def _compress(self, history: History) -> None:
+        """Compresses a little more of the history, where its start is known.
+
+        Where the decision reaches one of its limits, this is left for later: it only saves time.
+        """
+        settings = self._compression
+        if settings is None or history.step <= settings.after or self._unknown(history):
+            return
+        try:
+            if self._compressed is None:
+                start = self._sessions.explanations.smallest(self._problem(0))
+                if start is None:
+                    return
+                suffixes = self._sessions.suffixes
+                self._compressed = CompressedHistory(self._tracker, suffixes, settings, start)
+            self._compressed.follow(self._records, history.step)
+        except LimitError:
+            pass
+
+    def _carried(self, history: History, adopted: Explanation) -> Belief | None:
+        """The belief at this step, if what is new agrees with the adopted explanation."""
+        belief = self._belief or self._remembered(adopted) or self._first(history, adopted)
+        return self._tracker.carried(belief, history, adopted)
+
+    def _explain(self, history: H_contra, adopted: Explanation) -> Explanation:
+        """The explanation of the whole history; the belief becomes what it implies."""
+        problem, unknown = self._problem(history.step), self._unknown(history)
+        if unknown:
+            found = self._sessions.explanations.keeping(problem, adopted)
+            if found is not None:
+                return self._adopt(found, history, unknown)
+        found = self._smallest(problem)
+        if found is None:
+            explanation = self._reference.diagnose(history, adopted).explanation
+            start = self._first(history, explanation)
+            self._belief = self._tracker.carried(start, history, explanation, trusting=True)
+            assert self._belief is not None, "an explanation explains every step from the first on"
+        else:
+            explanation = self._adopt(found, history, unknown)
+        if explanation.proved and explanation.without_start != adopted.without_start:
+            self._fewest = (explanation.size, len(explanation.exceptions))
+        return explanation
+
+    def _smallest(self, problem: Problem) -> Interpretation | None:
+        """The smallest explanation; None where that takes another way, or more than the budget."""
+        compressed = self.compressed
+        try:
+            with up_to(SEARCH):
+                current().check_conflicts()
+                found = compressed.smallest(problem, self._fewest[0]) if compressed else None
+                return found or self._sessions.explanations.smallest(problem, self._fewest)
+        except BudgetError:
             return None
-        return [*self.given, number] if more is None else [*self.given, number, -more]
+
+    def _adopt(
+        self, found: Interpretation, history: History, unknown: Collection[str]
+    ) -> Explanation:
+        """The explanation that was found; the belief becomes what it leads to."""
+        self._belief = Belief(history.step, found.state, found.held)
+        initial = sorted(f if f in found.initial else f"-{f}" for f in unknown)
+        explanation = found.explanation
+        return Explanation(
+            explanation.unobserved, explanation.distrusted, explanation.exceptions, tuple(initial)
+        )
+
+    def _alternatives(
+        self, history: History, adopted: Explanation, most: int
+    ) -> tuple[list[Explanation], bool]:
+        """At most so many explanations of the size of one, and whether there are more of them."""
+        problem = self._problem(history.step)
+        found = self.compressed and self.compressed.alternatives(problem, adopted.size, most)
+        return found or self._sessions.explanations.alternatives(problem, adopted, most)
+
+    def _first(self, history: History, adopted: Explanation) -> Belief | None:
+        """The belief at step 0, if the adopted explanation says how it began."""
+        if {atom(literal) for literal in adopted.initial} != set(self._unknown(history)):
+            return None
+        observed = record_of(history.at(0), *self._knowledge.actions).observed
+        state = frozenset(filter(is_positive, observed))
+        if adopted.initial or self._knowledge.description.defaults:
+            records = {0: Record(observed=(*observed, *adopted.initial))}
+            start = self._sessions.explanations.smallest(Problem(self._goal, records, 0, 0))
+            if start is None or start.explanation.exceptions != adopted.exceptions:
+                return None
+            state = start.initial
+        return self._tracker.start(state)
+
+    def _remembered(self, adopted: Explanation) -> Belief | None:
+        """The belief at the step up to which the history is compressed, if that is remembered."""
+        compressed = self.compressed
+        found = compressed.along(adopted) if compressed else None
+        return Belief(compressed.step, *found) if compressed and found else None
+
+    def _problem(self, step: int) -> Problem:
+        """All that there is to explain up to a step."""
+        if step:
+            return Problem(self._goal, dict(self._records), step, self._since)
+        return Problem(self._goal, {0: self._records[0]}, 0, 0)
+
+    def _unknown(self, history: History) -> list[str]:
+        """The inertial fluents of which nothing was observed at step 0."""
+        known = history.at(0).observed
+        return [fluent for fluent in self._knowledge.description.inertial if fluent not in known]

@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
 from agents.intentional.controller import IntentionalRobot
-from agents.shared import sessions as tools
-from agents.shared.knowledge import knowledge
-from agents.shared.sessions import Tools, tools_of
+from agents.shared import sessions
+from agents.shared.sessions import Sessions, sessions_of
 from asp.language import parse_description
+from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent
 from testbed.experiment.oracle import minimal_actions
 from testbed.protocol import Robot, Task
@@ -28,7 +28,7 @@ from tests.agents.intentional.lives import (
     Wish,
     live,
 )
-from tests.agents.intentional.test_kept import Both
+from tests.agents.intentional.test_incremental import Both
 
 STATES = list(WORLD.initial_states())
 EMPTY_HAND = ("-in_hand(rob1,book1)", "-in_hand(rob1,book2)")
@@ -156,15 +156,15 @@ def test_its_task_is_the_task_with_what_it_has_to_be_sure_of() -> None:
 def test_of_many_goals_only_the_last_domains_keep_their_controls(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(tools, "_TOOLS", Recent(2))
+    monkeypatch.setattr(sessions, "_SESSIONS", Recent(2))
     initial = WORLD.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
-    kept = list[Tools]()
+    kept = list[Sessions]()
     for room in ("office2", "library", "office2", "kitchen", "office2", "library"):
         goal = [f"loc(rob1,{room})"]
         assert live(CheckingRobot(), initial, goal, feedback=False).achieved
         task = to_be_sure(_task(SOURCE, goal))
-        kept.append(tools_of(knowledge(DOMAIN, task.source)))
-        assert len(tools._TOOLS) <= 2
+        kept.append(sessions_of(knowledge(DOMAIN, task.source)))
+        assert len(sessions._SESSIONS) <= 2
     first, other, again, _, still, anew = kept
     assert first is again is still, "used in between"
     assert other is not anew

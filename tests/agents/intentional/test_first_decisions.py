@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.reference import Logician
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reference import ReferenceReasoner
 from tests.agents.intentional.lives import WORLD, live
 
 STATES = list(WORLD.initial_states())
@@ -18,6 +18,6 @@ def test_the_first_activity_is_the_theorys(part: int) -> None:
     for state in STATES[part::PARTS]:
         kept, plain = (
             live(IntentionalRobot(reasoner), state, steps=2).decisions[0].trace
-            for reasoner in (KeptLogician, Logician)
+            for reasoner in (IncrementalReasoner, ReferenceReasoner)
         )
         assert (kept.intention, kept.plan) == (plain.intention, plain.plan), WORLD.true_atoms(state)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from agents.shared.diagnosis import InconsistentHistoryError
-from agents.shared.history import History
-from agents.shared.knowledge import goal_facts
-from asp.reasoning.diagnosis import cannot_hold, conflict
+from agents.intentional.history import History
+from asp.reasoning.diagnosis import InconsistentHistoryError, cannot_hold, conflict
+from asp.reasoning.knowledge import goal_facts
 from asp.solving import fact
 from tests.agents.intentional.test_reports import CART, Make, Mind, both
 

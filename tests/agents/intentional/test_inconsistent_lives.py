@@ -11,13 +11,18 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.reference import Logician
-from agents.shared.diagnosis import InconsistentHistoryError
-from agents.shared.history import GOAL, Diagnosis, History
-from agents.shared.knowledge import goal_facts, knowledge
+from agents.intentional.history import History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reference import ReferenceReasoner
 from asp.language import complement
-from asp.reasoning.diagnosis import cannot_hold, conflict
+from asp.reasoning.diagnosis import (
+    GOAL,
+    Explanation,
+    InconsistentHistoryError,
+    cannot_hold,
+    conflict,
+)
+from asp.reasoning.knowledge import goal_facts, knowledge
 from tests.agents.intentional.test_joint_lives import ONE_BOOK, WORLD
 
 OFFICE = knowledge("office", ONE_BOOK)
@@ -151,15 +156,15 @@ def test_what_is_named_cannot_hold_and_whatever_is_left_out_the_rest_can(account
     assert all(account.can_hold(named - {said}) for said in named)
 
 
-@pytest.mark.parametrize("make", [Logician, KeptLogician])
+@pytest.mark.parametrize("make", [ReferenceReasoner, IncrementalReasoner])
 @settings(careful, max_examples=20)
 @given(account=accounts())
 def test_robots_stop_where_there_is_a_conflict_whatever_defaults_say(
-    make: type[Logician], account: Account
+    make: type[ReferenceReasoner], account: Account
 ) -> None:
     found = _found(account)
     assume(found is not None)
     with pytest.raises(InconsistentHistoryError) as error:
-        make(OFFICE, WANTED, 3).diagnose(account.history(), Diagnosis())
+        make(OFFICE, WANTED, 3).diagnose(account.history(), Explanation())
     assert found is not None
     assert str(error.value) == f"inconsistent history: {cannot_hold(tuple(map(str, found)))}"

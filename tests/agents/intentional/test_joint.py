@@ -7,17 +7,16 @@ from pathlib import Path
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.intention import Intention
-from agents.intentional.joint import JointLogician
-from agents.intentional.joint_reference import UndividedLogician
-from agents.intentional.reference import Logician
-from agents.shared.diagnosis import Explained
-from agents.shared.history import GOAL, Activity, Diagnosis, History
-from agents.shared.knowledge import knowledge
+from agents.intentional.history import Activity, History
+from agents.intentional.joint import JointReasoner
+from agents.intentional.joint_reference import JointReferenceReasoner
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.thought import Intention
+from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, Happening
+from asp.reasoning.knowledge import knowledge
 from testbed.config import load_config
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records
-from testbed.protocol import Event
 from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_joint_lives import BesideAti
 
@@ -27,7 +26,7 @@ OFFICE = knowledge(DOMAIN, SOURCE)
 class Unique(BesideAti):
     """Also insists that activities are unique (28)."""
 
-    def intend(self, history: History, explained: Explained) -> Intention:
+    def intend(self, history: History, explained: Diagnosis) -> Intention:
         plans = [activity.plan for activity in history.activities]
         assert len(plans) == len(set(plans))
         return super().intend(history, explained)
@@ -63,18 +62,18 @@ def test_of_all_explanations_the_one_with_the_shortest_plan_counts() -> None:
     goal = ("in_hand(rob1,book2)",)
 
     def planned(room: str) -> int:
-        event = Event(step=1, action=f"exo_move(book2,{room})")
-        explained = Explained(Diagnosis(unobserved=(event,)), False, {})
-        return len(Logician(OFFICE, goal, 9).intend(history, explained).plan)
+        event = Happening(1, f"exo_move(book2,{room})")
+        explained = Diagnosis(Explanation(unobserved=(event,)))
+        return len(ReferenceReasoner(OFFICE, goal, 9).intend(history, explained).plan)
 
     assert (planned("library"), planned("office2"), planned("office1")) == (2, 2, 3)
     for room in ("office1", "office2", "library"):
-        event = Event(step=1, action=f"exo_move(book2,{room})")
-        first = Explained(Diagnosis(unobserved=(event,)), False, {})
-        intention = JointLogician(OFFICE, goal, 9).intend(history, first)
+        event = Happening(1, f"exo_move(book2,{room})")
+        first = Diagnosis(Explanation(unobserved=(event,)))
+        intention = JointReasoner(OFFICE, goal, 9).intend(history, first)
         assert (intention.action, len(intention.plan)) == ("start(2)", 2)
         assert intention.under is not None
-        assert intention.under.diagnosis.size == 1
+        assert intention.under.explanation.size == 1
 
 
 LAMP = """
@@ -97,18 +96,18 @@ laws
 def test_an_explanation_that_news_makes_needless_is_not_kept() -> None:
     """ATI keeps what agrees with the news; TI considers only explanations that are smallest."""
     goal = ("-here(rob)",)
-    sizes = dict[type[Logician], list[int]]()
-    for make in (Logician, JointLogician):
+    sizes = dict[type[ReferenceReasoner], list[int]]()
+    for make in (ReferenceReasoner, JointReasoner):
         reasoner = make(knowledge("lamp", LAMP), goal, 3)
         history = History(step=3)
         history.observe(["-lit", "here(rob)"], 0)
         history.happened(f"select({GOAL})", True, 0)
         history.observe(["lit"], 3)
-        first = reasoner.diagnose(history, Diagnosis()).diagnosis
+        first = reasoner.diagnose(history, Explanation()).explanation
         history.happened("strike", True, 1)
-        second = reasoner.diagnose(history, first).diagnosis
+        second = reasoner.diagnose(history, first).explanation
         sizes[make] = [first.size, second.size]
-    assert sizes == {Logician: [1, 1], JointLogician: [1, 0]}
+    assert sizes == {ReferenceReasoner: [1, 1], JointReasoner: [1, 0]}
 
 
 NOISE = """
@@ -129,8 +128,8 @@ laws
 """
 
 
-@pytest.mark.parametrize("make", [JointLogician, UndividedLogician])
-def test_it_goes_on_where_some_smallest_explanation_lets_it(make: type[Logician]) -> None:
+@pytest.mark.parametrize("make", [JointReasoner, JointReferenceReasoner])
+def test_it_goes_on_where_some_smallest_explanation_lets_it(make: type[ReferenceReasoner]) -> None:
     """There was a noise: with or without light, which is the goal."""
     reasoner = make(knowledge("noise", NOISE), ("lit",), 3)
     history = History(step=2)
@@ -140,7 +139,7 @@ def test_it_goes_on_where_some_smallest_explanation_lets_it(make: type[Logician]
     history.attempt("start(1)", 1)
     history.happened("start(1)", True, 1)
     history.observe(["noise"], 2)
-    intention = reasoner.intend(history, reasoner.diagnose(history, Diagnosis()))
+    intention = reasoner.intend(history, reasoner.diagnose(history, Explanation()))
     assert intention.action == "light(rob)"
     assert intention.under is not None
-    assert intention.under.diagnosis.unobserved == (Event(step=1, action="bang"),)
+    assert intention.under.explanation.unobserved == ((1, "bang"),)

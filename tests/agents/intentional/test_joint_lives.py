@@ -6,14 +6,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.intention import Intention
-from agents.intentional.joint import JointLogician
-from agents.intentional.joint_reference import UndividedLogician
-from agents.intentional.reference import Logician
-from agents.shared.diagnosis import Explained
-from agents.shared.history import Diagnosis, History
-from agents.shared.knowledge import Knowledge
+from agents.intentional.history import History
+from agents.intentional.joint import JointReasoner
+from agents.intentional.joint_reference import JointReferenceReasoner
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.thought import Intention
 from asp.language import parse_description
+from asp.reasoning.diagnosis import Diagnosis, Explanation
+from asp.reasoning.knowledge import Knowledge
 from benchmarks.offices import office
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
@@ -39,31 +39,32 @@ wishes = st.dictionaries(
 slow = settings(max_examples=8)
 
 
-def _numbers(explained: Explained | None) -> tuple[int, int]:
+def _numbers(explained: Diagnosis | None) -> tuple[int, int]:
     assert explained is not None
-    return explained.diagnosis.size, len(explained.diagnosis.exceptions)
+    return explained.explanation.size, len(explained.explanation.exceptions)
 
 
 def _kind(intention: Intention) -> str:
     return intention.action.partition("(")[0]
 
 
-class BesideAti(JointLogician):
+class BesideAti(JointReasoner):
     """TI that insists, at each decision, on what it has in common with ATI."""
 
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
         super().__init__(knowledge, goal, min(plan_limit, self.most_actions))
-        self._ati = Logician(knowledge, goal, min(plan_limit, self.most_actions))
+        self._ati = ReferenceReasoner(knowledge, goal, min(plan_limit, self.most_actions))
 
     most_actions = 12
 
-    def intend(self, history: History, explained: Explained) -> Intention:
+    def intend(self, history: History, explained: Diagnosis) -> Intention:
         intention = super().intend(history, explained)
         assert intention.under is not None
-        smallest = self._ati.diagnose(history, Diagnosis())
+        smallest = self._ati.diagnose(history, Explanation())
         assert _numbers(intention.under) == _numbers(smallest)
-        held = self._ati.diagnose(history, intention.under.diagnosis)
-        assert held.kept, "it believes in an explanation"
+        held = self._ati.diagnose(history, intention.under.explanation)
+        believed = intention.under.explanation
+        assert held.explanation == believed, "it believes in an explanation"
         assert held.indices == intention.under.indices
         ati = self._ati.intend(history, held)
         assert (ati.action, ati.believed) == (intention.action, intention.believed)
@@ -81,11 +82,11 @@ class BesideTheLetter(BesideAti):
 
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
         super().__init__(knowledge, goal, plan_limit)
-        self._letter = UndividedLogician(knowledge, goal, min(plan_limit, MOST_ACTIONS))
+        self._letter = JointReferenceReasoner(knowledge, goal, min(plan_limit, MOST_ACTIONS))
 
-    def intend(self, history: History, explained: Explained) -> Intention:
+    def intend(self, history: History, explained: Diagnosis) -> Intention:
         intention = super().intend(history, explained)
-        letter = self._letter.intend(history, self._letter.diagnose(history, Diagnosis()))
+        letter = self._letter.intend(history, self._letter.diagnose(history, Explanation()))
         assert _numbers(letter.under) == _numbers(intention.under)
         assert _kind(letter) == _kind(intention)
         assert len(letter.plan) == len(intention.plan)

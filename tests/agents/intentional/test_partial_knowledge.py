@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.reference import Logician
+from agents.intentional.reference import ReferenceReasoner
 from asp.language import parse_description
 from testbed.protocol import Decision
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
-from tests.agents.intentional.test_kept import Both
+from tests.agents.intentional.test_incremental import Both
 
 LIBRARY = place("library", dark=True)
 OFFICE = place("office", dark=True)
@@ -108,9 +108,9 @@ def test_a_cookbook_is_looked_for_in_the_kitchen() -> None:
     assert _actions(list(life.decisions)) == ["move(rob1,kitchen)", "pickup(rob1,cookbook1)"]
 
 
-@pytest.mark.parametrize("reasoner", [None, Logician], ids=["kept", "plain"])
+@pytest.mark.parametrize("reasoner", [None, ReferenceReasoner], ids=["kept", "plain"])
 def test_without_defaults_what_must_be_somewhere_is_where_comes_first(
-    reasoner: type[Logician] | None,
+    reasoner: type[ReferenceReasoner] | None,
 ) -> None:
     """From office2 the robot sees neither book, and assumes the first room of all."""
     start = OFFICE.world.state(["loc(rob1,office2)", "loc(book1,library)", "loc(book2,library)"])

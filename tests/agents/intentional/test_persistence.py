@@ -6,11 +6,13 @@ import random
 
 import pytest
 
-from agents.intentional.controller import IntentionalRobot, Reasoner
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.reference import Logician
-from agents.shared.history import GOAL, Activity, Diagnosis, History
-from agents.shared.knowledge import knowledge
+from agents.intentional.controller import IntentionalRobot
+from agents.intentional.history import Activity, History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.thought import Reasoner
+from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.reasoning.knowledge import knowledge
 from testbed.experiment.oracle import minimal_actions
 from tests.agents.intentional.lives import (
     DOMAIN,
@@ -46,7 +48,7 @@ def _history(stopped: bool) -> History:
     return history
 
 
-@pytest.mark.parametrize("reasoner", [Logician, KeptLogician])
+@pytest.mark.parametrize("reasoner", [ReferenceReasoner, IncrementalReasoner])
 @pytest.mark.parametrize("stopped", [False, True])
 def test_a_goal_that_held_for_a_while_is_still_pursued(
     reasoner: type[Reasoner], stopped: bool
@@ -56,7 +58,7 @@ def test_a_goal_that_held_for_a_while_is_still_pursued(
     logician = reasoner(office, GOAL_OF_ONE, 20)  # type: ignore[call-arg]
     for step in range(1, 6):
         history.step = step
-        explained = logician.diagnose(history, Diagnosis())
+        explained = logician.diagnose(history, Explanation())
     intention = logician.intend(history, explained)
     assert GOAL not in intention.believed
     assert intention.action == ("start(2)" if stopped else "stop(1)")

@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.reasons import Reasons
-from agents.intentional.reference import Logician
-from agents.shared.diagnosis import Explained
-from agents.shared.history import GOAL, Diagnosis, History
-from agents.shared.knowledge import knowledge
-from agents.shared.sessions import tools_of
+from agents.intentional.history import History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reasons import IntentionalReasons
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.sessions import sessions_of
+from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, Happening
+from asp.reasoning.knowledge import knowledge
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.solving import Limits, ground, select, theory
 from testbed.protocol import Decision, Event, Percept, Task
@@ -75,8 +75,8 @@ def test_news_that_cannot_be_true_contradicts_what_makes_it_impossible() -> None
     history.happened(f"select({GOAL})", True, 0)
     history.step = 2
     history.happened("exo_move(book1,office1)", True, 1)
-    reasons = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20)
-    (found,) = reasons.contradictions(history, Diagnosis(), frozenset(WORLD.true_atoms(START)), 1)
+    reasons = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20)
+    (found,) = reasons.contradictions(history, Explanation(), frozenset(WORLD.true_atoms(START)), 1)
     assert (found.step, found.observed, found.believed) == (
         1,
         "hpd(exo_move(book1,office1))",
@@ -110,8 +110,8 @@ def test_alternatives_are_all_explanations_of_the_plain_theory(
     if plain is None:
         return
     one = next(iter(sorted(plain, key=str)))
-    others, more = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
-        history, Explained(_diagnosis(one), kept=False, indices={})
+    others, more = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
+        history, Diagnosis(_diagnosis(one))
     )
     found = {(frozenset(_pairs(o.unobserved)), frozenset(_pairs(o.distrusted))) for o in others}
     assert not more
@@ -126,11 +126,11 @@ def _pairs(events: list[Event]) -> list[tuple[int, str]]:
     return [(event.step, event.action) for event in events]
 
 
-def _diagnosis(one: tuple[Pairs, Pairs]) -> Diagnosis:
+def _diagnosis(one: tuple[Pairs, Pairs]) -> Explanation:
     unobserved, distrusted = (
-        tuple(Event(step=step, action=action) for step, action in sorted(pairs)) for pairs in one
+        tuple(Happening(step, action) for step, action in sorted(pairs)) for pairs in one
     )
-    return Diagnosis(unobserved, distrusted)
+    return Explanation(unobserved, distrusted)
 
 
 def _smallest_in_the_plain_theory(history: History) -> set[tuple[Pairs, Pairs]] | None:
@@ -158,18 +158,18 @@ def _smallest_in_the_plain_theory(history: History) -> set[tuple[Pairs, Pairs]] 
     return None
 
 
-@pytest.mark.parametrize("reasoner", [KeptLogician, Logician])
+@pytest.mark.parametrize("reasoner", [IncrementalReasoner, ReferenceReasoner])
 def test_no_more_time_than_for_a_decision_is_spent_on_alternatives(
-    reasoner: type[KeptLogician] | type[Logician],
+    reasoner: type[IncrementalReasoner] | type[ReferenceReasoner],
 ) -> None:
     history = History()
     history.observe(WORLD.literals(START), 0)
     history.happened(f"select({GOAL})", True, 0)
     history.step = 3
     history.observe(["-loc(book2,kitchen)"], 3)
-    explained = reasoner(OFFICE, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Diagnosis())
-    assert Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, explained)[0]
-    hurried = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20, limits=Limits(0))
+    explained = reasoner(OFFICE, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Explanation())
+    assert IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, explained)[0]
+    hurried = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20, limits=Limits(0))
     assert hurried.alternatives(history, explained) == ([], True)
 
 
@@ -179,9 +179,9 @@ def test_more_alternatives_than_are_listed_are_said_to_be_there() -> None:
     history.happened(f"select({GOAL})", True, 0)
     history.step = 30
     history.observe(["loc(book2,office1)"], 30)
-    diagnosis = Diagnosis((Event(step=29, action="exo_move(book2,office1)"),))
-    others, more = Reasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
-        history, Explained(diagnosis, kept=False, indices={})
+    diagnosis = Explanation((Happening(29, "exo_move(book2,office1)"),))
+    others, more = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
+        history, Diagnosis(diagnosis)
     )
     assert more
     assert 19 <= len(others) <= 20
@@ -205,12 +205,12 @@ def _reachable(world: World, start: int) -> set[int]:
 )
 def test_out_of_reach_is_what_no_search_finds(start: int, goal: list[str]) -> None:
     expected = not any(WORLD.satisfies(state, goal) for state in _reachable(WORLD, start))
-    found = tools_of(OFFICE).reach.out_of_reach(frozenset(WORLD.true_atoms(start)), tuple(goal))
+    found = sessions_of(OFFICE).reach.out_of_reach(frozenset(WORLD.true_atoms(start)), tuple(goal))
     assert found == expected
 
 
 def test_nor_where_some_fluents_are_defined() -> None:
-    world, reach = world_of(CART.description), tools_of(CART).reach
+    world, reach = world_of(CART.description), sessions_of(CART).reach
     literals = [literal for fluent in world.fluents for literal in (fluent, f"-{fluent}")]
     for start in world.initial_states():
         reachable = _reachable(world, start)

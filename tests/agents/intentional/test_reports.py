@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from agents.intentional.controller import Reasoner
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.reference import Logician
-from agents.shared.history import GOAL, Diagnosis, History
-from agents.shared.knowledge import Knowledge, knowledge
+from agents.intentional.history import History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.thought import Reasoner
+from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import Limits, deciding
 from asp.solving.budget import TimeLimitError
 
@@ -20,7 +21,7 @@ CART = knowledge("cart", SOURCE)
 START = ("at(left)", "-at(right)", "-shut", "-lit")
 Happening = tuple[int, str]
 
-both = pytest.mark.parametrize("reasoner", [Logician, KeptLogician])
+both = pytest.mark.parametrize("reasoner", [ReferenceReasoner, IncrementalReasoner])
 Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
 
 
@@ -37,7 +38,7 @@ class Mind:
         self.history.observe(start, 0)
         self.history.happened(f"select({GOAL})", True, 0)
         self._reasoner = reasoner(CART, goal, 3)
-        self.held = Diagnosis()
+        self.held = Explanation()
         self.kept = True
 
     def next(self, news: Sequence[Happening] = (), seen: Sequence[str] = ()) -> None:
@@ -46,7 +47,8 @@ class Mind:
         self.history.step += 1
         self.history.observe(seen, self.history.step)
         explained = self._reasoner.diagnose(self.history, self.held)
-        self.held, self.kept = explained.diagnosis, explained.kept
+        self.kept = explained.explanation == self.held.left(self.history)
+        self.held = explained.explanation
 
     @property
     def assumed(self) -> tuple[list[Happening], list[Happening]]:
@@ -230,13 +232,12 @@ def test_a_report_is_believed_again_where_later_news_needs_it(reasoner: Make) ->
     history.happened(f"select({GOAL})", True, 0)
     history.happened("shut_gate", True, 1)
     history.observe(["-shut"], 4)
-    first = gate.diagnose(history, Diagnosis()).diagnosis
+    first = gate.diagnose(history, Explanation()).explanation
     assert [(e.step, e.action) for e in first.distrusted] == [(1, "shut_gate")]
     history.happened("unlatch", True, 2)
     history.happened("swing_open", True, 3)
     explained = gate.diagnose(history, first)
-    assert explained.diagnosis == Diagnosis()
-    assert not explained.kept
+    assert explained.explanation == Explanation()
 
 
 @both
@@ -247,7 +248,7 @@ def test_what_is_assumed_of_the_start_is_planned_from(goal: str, then: str, reas
     history = History(step=1)
     history.observe(["at(left)", "-at(right)"], 0)
     history.happened(f"select({GOAL})", True, 0)
-    intention = mind.intend(history, mind.diagnose(history, Diagnosis()))
+    intention = mind.intend(history, mind.diagnose(history, Explanation()))
     assert (intention.action, intention.plan) == ("start(1)", ("open", then))
 
 

@@ -13,7 +13,7 @@ from asp.language import parse_description
 from benchmarks.offices import book_names, office
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live
-from tests.agents.intentional.test_kept import Both, wishes
+from tests.agents.intentional.test_incremental import Both, wishes
 
 
 def made(books: int, rooms: int, shape: str, secure: int = 1) -> Place:

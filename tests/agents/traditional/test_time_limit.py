@@ -8,12 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.shared.diagnosis import Explained
-from agents.shared.history import Diagnosis, History
-from agents.shared.knowledge import Knowledge
+from agents.shared.thought import Intention
 from agents.traditional import TraditionalRobot
-from agents.traditional.incremental import KeptPlanner
-from agents.traditional.reference import Plan
+from agents.traditional.incremental import IncrementalReasoner
+from asp.reasoning.diagnosis import Diagnosis, Explanation, History
+from asp.reasoning.knowledge import Knowledge
 from asp.solving.budget import OUT_OF_TIME, TimeLimitError
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
@@ -25,7 +24,7 @@ from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, live
 START = WORLD.state(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
 
 
-class Hurried(KeptPlanner):
+class Hurried(IncrementalReasoner):
     """Has no time at some of its calls: neither to explain, or to plan what it has explained."""
 
     def __init__(
@@ -36,13 +35,13 @@ class Hurried(KeptPlanner):
         self._calls = 0
         self.out_of_time = 0
 
-    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
+    def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
         self._hurry()
         return super().diagnose(history, adopted)
 
-    def plan(self, history: History, diagnosis: Diagnosis, /) -> Plan:
+    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
         self._hurry()
-        return super().plan(history, diagnosis)
+        return super().intend(history, diagnosis)
 
     def _hurry(self) -> None:
         self._calls += 1

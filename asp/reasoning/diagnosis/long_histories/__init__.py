@@ -1,1 +1,1 @@
-"""Explanations of long histories, of which the past is compressed."""
+"""History compression: it pays in histories of more than some thirty steps (`Compression`)."""

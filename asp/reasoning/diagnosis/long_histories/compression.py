@@ -1,21 +1,21 @@
-"""One history of which the past is folded into a frontier: what came long ago is explained once."""
+"""History compression: what came long ago is explained once, and kept as a frontier of states."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from asp.reasoning.diagnosis.encoding import Account, Assumed, Past, Record
-from asp.reasoning.diagnosis.long_histories.frontier import Frontier
-from asp.reasoning.diagnosis.long_histories.prefix_explanations import steps
-from asp.reasoning.diagnosis.long_histories.suffix_explanations import MOST_ENTRIES, Windows
-from asp.reasoning.successors import Transitions
+from asp.reasoning.diagnosis.belief import BeliefTracker
+from asp.reasoning.diagnosis.encoding import Interpretation, Problem
+from asp.reasoning.diagnosis.history import Explanation, Record
+from asp.reasoning.diagnosis.long_histories.prefixes import Frontier
+from asp.reasoning.diagnosis.long_histories.suffixes import MOST_ENTRIES, SuffixExplanations
 from asp.solving import State
 
 
 @dataclass(frozen=True)
-class Pace:
-    """How a history is folded.
+class Compression:
+    """How a history is compressed.
 
     From step `after` on, so that `lag` steps are left at the end; with a limit that is `margin`
     above the smallest explanation; at most `most` states and `kept` explanations of each; and
@@ -30,7 +30,7 @@ class Pace:
     work: int = 48
 
 
-class Folding:
+class CompressedHistory:
     """Smallest explanations of one history whose initial state is known.
 
     What it answers is what the theory says of the whole history. Where it cannot tell, it says so:
@@ -39,32 +39,24 @@ class Folding:
 
     def __init__(
         self,
-        transitions: Transitions,
-        windows: Windows,
-        events: Sequence[str],
-        holds: Callable[[State], bool],
-        since: int,
-        pace: Pace,
+        tracker: BeliefTracker,
+        suffixes: SuffixExplanations,
+        settings: Compression,
+        start: Interpretation,
     ) -> None:
-        """`events` are the exogenous actions as declared, `holds` says whether the goal does."""
-        self._transitions = transitions
-        self._windows = windows
-        self._events = events
-        self._holds = holds
-        self._since = since
-        self._pace = pace
-
-    def begin(self, start: Account) -> None:
-        """Starts anew, with an account of step 0."""
+        """`start` is how the history began."""
+        self._tracker = tracker
+        self._suffixes = suffixes
+        self._settings = settings
         self._start = start
-        self._front = self._made(self._pace.margin)
+        self._front = self._made(settings.margin)
         self._wider: Frontier | None = None
         self._smallest: tuple[int, int] | None = None
         self._too_wide_at = -1
 
     @property
     def step(self) -> int:
-        """The step up to which the history is folded."""
+        """The step up to which the history is compressed."""
         return self._front.step
 
     @property
@@ -73,55 +65,52 @@ class Folding:
         return self._front.size + (self._wider.size if self._wider else 0)
 
     def follow(self, records: Mapping[int, Record], step: int) -> None:
-        """Folds a little more of a history that has reached a step. Raises LimitError."""
-        if step <= self._pace.after:
-            return
-        left = self._advance(self._front, records, step, self._pace.work)
+        """Compresses a little more of a history that has reached a step. Raises LimitError."""
+        left = self._advance(self._front, records, step, self._settings.work)
         self._widen(records, step, left)
 
-    def smallest(self, past: Past, fewest: int) -> Account | None:
+    def smallest(self, problem: Problem, fewest: int) -> Interpretation | None:
         """The first of the smallest explanations, not smaller than `fewest`; None: cannot tell.
 
         Raises LimitError.
         """
-        found = self._windows.smallest(self._front, past, fewest) if self.step else None
-        self._smallest = None if found is None else (past.step, found.assumed.size)
+        found = self._suffixes.smallest(self._front, problem, fewest) if self.step else None
+        self._smallest = None if found is None else (problem.step, found.explanation.size)
         if found is None:
             return None
-        return replace(found, assumed=self._whole(found.assumed), initial=self._start.initial)
+        whole = self._whole(found.explanation)
+        return replace(found, explanation=whole, initial=self._start.initial)
 
-    def alternatives(self, past: Past, size: int, most: int) -> tuple[list[Assumed], bool] | None:
+    def alternatives(
+        self, problem: Problem, size: int, most: int
+    ) -> tuple[list[Explanation], bool] | None:
         """At most so many explanations of the smallest size, and whether there are more of them.
 
         None where it did not find that size for this step. Raises LimitError.
         """
-        if not self.step or self._smallest != (past.step, size):
+        if not self.step or self._smallest != (problem.step, size):
             return None
-        found = self._windows.alternatives(self._front, past, size, most)
-        return found and ([self._whole(assumed) for assumed in found[0]], found[1])
+        found = self._suffixes.alternatives(self._front, problem, size, most)
+        return found and ([self._whole(explanation) for explanation in found[0]], found[1])
 
-    def along(self, assumed: Assumed) -> tuple[State, frozenset[int]] | None:
+    def along(self, explanation: Explanation) -> tuple[State, frozenset[int]] | None:
         """The state at `step` under an explanation, and when the goal held; None: not known."""
-        before = Assumed(
-            tuple(event for event in assumed.events if event[0] < self.step),
-            tuple(report for report in assumed.distrusted if report[0] < self.step),
-        )
         for state, prefixes in self._front.entries.items() if self.step else ():
             for prefix in prefixes:
-                if prefix.is_of(before):
-                    return state, frozenset(steps(prefix.held))
+                if prefix.begins(explanation, self.step):
+                    return state, frozenset(prefix.steps_held)
         return None
 
-    def _whole(self, assumed: Assumed) -> Assumed:
-        return replace(assumed, exceptions=tuple(sorted(self._start.assumed.exceptions)))
+    def _whole(self, explanation: Explanation) -> Explanation:
+        return replace(explanation, exceptions=self._start.explanation.exceptions)
 
     def _advance(
         self, frontier: Frontier, records: Mapping[int, Record], step: int, work: int
     ) -> int:
         """Brings a frontier forward as far as the work suffices; what is left of it."""
-        while work > 0 and frontier.step < step - self._pace.lag:
+        while work > 0 and frontier.step < step - self._settings.lag:
             at = frontier.step
-            work = frontier.advance(_at(records, at), _at(records, at + 1), work)
+            work = frontier.advance(records[at], records[at + 1], work)
         return work
 
     def _widen(self, records: Mapping[int, Record], step: int, work: int) -> None:
@@ -131,7 +120,7 @@ class Folding:
             self._wider = None
             return
         if wider is None:
-            wider = self._wider = self._made(front.least + self._pace.margin)
+            wider = self._wider = self._made(front.least + self._settings.margin)
         self._advance(wider, records, step, work)
         if wider.limit <= front.limit:
             self._wider, self._too_wide_at = None, front.least
@@ -139,13 +128,6 @@ class Folding:
             self._front, self._wider = wider, None
 
     def _made(self, limit: int) -> Frontier:
-        pace = self._pace
-        frontier = Frontier(
-            self._transitions, self._events, self._holds, self._since, pace.most, pace.kept
-        )
-        frontier.begin(self._start.initial, limit)
-        return frontier
-
-
-def _at(records: Mapping[int, Record], step: int) -> Record:
-    return records.get(step, Record())
+        settings = self._settings
+        start = self._start.initial
+        return Frontier(self._tracker, settings.most, settings.kept, start, limit)

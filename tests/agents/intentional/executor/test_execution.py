@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.executor.state import Mind
+from agents.intentional.executor import zoomed_planning
+from agents.intentional.executor.belief import Mind
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
 from asp.language import read_domain
@@ -268,25 +269,27 @@ def _mind() -> Mind:
 def test_which_part_it_holds_is_nothing_to_assume_in_a_plan() -> None:
     held = ("fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)")
     zoom = ["rob1", "object1", "room1"]
-    assert _mind().plan(("-in_hand(rob1,object1)",), (held,), zoom) is None
+    assert (
+        zoomed_planning.shortest_plan(_mind(), ("-in_hand(rob1,object1)",), (held,), zoom) is None
+    )
 
 
 def test_what_is_wrong_with_a_plan_is_not_taken_for_none() -> None:
     with pytest.raises(ValueError, match="room3"):
-        _mind().plan(("loc(rob1,room3)",), (), ["rob1", "room1", "room2"])
+        zoomed_planning.shortest_plan(_mind(), ("loc(rob1,room3)",), (), ["rob1", "room1", "room2"])
 
 
 def test_where_the_time_runs_out_it_waits_and_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    planned = Mind.plan
+    planned = zoomed_planning.shortest_plan
     calls: list[int] = []
 
-    def slow(self: Mind, *given: Any) -> tuple[str, ...] | None:
+    def slow(*given: Any) -> tuple[str, ...] | None:
         calls.append(len(calls))
         if len(calls) == 2:
             raise TimeLimitError(OUT_OF_TIME)
-        return planned(self, *given)
+        return planned(*given)
 
-    monkeypatch.setattr(Mind, "plan", slow)
+    monkeypatch.setattr(zoomed_planning, "shortest_plan", slow)
     went = carried_out()
     assert went.achieved
     assert went.actions == FOUND

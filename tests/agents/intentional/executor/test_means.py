@@ -8,8 +8,8 @@ from weakref import ref
 
 import pytest
 
-from agents.intentional.executor import compiled as means
-from agents.intentional.executor.compiled import Means, means_of
+from agents.intentional.executor import means
+from agents.intentional.executor.means import Means, means_of
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
 from asp.reasoning.fine_planning import Horizons

@@ -9,7 +9,7 @@ from agents.intentional.controller import IntentionalRobot
 from agents.intentional.refined import RefinedRobot
 from asp.refinement import Refinement, load
 from tests.agents.intentional.executor.stage import TEXTS, Faults, play
-from tests.agents.intentional.test_kept import Both
+from tests.agents.intentional.test_incremental import Both
 from tests.experiment.gardens import GARDEN, PIECES
 
 # Nothing but the helper moves a tool, so that no event explains where one is found.

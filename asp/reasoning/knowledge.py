@@ -1,4 +1,4 @@
-"""What a robot knows of its domain: the description, its program, the order of its actions."""
+"""What a reasoner is given of a domain: the description, its program, the order of its actions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _REMEMBERED = 32
 
 @dataclass(frozen=True)
 class Knowledge:
-    """A domain as a robot uses it.
+    """A domain as reasoning uses it.
 
     `ranks` are the places of actions in the order of declaration, `start` what the theory of
     defaults is given: those of fluents and defaults, and what an initial state must have.

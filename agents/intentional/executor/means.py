@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import TypeVar
 
-from agents.intentional.executor.action_laws import (
-    Effects,
-    Tests,
-    carriers,
-    conditions,
-    direct_effects,
-)
-from asp.language import Function, functions, name, subject
+from agents.intentional.executor.laws import Effects, Tests
+from asp.language import Function, atom, functions, name, subject, syntax
+from asp.language import variable_sorts as roles
 from asp.reasoning.fine_knowledge import Quick, Theory
 from asp.reasoning.fine_planning import (
     MOST_STEPS,
@@ -26,6 +22,16 @@ from asp.solving import Recent, preparation
 MOST_REFINEMENTS = 16
 """Of how many refinements this is kept: those that were used last."""
 
+T = TypeVar("T")
+
+
+class prepared(cached_property[T]):  # noqa: N801 - as `cached_property` is written
+    """A cached property whose making is preparation, which others can reuse."""
+
+    def __get__(self, instance: object, owner: type | None = None) -> T:  # type: ignore[override]
+        with preparation():
+            return super().__get__(instance, owner)
+
 
 class Means:
     """Planner, inferences and laws of one refinement, each made when it is first asked for."""
@@ -36,30 +42,26 @@ class Means:
         self._horizons = horizons
         self._tests: dict[str, Tests] = {}
 
-    @cached_property
+    @prepared
     def planner(self) -> FinePlanner:
         """Plans of concrete actions."""
         refinement = self._refinement
-        with preparation():
-            return fine_planner(refinement.weak, refinement.weak_signature, self._horizons)
+        return fine_planner(refinement.weak, refinement.weak_signature, self._horizons)
 
-    @cached_property
+    @prepared
     def quick(self) -> Quick:
         """Inferences where the laws are simple."""
-        with preparation():
-            return Quick(self._refinement)
+        return Quick(self._refinement)
 
-    @cached_property
+    @prepared
     def theory(self) -> Theory:
         """Inferences by `fine_inference.lp`."""
-        with preparation():
-            return Theory(self._refinement)
+        return Theory(self._refinement)
 
-    @cached_property
+    @prepared
     def effects(self) -> Effects:
         """The direct effects of concrete actions and of events."""
-        with preparation():
-            return Effects(self._refinement)
+        return Effects(self._refinement)
 
     def tests(self, robot: str) -> Tests:
         """The tests of a robot."""
@@ -68,46 +70,53 @@ class Means:
                 self._tests[robot] = Tests(self._refinement, robot)
         return self._tests[robot]
 
-    @cached_property
+    @prepared
     def shares_places(self) -> bool:
         """Whether the components of anything are always in the same place."""
-        with preparation():
-            return bool(shared_places(self._refinement.weak))
+        return bool(shared_places(self._refinement.weak))
 
-    @cached_property
+    @prepared
     def _functions(self) -> Mapping[str, Function]:
-        with preparation():
-            return functions(self._refinement.weak, self._refinement.weak_signature)
+        return functions(self._refinement.weak, self._refinement.weak_signature)
 
     def is_value(self, fluent: str) -> bool:
         """Whether a fine fluent is one of several of which one always holds."""
         return subject(fluent, self._functions) is not None
 
-    @cached_property
-    def plain(self) -> frozenset[str]:
+    @prepared
+    def unmagnified(self) -> frozenset[str]:
         """The inertial fluents without counterparts."""
         fluents, magnified = self._refinement.description.inertial, self._refinement.counterparts
-        with preparation():
-            return frozenset(fluent for fluent in fluents if name(fluent) not in magnified)
+        return frozenset(fluent for fluent in fluents if name(fluent) not in magnified)
 
-    @cached_property
+    @prepared
     def carriers(self) -> frozenset[str]:
-        """Those of the plain fluents on which fluents with counterparts depend by laws."""
-        plain = self.plain
-        with preparation():
-            return carriers(self._refinement) & plain
+        """Those of the unmagnified fluents in constraints on fine fluents: these depend on them."""
+        fine = frozenset(self._refinement.counterparts.values())
+        named = {
+            literal.atom.name
+            for law in self._refinement.weak.each(syntax.StateConstraint)
+            if law.head.atom.name in fine
+            for literal in roles.literals(law.body)
+        }
+        return frozenset(fluent for fluent in self.unmagnified if name(fluent) in named)
 
-    @cached_property
+    @prepared
     def conditions(self) -> Mapping[str, frozenset[str]]:
         """Of each coarse action, the fluents on which it depends whether it is possible."""
-        with preparation():
-            return conditions(self._refinement)
+        found: dict[str, frozenset[str]] = {}
+        for law in self._refinement.description.executability:
+            for action in law.actions:
+                found[action] = found.get(action, frozenset()).union(map(atom, law.body))
+        return found
 
-    @cached_property
+    @prepared
     def direct_effects(self) -> Mapping[str, frozenset[str]]:
         """Of each coarse action, what causal laws say that it may bring about."""
-        with preparation():
-            return direct_effects(self._refinement)
+        found: dict[str, frozenset[str]] = {}
+        for law in self._refinement.description.causal:
+            found[law.action] = found.get(law.action, frozenset()) | {law.head}
+        return found
 
 
 _HORIZONS: Horizons = Horizons(MOST_STEPS)

@@ -1,15 +1,59 @@
-"""What the coarse robot is told when an abstract action is over: the coarse percept."""
+"""The coarse resolution: its transitions, and what the coarse robot is told of the fine one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from agents.intentional.executor.coarse_model import State
-from agents.intentional.executor.state import Mind
-from agents.intentional.executor.step_numbers import Calendar
+from agents.intentional.abstraction import Leaned
+from agents.intentional.executor.belief import Mind
+from agents.intentional.executor.trace import Calendar
+from agents.shared.sessions import sessions_of
 from asp.language import atom, complement
+from asp.reasoning.knowledge import knowledge
+from asp.solving import State
 from testbed.protocol import Event, Percept
+
+
+class CoarseDiagram:
+    """The transitions of what is left of a task, and the fluents that they are about."""
+
+    def __init__(self, leaned: Leaned) -> None:
+        self._leaned = leaned
+        self._knowledge = knowledge(leaned.task.domain, leaned.task.source)
+        description = self._knowledge.description
+        self.fluents = tuple(leaned.back(description.fluents))
+        self.inertial = tuple(leaned.back(description.inertial))
+        self.robot = leaned.constant(description.robots[0])
+
+    def after(self, state: State, action: str | None, events: Iterable[str]) -> State | None:
+        """The next state, where the action and the events occur together; None: they cannot."""
+        leaned = self._leaned
+        attempt = None if action is None else leaned.seen([action])[0]
+        transitions = sessions_of(self._knowledge).transitions
+        found = transitions.after(
+            frozenset(leaned.seen(state)), attempt, tuple(leaned.seen(events))
+        )
+        if found is None or (action is not None and not found[1]):
+            return None
+        return frozenset(leaned.back(found[0]))
+
+    def news(self, state: State, action: str | None, events: Iterable[str]) -> list[str]:
+        """Those of the events, told in this order, that can have occurred with the action.
+
+        An event that undoes an earlier one takes its place; one that changes nothing is no event.
+        """
+        found: list[str] = []
+        for event in self.about(events):
+            if self.after(state, action, [event]) is not None:
+                found.append(event)
+                while self.after(state, action, found) is None:
+                    found.pop(0)
+        return found
+
+    def about(self, events: Iterable[str]) -> list[str]:
+        """Those of the events that are about what is left of the task."""
+        return list(filter(self._leaned.is_about, events))
 
 
 @dataclass(frozen=True)
@@ -27,8 +71,9 @@ class Outcome:
 class Reporter:
     """Lifts what was observed at the fine resolution to the coarse one."""
 
-    def __init__(self, mind: Mind, calendar: Calendar) -> None:
+    def __init__(self, mind: Mind, coarse: CoarseDiagram, calendar: Calendar) -> None:
         self._mind = mind
+        self._coarse = coarse
         self._calendar = calendar
         self._later: list[str] = []
 
@@ -44,7 +89,7 @@ class Reporter:
         action = outcome.action if outcome is not None and outcome.happened else None
         events = self._events(believed, action, outcome)
         at_last = [event.action for event in events if event.step >= self._latest(outcome)]
-        coarse = self._mind.coarse
+        coarse = self._coarse
         expected = coarse.after(believed, action, at_last) or believed
         soon = coarse.news(expected, None, self._later)
         told = list(self._contrary(coarse.after(expected, None, soon) or expected))
@@ -68,10 +113,10 @@ class Reporter:
 
     def _contrary(self, expected: State) -> Iterator[str]:
         mind = self._mind
-        magnified = [fluent for fluent in mind.coarse.fluents if mind.is_magnified(fluent)]
-        with mind.tally.inferring():
+        magnified = [fluent for fluent in self._coarse.fluents if mind.is_magnified(fluent)]
+        with mind.tally.timing("infer"):
             follows = mind.belief.coarse(magnified)
-        for fluent in mind.coarse.fluents:
+        for fluent in self._coarse.fluents:
             surprise = complement(fluent) if fluent in expected else fluent
             if (
                 surprise in follows
@@ -82,7 +127,7 @@ class Reporter:
 
     def _differs(self, fluent: str, expected: State) -> bool:
         seen = fluent in self._mind.noticed
-        return seen and (fluent in self._mind.plain) != (fluent in expected)
+        return seen and (fluent in self._mind.unmagnified) != (fluent in expected)
 
     def _latest(self, outcome: Outcome | None) -> int:
         """The coarse step to which news of the present one is put down.
@@ -102,7 +147,7 @@ class Reporter:
         ]
         mind.news.clear()
         recent = [*self._later, *(event for step, event in heard if step == latest)]
-        possible = mind.coarse.news(believed, action, recent)
+        possible = self._coarse.news(believed, action, recent)
         self._later = self._after(believed, action, recent, possible)
         earlier = [Event(step=step, action=event) for step, event in heard if step < latest]
         return [*earlier, *(Event(step=latest, action=event) for event in possible)]
@@ -114,7 +159,7 @@ class Reporter:
 
         So it is with an object that is taken away as soon as it is put down.
         """
-        coarse = self._mind.coarse
+        coarse = self._coarse
         done = None if action is None else coarse.after(believed, action, possible)
         if done is None:
             return []

@@ -1,4 +1,4 @@
-"""The kept controls give the answers of the theory solved from scratch, decision by decision."""
+"""Incremental reasoning gives the answers of the theory solved from scratch, each decision."""
 
 from __future__ import annotations
 
@@ -7,14 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.incremental import KeptLogician
-from agents.intentional.intention import Intention
-from agents.intentional.reference import Logician
-from agents.shared.diagnosis import Explained
-from agents.shared.history import GOAL, Diagnosis, History
-from agents.shared.knowledge import Knowledge, knowledge
-from agents.shared.memory import PACE
-from asp.reasoning.diagnosis import Pace
+from agents.intentional.history import History
+from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reference import ReferenceReasoner
+from agents.shared.thought import Intention
+from asp.reasoning.diagnosis import GOAL, Compression, Diagnosis, Explanation
+from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
@@ -28,29 +26,29 @@ from tests.agents.intentional.lives import (
 class Both:
     """Reasons in both ways, and insists that they agree."""
 
-    pace = PACE
+    compression: Compression | None = None
 
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        self._kept = KeptLogician(knowledge, goal, plan_limit, self.pace)
-        self._plain = Logician(knowledge, goal, plan_limit)
+        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit, self.compression)
+        self._reference = ReferenceReasoner(knowledge, goal, plan_limit)
 
-    def diagnose(self, history: History, adopted: Diagnosis) -> Explained:
-        kept = self._kept.diagnose(history, adopted)
-        plain = self._plain.diagnose(history, adopted)
-        assert kept == plain
-        return kept
+    def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
+        ours = self._incremental.diagnose(history, adopted)
+        theirs = self._reference.diagnose(history, adopted)
+        assert ours == theirs
+        return ours
 
-    def intend(self, history: History, explained: Explained) -> Intention:
-        kept = self._kept.intend(history, explained)
-        plain = self._plain.intend(history, explained)
-        assert kept == plain
-        return kept
+    def intend(self, history: History, explained: Diagnosis) -> Intention:
+        ours = self._incremental.intend(history, explained)
+        theirs = self._reference.intend(history, explained)
+        assert ours == theirs
+        return ours
 
 
-class BothFolded(Both):
-    """The kept way folds its past after a few steps already."""
+class BothCompressed(Both):
+    """The incremental way compresses its history after a few steps already."""
 
-    pace = Pace(after=4, lag=3, margin=1, work=400)
+    compression = Compression(after=4, lag=3, margin=1, work=400)
 
 
 wishes = st.dictionaries(
@@ -68,11 +66,11 @@ def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wi
 
 @settings(max_examples=8)
 @given(initial=st.sampled_from(STATES), wishes=wishes)
-def test_whatever_is_folded(initial: int, wishes: dict[int, Wish]) -> None:
-    live(IntentionalRobot(BothFolded), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
+def test_whatever_is_compressed(initial: int, wishes: dict[int, Wish]) -> None:
+    live(IntentionalRobot(BothCompressed), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
 
 
-@pytest.mark.parametrize("reasoner", [Both, BothFolded])
+@pytest.mark.parametrize("reasoner", [Both, BothCompressed])
 @settings(max_examples=8)
 @given(
     initial=st.sampled_from(STATES), wishes=wishes, failing=st.sets(st.integers(2, 12), max_size=4)
@@ -105,6 +103,6 @@ def test_as_many_events_as_are_needed_at_one_step_and_no_more(gone: int) -> None
     history.step = 2
     history.observe([f"-loc({book},kitchen)" for book in book_names(gone)], 2)
     both = Both(large, ("loc(rob1,library)",), 9)
-    explained = both.diagnose(history, Diagnosis())
-    assert explained.diagnosis.size == gone
+    explained = both.diagnose(history, Explanation())
+    assert explained.explanation.size == gone
     both.intend(history, explained)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from random import Random
 
-from agents.shared.history import GOAL, History
+from asp.reasoning.diagnosis import GOAL, History
 from testbed.world import World
 from tests.agents.intentional.lives import Place
 

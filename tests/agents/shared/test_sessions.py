@@ -10,10 +10,10 @@ from weakref import ref
 import pytest
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
-from agents.shared import sessions as tools
-from agents.shared.knowledge import knowledge
-from agents.shared.sessions import Tools, tools_of
+from agents.shared import sessions
+from agents.shared.sessions import Sessions, sessions_of
 from asp.language import MOST_TEXTS, Description, parse_description
+from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent, Session
 from testbed.protocol import Task
 from tests.agents.intentional.lives import OFFICE, live
@@ -39,8 +39,8 @@ def uncollected() -> Iterator[None]:
 def test_a_domain_that_is_not_kept_any_more_leaves_no_control(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(tools, "_TOOLS", Recent(1))
-    kept, controls = list[ref[Tools]](), list[int]()
+    monkeypatch.setattr(sessions, "_SESSIONS", Recent(1))
+    kept, controls = list[ref[Sessions]](), list[int]()
     for goal in (*GOALS, *GOALS):
         kept.append(_played(goal))
         controls.append(len(_alive(Session)))
@@ -59,10 +59,10 @@ def test_of_many_texts_the_last_descriptions_are_remembered() -> None:
     assert 0 < len(vaults) <= MOST_TEXTS
 
 
-def _played(goal: list[str]) -> ref[Tools]:
+def _played(goal: list[str]) -> ref[Sessions]:
     """The tools that a robot that checks had for its goal."""
     live(CheckingRobot(), INITIAL, goal, feedback=False)
-    return ref(tools_of(knowledge(DOMAIN, _source(goal))))
+    return ref(sessions_of(knowledge(DOMAIN, _source(goal))))
 
 
 def _source(goal: list[str]) -> str:

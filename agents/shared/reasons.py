@@ -1,0 +1,105 @@
+"""What robots tell of their decisions: for people, with no part in a decision."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from agents.shared.sessions import sessions_of
+from asp.language import complement
+from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
+from asp.reasoning.knowledge import Knowledge
+from asp.solving import UNLIMITED, LimitError, Limits, State, deciding
+from testbed import protocol
+from testbed.protocol import Contradiction, Event, NoPlan
+
+
+class Reasons:
+    """Tells of decisions about one goal in one domain, whatever the robot reasons with."""
+
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        limits: Limits = UNLIMITED,
+    ) -> None:
+        self._knowledge = knowledge
+        self._sessions = sessions_of(knowledge)
+        self._goal = goal
+        self._tracker = self._sessions.diagnosis.tracker(goal)
+        self._plan_limit = plan_limit
+        self._limits = limits
+
+    def explanation(
+        self, explanation: Explanation, misread: Collection[Happening], step: int
+    ) -> protocol.Explanation:
+        """An explanation found at a step as it travels, with the tests that were wrong."""
+        return protocol.Explanation(
+            step=step,
+            unobserved=_events(explanation.unobserved),
+            distrusted=_events((*explanation.distrusted, *misread)),
+            exceptions=self._knowledge.against(explanation.exceptions),
+            minimal="proved" if explanation.proved else "unproved",
+        )
+
+    def contradictions(
+        self, history: History, adopted: Explanation, believed: State, step: int
+    ) -> list[Contradiction]:
+        """What contradicts the belief of an earlier step, projected with what was adopted.
+
+        Of all steps the first one at which something does, with everything that does there.
+        """
+        state, adopted = believed, adopted.left(history)
+        while True:
+            moment = history.at(step)
+            found = self._tracker.surprises(moment, state)
+            if found or step >= history.step:
+                return [
+                    Contradiction(step=step, observed=seen, believed=complement(seen))
+                    for seen in found
+                ]
+            record = record_of(moment, *self._knowledge.actions)
+            attempt, events = adopted.executed(record, step), adopted.happened(record, step)
+            after = self._sessions.transitions.after(state, attempt, events)
+            if after is None:
+                return self._impossible(events, state, step)
+            if attempt is not None and after[1] != moment.happened.get(attempt):
+                return [_result(attempt, after[1], step)]
+            state, step = after[0], step + 1
+
+    def no_plan(self, believed: Collection[str]) -> tuple[NoPlan, str]:
+        """Why no plan within the limit was found from what is believed, as a key and in words.
+
+        What is believed need not be so.
+        """
+        within = f"no plan of at most {self._plan_limit} actions achieves the goal"
+        try:
+            with deciding(self._limits):
+                reachable = self._sessions.reach.reachable(frozenset(believed), self._goal)
+        except LimitError:
+            reachable = None
+        if reachable is None:
+            return "not known", f"{within}; whether a longer one does is not known"
+        if reachable:
+            return "beyond the limit", f"{within}; from what it believes a longer one does"
+        said = "from what it believes, the goal is out of reach: no plan of any length"
+        return "out of reach", f"{said} achieves it"
+
+    def _impossible(self, events: tuple[str, ...], state: State, step: int) -> list[Contradiction]:
+        """The reports that cannot be true; all of them, where they only exclude each other."""
+        transitions = self._sessions.transitions
+        alone = [e for e in events if transitions.after(state, None, (e,)) is None]
+        return [
+            Contradiction(step=step, observed=f"hpd({event})", believed=f"impossible({event})")
+            for event in alone or events
+        ]
+
+
+def _events(happenings: Collection[Happening]) -> list[Event]:
+    return [Event(step=step, action=action) for step, action in happenings]
+
+
+def _result(attempt: str, expected: bool, step: int) -> Contradiction:
+    signs = ("-", "") if expected else ("", "-")
+    observed, believed = (f"hpd({sign}{attempt})" for sign in signs)
+    return Contradiction(step=step, observed=observed, believed=believed)

@@ -1,0 +1,150 @@
+"""The turn of a step that reasoning robots share: observe, diagnose, intend, tell, attempt."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import ClassVar, Generic
+
+from msgspec import structs
+
+from agents.shared.reasons import Reasons
+from agents.shared.thought import Intention, Reasoner, Thought
+from asp.language import is_positive
+from asp.reasoning.diagnosis import (
+    GOAL,
+    Diagnosis,
+    Explanation,
+    H_contra,
+    Happening,
+    InconsistentHistoryError,
+    distrust_tests,
+)
+from asp.reasoning.knowledge import Knowledge, knowledge
+from asp.solving import LimitError, Limits, State, deciding, preparation, reasoning_clock
+from testbed.protocol import Decision, Percept, RobotStops, Task, Trace
+
+MakeReasoner = Callable[[Knowledge, tuple[str, ...], int], Reasoner[H_contra]]
+"""Makes a reasoner of a domain, a goal and the greatest length of a plan."""
+
+
+def limits_of(task: Task) -> Limits:
+    """What a decision about a task may take."""
+    return Limits(task.decision_s, task.conflicts, task.ground_rules, task.expansions)
+
+
+class ReasoningRobot(ABC, Generic[H_contra]):
+    """A robot that keeps a history of a trial and reasons about it in two phases."""
+
+    _reasons_type: ClassVar[type[Reasons]] = Reasons
+    _history: H_contra
+
+    def __init__(self, reasoner: MakeReasoner[H_contra]) -> None:
+        self._make_reasoner = reasoner
+
+    def begin(self, task: Task) -> None:
+        """Takes the task on, and knows `task.initial` of step 0."""
+        began = reasoning_clock()
+        with deciding(), preparation():
+            self._task = task
+            self._domain = knowledge(task.domain, task.source)
+            self._goal = tuple(task.goal)
+            self._limits = limits_of(task)
+            self._reasoner: Reasoner[H_contra] | None = None
+            self._explanation = Explanation()
+            self._told: tuple[Explanation, tuple[Happening, ...]] = (Explanation(), ())
+            self._believed: tuple[int, State] = (0, frozenset(filter(is_positive, task.initial)))
+            self._begin(task)
+        self._prepared = reasoning_clock().since(began).preparation_cpu
+
+    def act(self, percept: Percept) -> Decision:
+        """One turn; where it reaches a limit of decisions, the robot waits a step.
+
+        Raises RobotStops where nothing explains the history.
+        """
+        with deciding() as decision:
+            self._observe(percept)
+            thought = Thought(self._explanation)
+            try:
+                with deciding(self._limits):
+                    self._think(thought)
+            except LimitError as limit:
+                thought.end(str(limit))
+            except InconsistentHistoryError as error:
+                raise RobotStops(str(error)) from error
+            trace = thought.timed(self._trace(thought), self._prepared)
+        self._prepared = 0.0
+        intention = thought.intention
+        self._attempt(intention)
+        return Decision(
+            trial=percept.trial,
+            step=percept.step,
+            action="wait" if intention is None else self._physical(intention),
+            believes_goal=intention is not None and GOAL in intention.believed,
+            trace=structs.replace(trace, deadline=decision.late),
+        )
+
+    @abstractmethod
+    def _begin(self, task: Task) -> None:
+        """Begins the history, and what else the robot keeps of a trial."""
+
+    @abstractmethod
+    def _observe(self, percept: Percept) -> None:
+        """Adds to the history the result of the last attempt, news, and what is observed."""
+
+    @abstractmethod
+    def _trace(self, thought: Thought) -> Trace:
+        """The mind behind the decision, before anything of it is recorded."""
+
+    @abstractmethod
+    def _attempt(self, intention: Intention | None) -> None:
+        """Records what is attempted."""
+
+    def _physical(self, intention: Intention) -> str:
+        """What the robot does in the world."""
+        return intention.action
+
+    def _prepare(self) -> Reasoner[H_contra]:
+        """What the domain is reasoned with, made in a decision so that its limits hold for it."""
+        limit = self._task.plan_limit
+        with preparation():
+            self._reasons = self._reasons_type(self._domain, self._goal, limit, self._limits)
+            self._reasoner = self._make_reasoner(self._domain, self._goal, limit)
+        return self._reasoner
+
+    def _think(self, thought: Thought) -> None:
+        """Both phases. Raises LimitError, after which what was found so far is kept."""
+        reasoner = self._reasoner or self._prepare()
+        diagnosis = self._diagnosed(reasoner)
+        thought.diagnosis_is_over()
+        thought.diagnosis, self._explanation = diagnosis, diagnosis.explanation
+        intention = self._intend(reasoner, thought)
+        thought.end()
+        thought.intention = intention
+
+    def _intend(self, reasoner: Reasoner[H_contra], thought: Thought) -> Intention:
+        """Phase two."""
+        assert thought.diagnosis is not None
+        return reasoner.intend(self._history, thought.diagnosis)
+
+    def _diagnosed(self, reasoner: Reasoner[H_contra]) -> Diagnosis:
+        """Phase one; where no events explain the history, tests were wrong."""
+        try:
+            return reasoner.diagnose(self._history, self._explanation)
+        except InconsistentHistoryError:
+            if not distrust_tests(self._domain, self._goal, self._history):
+                raise
+            return reasoner.diagnose(self._history, self._explanation)
+
+    def _with_explanation(self, trace: Trace) -> Trace:
+        """The trace with the explanation, and what made it needed, if it has not been told yet."""
+        told, (before, _) = (self._explanation, self._history.misread), self._told
+        if told == self._told:
+            return trace
+        self._told = told
+        history, (since, believed) = self._history, self._believed
+        return structs.replace(
+            trace,
+            explanation=self._reasons.explanation(*told, history.step),
+            contradictions=self._reasons.contradictions(history, before, believed, since),
+        )

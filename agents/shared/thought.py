@@ -1,0 +1,81 @@
+"""What a robot thinks at a step: an explanation in phase one, an intention in phase two."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from msgspec import structs
+
+from asp.reasoning.diagnosis import Diagnoser, Diagnosis, Explanation, H_contra
+from asp.solving import Reading, reasoning_clock
+from testbed.protocol import Trace
+
+
+@dataclass(frozen=True)
+class Intention:
+    """What the agent intends at a step, the plan it would start with it, and what it believes.
+
+    Where the goal holds, or the plan that led to it is over, `GOAL` is among what is `believed`.
+    `under` is the diagnosis that it believes in, where this is chosen with the intention.
+    """
+
+    action: str
+    plan: tuple[str, ...]
+    believed: frozenset[str]
+    under: Diagnosis | None = None
+
+
+class Reasoner(Diagnoser[H_contra], Protocol[H_contra]):
+    """The two phases of reasoning about one goal, from scratch or incrementally."""
+
+    def intend(self, history: H_contra, diagnosis: Diagnosis, /) -> Intention:
+        """Phase two. Raises LimitError."""
+
+
+@dataclass
+class Thought:
+    """What the two phases at a step came to, as far as they did, and when they were over.
+
+    `before` is what explained the history before; `is_new` says whether the plan was made now;
+    `limit` names the limit of decisions that was reached, if any. A phase that the time for the
+    decision did not suffice for has no reading of the clock.
+    """
+
+    before: Explanation
+    diagnosis: Diagnosis | None = None
+    intention: Intention | None = None
+    is_new: bool = True
+    limit: str = ""
+    began: Reading = field(default_factory=reasoning_clock)
+    diagnosed: Reading | None = None
+    ended: Reading | None = None
+
+    def diagnosis_is_over(self) -> None:
+        """From now on it is planning."""
+        self.diagnosed = reasoning_clock()
+
+    def end(self, limit: str = "") -> None:
+        """What follows is no reasoning."""
+        self.ended, self.limit = reasoning_clock(), limit
+
+    def timed(self, trace: Trace, prepared: float) -> Trace:
+        """The trace with the times of both phases.
+
+        With the preparation since the decision began goes what was `prepared` before it, in seconds
+        of process time.
+        """
+        over = self.diagnosed or self.ended
+        diagnosis = Reading() if over is None else over.since(self.began)
+        planning = Reading()
+        if self.diagnosed is not None and self.ended is not None:
+            planning = self.ended.since(self.diagnosed)
+        since = reasoning_clock().since(self.began)
+        return structs.replace(
+            trace,
+            planning_time_s=planning.wall,
+            diagnosis_time_s=diagnosis.wall,
+            planning_cpu_s=planning.cpu,
+            diagnosis_cpu_s=diagnosis.cpu,
+            preparation_cpu_s=prepared + since.preparation_cpu,
+        )

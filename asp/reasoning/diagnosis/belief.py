@@ -1,0 +1,80 @@
+"""The belief tracker: what an explanation of a history says of each step, state after state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from asp.language import atom, is_positive
+from asp.reasoning.diagnosis.history import GOAL, Explanation, History, Moment, record_of
+from asp.reasoning.knowledge import Knowledge
+from asp.reasoning.successors import Transitions
+from asp.solving import State
+
+
+@dataclass(frozen=True)
+class Belief:
+    """What an explained history says of a step, and the steps up to it at which the goal held."""
+
+    step: int
+    state: State
+    held: frozenset[int]
+
+
+class BeliefTracker:
+    """Carries beliefs about one goal forward, `since` being the first step with events."""
+
+    def __init__(
+        self, knowledge: Knowledge, transitions: Transitions, goal: tuple[str, ...], since: int
+    ) -> None:
+        self.knowledge = knowledge
+        self.transitions = transitions
+        self.since = since
+        self._goal = goal
+
+    def missing(self, state: State) -> list[str]:
+        """The literals of the goal that are not true in a state."""
+        return [each for each in self._goal if (atom(each) in state) != is_positive(each)]
+
+    def holds(self, state: State) -> bool:
+        """Whether the goal does."""
+        return not self.missing(state)
+
+    def surprises(self, moment: Moment, state: State) -> list[str]:
+        """The literals that were observed at a moment and are not true in a state."""
+        return [
+            fluent if truth else f"-{fluent}"
+            for fluent, truth in moment.trusted.items()
+            if truth != (self.holds(state) if fluent == GOAL else fluent in state)
+        ]
+
+    def start(self, state: State) -> Belief:
+        """The belief at step 0."""
+        return Belief(0, state, frozenset([0]) if self.holds(state) else frozenset())
+
+    def carried(
+        self, belief: Belief | None, history: History, adopted: Explanation, trusting: bool = False
+    ) -> Belief | None:
+        """The belief at the history's step; None where the explanation does not agree with it.
+
+        Where it is `trusting`, observations are not compared again. Raises LimitError.
+        """
+        while belief is not None:
+            if not trusting and self.surprises(history.at(belief.step), belief.state):
+                return None
+            if belief.step == history.step:
+                return belief
+            belief = self._advance(belief, history, adopted)
+        return None
+
+    def _advance(self, belief: Belief, history: History, adopted: Explanation) -> Belief | None:
+        """The belief a step later, if what happened there agrees with the explanation."""
+        step = belief.step
+        record = record_of(history.at(step), *self.knowledge.actions)
+        events = adopted.happened(record, step)
+        if events and step < self.since:
+            return None
+        after = self.transitions.after(belief.state, adopted.executed(record, step), events)
+        if after is None or (record.attempt is not None and record.attempt[1] != after[1]):
+            return None
+        state, step = after[0], step + 1
+        return Belief(step, state, belief.held | {step} if self.holds(state) else belief.held)

@@ -1,0 +1,114 @@
+"""TP that reasons incrementally decides as TP solved from scratch, decision by decision."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from agents.intentional import incremental, reference
+from agents.intentional.history import History as IntentionalHistory
+from agents.shared.thought import Intention
+from agents.traditional import TraditionalRobot
+from agents.traditional.incremental import IncrementalReasoner
+from agents.traditional.reference import ReferenceReasoner
+from asp.reasoning.diagnosis import Diagnosis, Explanation, History, InconsistentHistoryError
+from asp.reasoning.knowledge import Knowledge, knowledge
+from tests.agents.intentional import test_reports as cart
+from tests.agents.intentional.lives import (
+    BOTH_IN_THE_LIBRARY,
+    DOMAIN,
+    GOAL_LITERALS,
+    SOURCE,
+    STATES,
+    WORLD,
+    Wish,
+    live,
+)
+
+
+class Both:
+    """Reasons in both ways, and insists that they agree."""
+
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit)
+        self._reference = ReferenceReasoner(knowledge, goal, plan_limit)
+
+    def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
+        ours = self._incremental.diagnose(history, adopted)
+        assert ours == self._reference.diagnose(history, adopted)
+        return ours
+
+    def intend(self, history: History, diagnosis: Diagnosis) -> Intention:
+        ours = self._incremental.intend(history, diagnosis)
+        assert ours == self._reference.intend(history, diagnosis)
+        return ours
+
+
+wishes = st.dictionaries(
+    st.integers(1, 20), st.builds(Wish, st.integers(0, 8), st.booleans()), max_size=4
+)
+
+
+@settings(max_examples=15)
+@given(initial=st.sampled_from(STATES), wishes=wishes)
+def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wish]) -> None:
+    live(TraditionalRobot(Both), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
+
+
+@settings(max_examples=10)
+@given(
+    initial=st.sampled_from(STATES),
+    goal=st.lists(st.sampled_from(GOAL_LITERALS), min_size=1, max_size=2),
+    wishes=wishes,
+)
+def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish]) -> None:
+    live(TraditionalRobot(Both), initial, goal, wishes, steps=15)
+
+
+def test_what_only_an_event_at_step_0_explains_is_explained_where_no_goal_is_selected() -> None:
+    history = History(step=1)
+    unlocked = next(state for state in STATES if WORLD.holds(state, "-locked(library)"))
+    history.observe(WORLD.literals(unlocked), 0)
+    history.observe(["locked(library)"], 1)
+    office = knowledge(DOMAIN, SOURCE)
+    for reasoner in (IncrementalReasoner, ReferenceReasoner):
+        diagnosis = reasoner(office, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Explanation())
+        assert diagnosis.explanation.unobserved == ((0, "exo_lock(library)"),)
+    selecting = IntentionalHistory(step=1, moments=history.moments)
+    selecting.happened("select(my_goal)", True, 0)
+    for intentional in (incremental.IncrementalReasoner, reference.ReferenceReasoner):
+        with pytest.raises(InconsistentHistoryError):
+            intentional(office, BOTH_IN_THE_LIBRARY, 20).diagnose(selecting, Explanation())
+
+
+@pytest.mark.parametrize("reasoner", [IncrementalReasoner, ReferenceReasoner])
+def test_no_plan_begins_with_a_report_that_is_distrusted(
+    reasoner: type[IncrementalReasoner] | type[ReferenceReasoner],
+) -> None:
+    history = History(step=2)
+    history.observe(cart.START, 0)
+    history.happened("shut_gate", True, 1)
+    history.observe(["-shut"], 2)
+    assert _plan(reasoner, cart.SOURCE, ("at(right)",), history).plan == ("go(right)",)
+
+
+@pytest.mark.parametrize("reasoner", [IncrementalReasoner, ReferenceReasoner])
+@pytest.mark.parametrize(("goal", "plan"), [("-shut", "open"), ("lit", "switch_on")])
+def test_plans_begin_where_defaults_and_the_order_of_explanations_say(
+    goal: str, plan: str, reasoner: type[IncrementalReasoner] | type[ReferenceReasoner]
+) -> None:
+    history = History(step=1)
+    history.observe(["at(left)", "-at(right)"], 0)
+    source = f"{cart.SOURCE}\ndefaults\n  gate: shut.\n"
+    assert _plan(reasoner, source, (goal,), history).plan == (plan,)
+
+
+def _plan(
+    make: type[IncrementalReasoner] | type[ReferenceReasoner],
+    source: str,
+    goal: tuple[str, ...],
+    history: History,
+) -> Intention:
+    reasoner = make(knowledge("cart", source), goal, 3)
+    return reasoner.intend(history, reasoner.diagnose(history, Explanation()))

@@ -1,0 +1,248 @@
+"""A compressed history gives the answers that the whole one gives, case by case."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from agents.shared.sessions import sessions_of
+from asp.reasoning.diagnosis import (
+    Compression,
+    Diagnosis,
+    Explanation,
+    History,
+    IncrementalDiagnoser,
+    incremental,
+)
+from asp.reasoning.diagnosis.encoding import Interpretation, Problem
+from asp.reasoning.diagnosis.long_histories import prefixes
+from asp.reasoning.diagnosis.long_histories.prefixes import Frontier
+from asp.reasoning.diagnosis.long_histories.suffixes import SuffixExplanations
+from asp.reasoning.knowledge import knowledge
+from tests.agents.intentional.lives import OFFICE, Place, place
+from tests.asp.reasoning.diagnosis.wandering import Habits, wander
+
+USUAL = Compression()
+WHOLE = Compression(after=1_000_000)
+TINY = Compression(after=4, lag=3, margin=1, most=64, kept=3, work=400)
+GOAL = ("loc(book1,library)", "-in_hand(rob1,book1)")
+PLACES = {"office": OFFICE, "library": place("library")}
+
+
+class Unused:
+    """A reference that is never asked."""
+
+    def diagnose(self, history: History, _adopted: Explanation, /) -> Diagnosis:
+        raise AssertionError(f"more events than are counted at step {history.step}")
+
+
+class Mind:
+    """A diagnoser, and what it has adopted."""
+
+    def __init__(self, where: Place, compression: Compression | None) -> None:
+        sessions = sessions_of(knowledge(where.domain, where.source)).diagnosis
+        self.diagnoser = IncrementalDiagnoser(sessions, GOAL, 1, Unused(), compression)
+        self.adopted = Explanation()
+
+    def think(self, history: History) -> tuple[object, ...]:
+        """The explanation, the state, when the goal held."""
+        self.diagnosis = self.diagnoser.diagnose(history, self.adopted)
+        self.adopted, belief = self.diagnosis.explanation, self.diagnoser.belief
+        return self.adopted, belief.step, belief.state, belief.held
+
+    @property
+    def others(self) -> tuple[list[Explanation], bool]:
+        assert self.diagnosis.alternatives is not None
+        return self.diagnosis.alternatives(20)
+
+    @property
+    def compressed(self) -> int:
+        """The step up to which its history is compressed."""
+        compressed = self.diagnoser.compressed
+        return compressed.step if compressed else 0
+
+
+def compare(where: Place, steps: int, seed: int, habits: Habits, compression: Compression) -> int:
+    """How often something was explained anew with a compressed past, equal each time."""
+    compressed, whole = Mind(where, compression), Mind(where, WHOLE)
+    explained = 0
+    for history in wander(where, GOAL, steps, seed, habits):
+        before = whole.adopted
+        theirs = whole.think(copy.deepcopy(history))
+        assert compressed.think(history) == theirs, history.step
+        if whole.adopted != before:
+            explained += compressed.compressed > 0
+            _compare_others(compressed.others, whole.others, whole.adopted)
+    return explained
+
+
+def _compare_others(
+    compressed: tuple[list[Explanation], bool],
+    whole: tuple[list[Explanation], bool],
+    adopted: Explanation,
+) -> None:
+    """All explanations of the size are told, or that there are more."""
+    (some, more), (every, too_many) = compressed, whole
+    assert len(set(some)) == len(some)
+    assert all(a.size == adopted.size for a in some)
+    if not too_many:
+        assert set(some) <= set(every)
+        assert more == (len(some) < len(every))
+
+
+@pytest.mark.parametrize("name", sorted(PLACES))
+@settings(max_examples=15)
+@given(
+    seed=st.integers(0, 10**6),
+    event=st.sampled_from([0.05, 0.15]),
+    reported=st.sampled_from([0.0, 0.5, 1.0]),
+    false_report=st.sampled_from([0.0, 0.1]),
+    looks=st.sampled_from([0.3, 1.0]),
+    margin=st.integers(0, 2),
+    kept=st.integers(1, 4),
+    most=st.sampled_from([2, 10, 64]),
+)
+def test_short_histories(
+    name: str,
+    seed: int,
+    event: float,
+    reported: float,
+    false_report: float,
+    looks: float,
+    margin: int,
+    kept: int,
+    most: int,
+) -> None:
+    habits = Habits(event=event, reported=reported, false_report=false_report, looks=looks)
+    compression = replace(TINY, margin=margin, kept=kept, most=most)
+    compare(PLACES[name], 24, seed, habits, compression)
+
+
+LIVELY = Habits(event=0.1, false_report=0.05, looks=0.9)
+QUIET = Habits(event=0.04, reported=0.3, false_report=0.0, late=0, looks=0.5)
+TOLD = Habits(event=0.1, reported=1.0, false_report=0.0, late=0, looks=0.5)
+LATE = Habits(event=0.1, reported=0.9, false_report=0.0, late=12, looks=0.5)
+
+
+@pytest.mark.parametrize(
+    ("name", "steps", "seed", "habits", "compression"),
+    [
+        pytest.param("office", 80, 11, QUIET, USUAL, id="as robots do it"),
+        pytest.param("library", 60, 12, QUIET, USUAL, id="in another domain"),
+        pytest.param("office", 40, 13, LIVELY, replace(TINY, margin=2), id="many events"),
+        pytest.param("office", 50, 14, LATE, TINY, id="news of what was compressed"),
+        pytest.param(
+            "office", 40, 15, LIVELY, replace(TINY, work=20), id="hardly time to compress"
+        ),
+        pytest.param("library", 30, 16, LIVELY, replace(TINY, most=3), id="hardly room for states"),
+    ],
+)
+def test_long_histories(
+    name: str, steps: int, seed: int, habits: Habits, compression: Compression
+) -> None:
+    assert compare(PLACES[name], steps, seed, habits, compression) > 0
+
+
+def test_the_end_of_a_history_is_explained_without_what_was_compressed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    smallest, found = SuffixExplanations.smallest, list[bool]()
+
+    def counted(
+        suffixes: SuffixExplanations, known: Frontier, problem: Problem, fewest: int
+    ) -> Interpretation | None:
+        interpretation = smallest(suffixes, known, problem, fewest)
+        found.append(interpretation is not None)
+        return interpretation
+
+    monkeypatch.setattr(SuffixExplanations, "smallest", counted)
+    assert compare(OFFICE, 40, 13, LIVELY, replace(TINY, margin=2)) > 0
+    assert any(found)
+
+
+def _sees(history: History, *literals: str) -> None:
+    history.step += 1
+    history.observe(literals, history.step)
+
+
+def test_what_could_only_happen_in_the_compressed_past() -> None:
+    """The library is locked early on, and for all its life the robot sees that it stays so.
+
+    At last it learns that a book is not in there: it was taken away while the door was open.
+    """
+    known = ("loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,kitchen)")
+    minds = Mind(OFFICE, USUAL), Mind(OFFICE, WHOLE)
+    histories = History(), History()
+    for mind, history in zip(minds, histories, strict=True):
+        history.observe(OFFICE.world.literals(OFFICE.world.state(known)), 0)
+        history.happened("select(my_goal)", True, 0)
+        for step in range(60):
+            if step == 5:
+                history.happened("exo_lock(library)", True, 5)
+            _sees(history, "locked(library)" if step >= 5 else "-locked(library)")
+            mind.think(history)
+        _sees(history, "-loc(book1,library)")
+        mind.think(history)
+    compressed, whole = minds
+    assert compressed.compressed > 6
+    assert [(e.step, e.action) for e in compressed.adopted.unobserved] == [
+        (5, "exo_move(book1,kitchen)")
+    ]
+    assert compressed.adopted == whole.adopted
+    assert compressed.diagnoser.belief == whole.diagnoser.belief
+    _compare_others(compressed.others, whole.others, whole.adopted)
+
+
+def test_news_of_the_selection_of_the_goal_stays_false_in_the_compressed_past() -> None:
+    """Nothing else happens at step 0, so that the library was locked at another one."""
+    known = ("loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,office1)")
+    minds = Mind(OFFICE, TINY), Mind(OFFICE, WHOLE)
+    for mind in minds:
+        history = History()
+        history.observe(OFFICE.world.literals(OFFICE.world.state(known)), 0)
+        history.happened("select(my_goal)", True, 0)
+        for step in range(20):
+            if step == 8:
+                history.happened("exo_lock(library)", True, 0)
+            _sees(history, "loc(rob1,office1)")
+            mind.think(history)
+        _sees(history, "locked(library)")
+        mind.think(history)
+        assert [(e.step, e.action) for e in mind.adopted.distrusted] == [(0, "exo_lock(library)")]
+        assert [e.action for e in mind.adopted.unobserved] == ["exo_lock(library)"]
+    compressed, whole = minds
+    assert compressed.compressed > 6
+    assert compressed.adopted == whole.adopted
+    assert compressed.diagnoser.belief == whole.diagnoser.belief
+
+
+def test_what_is_forgotten_of_transitions_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(prefixes, "REMEMBERED", 3)
+    assert compare(OFFICE, 40, 13, LIVELY, TINY) > 0
+
+
+def test_a_life_of_a_thousand_steps_keeps_little() -> None:
+    """What is kept of the compressed past, and of transitions, has a bound."""
+    mind = Mind(OFFICE, USUAL)
+    sizes = []
+    for history in wander(OFFICE, GOAL, 1_000, 17, TOLD):
+        mind.think(history)
+        compressed = mind.diagnoser.compressed
+        sizes.append(compressed.size if compressed else 0)
+    assert mind.compressed > 900
+    assert max(sizes) <= prefixes.REMEMBERED + USUAL.most * (USUAL.kept + 1)
+
+
+@pytest.mark.parametrize("is_on", [True, False])
+def test_compression_is_switched_in_one_place(is_on: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    if not is_on:
+        monkeypatch.setattr(incremental, "COMPRESSION", None)
+    mind, whole = Mind(OFFICE, None), Mind(OFFICE, WHOLE)
+    for history in wander(OFFICE, GOAL, 60, 11, QUIET):
+        theirs = whole.think(copy.deepcopy(history))
+        assert mind.think(history) == theirs
+    assert (mind.compressed > 0) == is_on
