@@ -1,11 +1,20 @@
 """Refinement: from a coarse description to a fine one that is tightly coupled to it (P 3.3)."""
 
+from asp.refinement.language import parse_fine
+from asp.refinement.loading import load, load_refinement, read_refinement, refined_name
 from asp.refinement.observation import TRUE
-from asp.refinement.reading import load_refinement, read_refinement, refined_name
-from asp.refinement.refinement import Refinement, load
+from asp.refinement.refinement import Refinement
 from asp.refinement.refining import shared_places
 from asp.refinement.statics import true_statics
-from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant, zoom_strong
+from asp.refinement.zooming import (
+    Transition,
+    fine_constants,
+    fine_goal,
+    relevant,
+    zoom_coarse,
+    zoom_strong,
+    zoom_weak,
+)
 
 __all__ = [
     "TRUE",
@@ -15,10 +24,13 @@ __all__ = [
     "fine_goal",
     "load",
     "load_refinement",
+    "parse_fine",
     "read_refinement",
     "refined_name",
     "relevant",
     "shared_places",
     "true_statics",
+    "zoom_coarse",
     "zoom_strong",
+    "zoom_weak",
 ]

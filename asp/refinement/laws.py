@@ -11,14 +11,30 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import singledispatch
+from itertools import product
 
-from asp.language import syntax, text_of
+from asp.language import Problems, atom_text, syntax, text_of
 from asp.language import variable_sorts as roles
-from asp.refinement.conditions import lifted, refined_condition
-from asp.refinement.renaming import Renaming
-from asp.refinement.rewriting import Rewriting
+from asp.refinement.renaming import Renaming, effects_of, key
+from asp.refinement.vocabulary import Vocabulary
 
 KEPT, REFINED, LIFTED = "kept", "refined", "lifted"
+
+
+@dataclass(frozen=True)
+class Rewriting:
+    """The names, the coarse text, and the places of fluents that components share.
+
+    `problems` are those of the coarse text: laws that cannot be refined are reported there.
+    """
+
+    vocabulary: Vocabulary
+    coarse: syntax.Source
+    shared: frozenset[tuple[str, int]]
+    problems: Problems
+
+    def has_counterpart(self, atom: syntax.Atom) -> bool:
+        return atom.name in self.vocabulary.counterparts
 
 
 @dataclass(frozen=True)
@@ -115,10 +131,10 @@ def _(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Refined:
         return
     renaming = Renaming(law, rewriting.vocabulary)
     if renaming.is_about_wholes(law):
-        for statement in lifted(law, rewriting):
+        for statement in _lifted(law, rewriting):
             yield statement, LIFTED
     else:
-        yield refined_condition(law, renaming, rewriting), REFINED
+        yield _refined_condition(law, renaming, rewriting), REFINED
 
 
 @refined.register
@@ -146,9 +162,71 @@ def _(statement: syntax.ShowsStatement, rewriting: Rewriting) -> Refined:
         return
     renaming = Renaming(statement, rewriting.vocabulary)
     action = renaming.atom(statement.action)
-    for term in statement.fluent.args:
-        renaming.whole(term)
-    for literal in roles.literals(statement.body):
-        for term in literal.atom.args:
-            renaming.whole(term)
+    renaming.note(statement.fluent, *(part.atom for part in roles.literals(statement.body)))
     yield replace(statement, action=action, body=(*renaming.links(), *statement.body)), REFINED
+
+
+def _refined_condition(
+    law: syntax.ExecutabilityCondition, renaming: Renaming, rewriting: Rewriting
+) -> syntax.ExecutabilityCondition:
+    """The condition about the counterparts of what it is about."""
+    actions = tuple(map(renaming.atom, law.actions))
+    effects = {
+        atom_text(head.atom)
+        for action in law.actions
+        for head, _ in effects_of(action, rewriting.coarse)
+    }
+    acted = {term.name for action in law.actions for term in action.args}
+    body: list[syntax.Condition] = []
+    for part in law.body:
+        (condition,) = renaming.body((part,))
+        if isinstance(part, syntax.Literal) and atom_text(part.atom) not in effects:
+            condition = _about_any_component(part, condition, acted, renaming, rewriting)
+        body.append(condition)
+    return replace(law, actions=actions, body=(*body, *renaming.links()))
+
+
+def _about_any_component(
+    part: syntax.Literal,
+    condition: syntax.Condition,
+    acted: set[str],
+    renaming: Renaming,
+    rewriting: Rewriting,
+) -> syntax.Condition:
+    """A condition on what the action is about: any of its components may meet it.
+
+    Not so where a law of the refinement says that the components share the fluent anyway.
+    """
+    assert isinstance(condition, syntax.Literal)
+    symbol = rewriting.vocabulary.coarse.symbols.get(part.atom.name)
+    if not part.positive or symbol is None or symbol.kind not in roles.FLUENTS:
+        return condition
+    terms = tuple(
+        renaming.another(whole)
+        if renaming.is_magnified(whole)
+        and whole.name in acted
+        and (condition.atom.name, place) not in rewriting.shared
+        else term
+        for place, (whole, term) in enumerate(zip(part.atom.args, condition.atom.args, strict=True))
+    )
+    return replace(condition, atom=replace(condition.atom, args=terms))
+
+
+def _lifted(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Iterator[syntax.Statement]:
+    """The condition as it is, for the fine actions that would bring about the coarse effects."""
+    effects = [effects_of(a, rewriting.coarse) for a in law.actions if rewriting.has_counterpart(a)]
+    given = set(map(key, law.body))
+    for brought in product(*filter(None, effects)):
+        if any(key(head) in given for head, _ in brought):
+            continue
+        changes: list[syntax.Condition] = []
+        for head, conditions in brought:
+            changes += (replace(head, positive=not head.positive), *conditions)
+        body = (*(c for c in changes if key(c) not in given), *law.body)
+        renaming = Renaming(law, rewriting.vocabulary)
+        actions = tuple(
+            renaming.atom(action) if rewriting.has_counterpart(action) else action
+            for action in law.actions
+        )
+        renaming.note(*(part.atom for part in roles.literals(body)))
+        yield replace(law, actions=actions, body=(*renaming.links(), *body))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from asp.language import Problems, arguments, name, syntax
+from asp.language import Literal, Problems, syntax
 from asp.language import variable_sorts as roles
 from asp.refinement.language import Components, Magnification
 from asp.refinement.vocabulary import Vocabulary
@@ -21,7 +21,7 @@ def check_maps(
     fine: syntax.Source,
     coarse: syntax.Source,
     vocabulary: Vocabulary,
-    statics: frozenset[str],
+    statics: frozenset[Literal],
     problems: Problems,
 ) -> None:
     """Reports where a fine map does not fit the coarse one, at a place of the refinement's text."""
@@ -59,10 +59,8 @@ def _is_way(symbol: str, vocabulary: Vocabulary) -> bool:
     return declaration.kind == "static" and touched == [True, True]
 
 
-def _pairs(static: str, statics: Iterable[str]) -> Pairs:
-    return frozenset(
-        (one, other) for s in statics if name(s) == static for one, other in [arguments(s)]
-    )
+def _pairs(static: str, statics: Iterable[Literal]) -> Pairs:
+    return frozenset((s.arguments[0], s.arguments[1]) for s in statics if s.name == static)
 
 
 class _Places:

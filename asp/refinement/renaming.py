@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, count
 
-from asp.language import syntax, variable_domains
+from asp.language import atom_text, syntax, variable_domains
 from asp.language import variable_sorts as roles
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
@@ -83,8 +83,7 @@ class Renaming:
         if atom.name in self._vocabulary.coarse.sorts and self._is_only_inside(atom.args[0]):
             name = self._vocabulary.fine_sort(atom.name)
             return replace(atom, name=name, args=(self.fine(atom.args[0]),))
-        for term in atom.args:
-            self.whole(term)
+        self.note(atom)
         return atom
 
     def literal(self, literal: syntax.Literal) -> syntax.Literal:
@@ -122,6 +121,12 @@ class Renaming:
         if self.is_magnified(term):
             self._wholes[term.name] = None
         return term
+
+    def note(self, *atoms: syntax.Atom) -> None:
+        """Notes all the wholes of which these atoms speak."""
+        for atom in atoms:
+            for term in atom.args:
+                self.whole(term)
 
     def links(self) -> syntax.Body:
         """`component(P, O)` for every whole of which the law names a component."""
@@ -170,3 +175,56 @@ def component(part: syntax.Term, whole: syntax.Term) -> syntax.Literal:
 
 def _atoms(law: syntax.Statement) -> Iterator[syntax.Atom]:
     return (use.atom for use in roles.uses(law))
+
+
+Effect = tuple[syntax.Literal, syntax.Body]
+
+
+def effects_of(action: syntax.Atom, coarse: syntax.Source) -> list[Effect]:
+    """What the coarse action causes and under which conditions, in the terms of this atom."""
+    found = []
+    for law in coarse.each(syntax.CausalLaw):
+        terms = _matched(law.action, action)
+        if terms is not None:
+            head = replace(law.head, atom=_substituted(law.head.atom, terms))
+            found.append((head, tuple(_condition(part, terms) for part in law.body)))
+    return found
+
+
+def _matched(of_law: syntax.Atom, action: syntax.Atom) -> dict[str, syntax.Term] | None:
+    """The terms for the variables of a causal law's action that make it the given one."""
+    if of_law.name != action.name:
+        return None
+    terms: dict[str, syntax.Term] = {}
+    for variable, term in zip(of_law.args, action.args, strict=True):
+        if not variable.is_variable:
+            if not term.is_variable and term.name != variable.name:
+                return None
+        elif terms.setdefault(variable.name, term).name != term.name:
+            return None
+    return terms
+
+
+def _condition(part: syntax.Condition, terms: dict[str, syntax.Term]) -> syntax.Condition:
+    if isinstance(part, syntax.Literal):
+        return replace(part, atom=_substituted(part.atom, terms))
+    left, right = (_term(side, terms) for side in (part.left, part.right))
+    return replace(part, left=left, right=right)
+
+
+def _substituted(atom: syntax.Atom, terms: dict[str, syntax.Term]) -> syntax.Atom:
+    return replace(atom, args=tuple(_term(term, terms) for term in atom.args))
+
+
+def _term(term: syntax.Term, terms: dict[str, syntax.Term]) -> syntax.Term:
+    """The term for a variable of the action; another variable gets a name of the effect's own."""
+    if not term.is_variable:
+        return term
+    return terms.get(term.name, replace(term, name=f"{term.name}_"))
+
+
+def key(part: syntax.Condition) -> str:
+    """The text of a condition, by which conditions at different places are the same."""
+    if isinstance(part, syntax.Literal):
+        return ("" if part.positive else "-") + atom_text(part.atom)
+    return f"{part.left.name}{part.equal}{part.right.name}"

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from asp.language import Signature, syntax
+from asp.language import Literal, Signature, syntax
 from asp.language import variable_sorts as roles
 from asp.solving import first_model, ground
 from asp.translation import rule, term_text
 
 
-def true_statics(source: syntax.Source, signature: Signature) -> frozenset[str]:
-    """The true statics of a checked description, as ASP text.
+def true_statics(source: syntax.Source, signature: Signature) -> frozenset[Literal]:
+    """The true statics of a checked description.
 
     The same as the statics of its ground description, without making the instances in Python; the
     statics must not depend on their own negation.
@@ -30,7 +30,7 @@ def true_statics(source: syntax.Source, signature: Signature) -> frozenset[str]:
         if declaration.kind == "static"
     ]
     model = first_model(ground(["\n".join([*rules, "#show.", *shown])], {}, []))
-    return frozenset(map(str, model or ()))
+    return frozenset(Literal.parse(str(static)) for static in model or ())
 
 
 def _ranges(atoms: list[syntax.Atom], signature: Signature) -> list[str]:

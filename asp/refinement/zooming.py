@@ -5,36 +5,87 @@ D_c(T, G) and D_f(T, G) are those of P 3.3, Definition 2, relCon(T, G) that of D
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 from asp.language import (
+    Literal,
     Problems,
     Signature,
     arguments,
-    atom,
-    complement,
-    is_positive,
+    name,
     restrict,
     signature_of,
     syntax,
     variable_domains,
 )
 from asp.language import variable_sorts as roles
-from asp.refinement.facts import Facts
-from asp.refinement.refinement import Refinement
-from asp.refinement.relevance import Transition, relevant
+from asp.refinement.refinement import Facts, Refinement
 
-__all__ = [
-    "FineGoal",
-    "Transition",
-    "fine_constants",
-    "fine_goal",
-    "relevant",
-    "zoom_coarse",
-    "zoom_strong",
-    "zoom_weak",
-]
+
+@dataclass(frozen=True)
+class Transition:
+    """A coarse transition <before, action, after>: the true fluents of two states, an action."""
+
+    before: frozenset[str]
+    action: str
+    after: frozenset[str]
+
+
+def relevant(coarse: syntax.Source, transition: Transition, goal: Iterable[str]) -> frozenset[str]:
+    """relCon(T, G): the constants relevant to a transition or a goal (coarse literals)."""
+    in_action = arguments(transition.action)
+    in_goal = (constant for literal in goal for constant in arguments(literal))
+    changed = transition.before ^ transition.after
+    in_changes = (constant for fluent in changed for constant in arguments(fluent))
+    return frozenset([*in_action, *in_goal, *in_changes, *_in_conditions(coarse, transition)])
+
+
+def _in_conditions(coarse: syntax.Source, transition: Transition) -> Iterator[str]:
+    """The constants of what is so before the action and stands in a condition on it (rule 4).
+
+    Whether the rest of the condition holds does not matter, so that `next_to` and `!=` in it are
+    not looked at.
+    """
+    signature = _signature(coarse)
+    for law in coarse.each(syntax.ExecutabilityCondition):
+        domains = variable_domains(law, signature)
+        for action in law.actions:
+            binding = _binding(action, transition.action, domains)
+            if binding is None:
+                continue
+            for literal in roles.literals(law.body):
+                declared = signature.symbols.get(literal.atom.name)
+                if declared is not None and declared.kind in roles.FLUENTS:
+                    yield from _met(literal, {**domains, **binding}, transition.before)
+
+
+Domains = Mapping[str, tuple[str, ...]]
+
+
+def _binding(action: syntax.Atom, given: str, domains: Domains) -> Domains | None:
+    """The one value of each variable that makes the action the given one, if there are such."""
+    if action.name != name(given):
+        return None
+    values: dict[str, tuple[str, ...]] = {}
+    for term, value in zip(action.args, arguments(given), strict=True):
+        possible = domains[term.name] if term.is_variable else (term.name,)
+        if value not in values.get(term.name, possible):
+            return None
+        values[term.name] = (value,)
+    return values
+
+
+def _met(literal: syntax.Literal, domains: Domains, before: frozenset[str]) -> Iterator[str]:
+    """The constants of the literal's instances that hold in the state."""
+    terms = literal.atom.args
+    variables = dict.fromkeys(term.name for term in terms if term.is_variable)
+    for values in product(*(domains[variable] for variable in variables)):
+        value = dict(zip(variables, values, strict=True))
+        constants = [value.get(term.name, term.name) for term in terms]
+        if (Literal.of(literal.atom.name, constants) in before) == literal.positive:
+            yield from constants
 
 
 @dataclass(frozen=True)
@@ -45,8 +96,8 @@ class FineGoal:
     `effects` what of it the transition brings about. Bridge axioms tie them to fine fluents.
     """
 
-    literals: tuple[str, ...]
-    effects: tuple[str, ...]
+    literals: tuple[Literal, ...]
+    effects: tuple[Literal, ...]
 
 
 def zoom_coarse(coarse: syntax.Source, constants: Collection[str]) -> syntax.Source:
@@ -91,17 +142,12 @@ def fine_goal(
     `Refinement.counterpart` gives the fine literals that make a literal of it true.
     """
     about = frozenset(constants)
-    fluents = [
-        fluent for fluent in refinement.description.inertial if about.issuperset(arguments(fluent))
-    ]
     literals = tuple(
-        fluent if fluent in transition.after else complement(fluent) for fluent in fluents
+        fluent if fluent in transition.after else fluent.complement
+        for fluent in refinement.description.inertial
+        if about.issuperset(fluent.arguments)
     )
-    effects = (
-        literal
-        for literal in literals
-        if is_positive(literal) != (atom(literal) in transition.before)
-    )
+    effects = (lit for lit in literals if lit.is_positive != (lit.atom in transition.before))
     return FineGoal(literals, tuple(effects))
 
 

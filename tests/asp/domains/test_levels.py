@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
 from asp.language import arguments, name
-from asp.refinement import Refinement, load
-from asp.refinement.statics import true_statics
+from asp.refinement import Refinement, load, true_statics
 
 TABLE = {  # objects by their parts, rooms, cells a room
     "L1": ({1: 1}, 2, 2),

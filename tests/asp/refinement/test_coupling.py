@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from asp.language import ground
-from asp.refinement import Refinement, Transition, load_refinement, relevant
-from asp.refinement.zooming import zoom_weak
+from asp.refinement import Refinement, Transition, load_refinement, relevant, zoom_weak
 from testbed.world import world_of
 from tests.asp.refinement.levels import coarse_world, level, transitions, transitions_from
 from tests.asp.refinement.paths import Paths, drawn_refinement, literals_of, some_refinement

@@ -6,8 +6,7 @@ from pathlib import Path
 import pytest
 
 from asp.language import Problems, signature_of
-from asp.refinement import Transition, load_refinement, relevant, zoom_strong
-from asp.refinement.language import parse_fine
+from asp.refinement import Transition, load_refinement, parse_fine, relevant, zoom_strong
 
 PAGE = (Path(__file__).parents[3] / "docs" / "refinement.md").read_text(encoding="utf-8")
 OFFICE = load_refinement("office.fine")

@@ -12,8 +12,7 @@ import pytest
 from asp import parse_description
 from asp.domains.levels import LevelSize, level_text
 from asp.language import analyse
-from asp.refinement import Refinement, load, load_refinement, shared_places
-from asp.refinement.language import parse_fine
+from asp.refinement import Refinement, load, load_refinement, parse_fine, shared_places
 from asp.translation import translate_source
 from testbed.world import World, world_of
 from tests.asp.reasoning.diagrams import warnings_of

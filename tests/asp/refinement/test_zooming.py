@@ -29,9 +29,10 @@ from asp.refinement import (
     fine_goal,
     load_refinement,
     relevant,
+    zoom_coarse,
     zoom_strong,
+    zoom_weak,
 )
-from asp.refinement.zooming import zoom_coarse, zoom_weak
 from asp.translation import translate_source
 from testbed.world import world_of
 from tests.asp.reasoning.diagrams import warnings_of
