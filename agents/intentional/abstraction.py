@@ -26,7 +26,7 @@ from asp.language import (
     syntax,
     text_of,
 )
-from asp.language.variable_sorts import literals
+from asp.language import variable_sorts as roles
 from asp.reasoning.relevance import Relevance, interchangeable
 from asp.solving import deciding, preparation
 from testbed.protocol import Decision, Percept, Robot, Task
@@ -165,7 +165,7 @@ def _may_hinder(source: syntax.Source, signature: Signature, obstacles: Collecti
         made.update(
             (law.head.atom.name, law.head.positive)
             for law in source.each(syntax.StateConstraint)
-            if any((c.atom.name, c.positive) in made for c in literals(law.body))
+            if any((c.atom.name, c.positive) in made for c in roles.literals(law.body))
         )
     return any((name, True) in made for name in obstacles)
 

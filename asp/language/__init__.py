@@ -1,11 +1,21 @@
 """The action language AL_d: text in, a checked and ground description out."""
 
-from asp.language.checker import check, variable_domains
-from asp.language.comments import scenario_notes
-from asp.language.description import Causal, Constraint, Description, Literals, Trigger
-from asp.language.errors import SourceError
+from asp.language.checker import check
+from asp.language.description import (
+    Causal,
+    Constraint,
+    Default,
+    Description,
+    Executability,
+    Literals,
+    Sees,
+    Shows,
+    Trigger,
+)
+from asp.language.errors import Problems, SourceError, nearest, suggestion
 from asp.language.functions import Function, excluding_place, functions, subject
 from asp.language.grounding import ground_description
+from asp.language.instances import Instances
 from asp.language.literals import (
     Action,
     Fluent,
@@ -21,19 +31,26 @@ from asp.language.literals import (
 from asp.language.loading import (
     MOST_TEXTS,
     analyse,
+    check_one_robot,
     load_description,
+    packaged_domains,
     parse_description,
     read_domain,
     read_text,
 )
-from asp.language.parser import ToSyntax, comments_of, parse, place_of
+from asp.language.parser import ToSyntax, comments_of, parse, place_of, scenario_notes
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
-from asp.language.robots import check_one_robot
-from asp.language.signature import Problems, Signature, signature_of
-from asp.language.spelling import suggestion
+from asp.language.signature import (
+    Signature,
+    is_reserved_constant,
+    is_reserved_sort,
+    is_reserved_symbol,
+    signature_of,
+)
 from asp.language.stratification import check_cycles, may_have_cycles
 from asp.language.syntax import Source
 from asp.language.syntax_errors import Words, check_section_words, syntax_error
+from asp.language.variable_sorts import variable_domains
 from asp.language.writer import atom_text, condition_text, text_of
 
 __all__ = [
@@ -41,12 +58,17 @@ __all__ = [
     "Action",
     "Causal",
     "Constraint",
+    "Default",
     "Description",
+    "Executability",
     "Fluent",
     "Function",
+    "Instances",
     "Literal",
     "Literals",
     "Problems",
+    "Sees",
+    "Shows",
     "Signature",
     "Source",
     "SourceError",
@@ -69,11 +91,16 @@ __all__ = [
     "ground",
     "ground_description",
     "is_positive",
+    "is_reserved_constant",
+    "is_reserved_sort",
+    "is_reserved_symbol",
     "load_description",
     "may_have_cycles",
     "name",
     "named",
     "narrowed",
+    "nearest",
+    "packaged_domains",
     "parse",
     "parse_description",
     "place_of",

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from asp.language import syntax
 from asp.language import variable_sorts as roles
-from asp.language.reserved_names import is_reserved_constant
-from asp.language.signature import Problems, Signature, report_reserved
-from asp.language.spelling import suggestion
-
-Domains = Mapping[str, tuple[str, ...]]
-"""What each variable of one statement ranges over."""
+from asp.language.errors import Problems, suggestion
+from asp.language.signature import Signature, is_reserved_constant, report_reserved
+from asp.language.variable_sorts import places_of, variable_domains
 
 
 def check(source: syntax.Source, signature: Signature, problems: Problems) -> None:
@@ -72,32 +69,6 @@ def _check_scenarios(source: syntax.Source, problems: Problems) -> None:
             problems.report(
                 quiet.place, f"in scenario '{quiet.scenario}' something happens; see line {line}"
             )
-
-
-def variable_domains(statement: syntax.Statement, signature: Signature) -> Domains:
-    """The members that each variable may take: common to the sorts of all its places."""
-    domains: dict[str, tuple[str, ...]] = {}
-    for use in roles.scope(statement):
-        for term, members in zip(use.atom.args, _places(use.atom, signature), strict=True):
-            if term.is_variable:
-                domains[term.name] = _common(domains.get(term.name, members), members)
-    if isinstance(statement, syntax.SeesStatement) and statement.robot.is_variable:
-        domains.setdefault(statement.robot.name, ())
-    return domains
-
-
-def _common(some: tuple[str, ...], others: tuple[str, ...]) -> tuple[str, ...]:
-    """The members of both, in the order of the first."""
-    if some is others:
-        return some
-    both = set(others)
-    return tuple(member for member in some if member in both)
-
-
-def _places(atom: syntax.Atom, signature: Signature) -> list[tuple[str, ...]]:
-    if atom.name in signature.sorts:
-        return [signature.sorts[atom.name]]
-    return [signature.sorts[sort.name] for sort in signature.symbols[atom.name].sorts]
 
 
 def _check_use(use: roles.Use, signature: Signature, problems: Problems) -> None:
@@ -235,7 +206,7 @@ def _may_be_empty(statement: syntax.Statement, name: str, signature: Signature) 
     return _stands_nowhere(statement, name) or any(
         term.name == name and not members
         for use in roles.scope(statement)
-        for term, members in zip(use.atom.args, _places(use.atom, signature), strict=True)
+        for term, members in zip(use.atom.args, places_of(use.atom, signature), strict=True)
     )
 
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from itertools import product
 
 from asp.language import syntax
-from asp.language.checker import variable_domains
 from asp.language.description import (
     Causal,
     Constraint,
@@ -21,6 +20,7 @@ from asp.language.description import (
 from asp.language.instances import Binding, Instances, atom_of, instances_of, literal_of, value_of
 from asp.language.literals import Fluent, Literal
 from asp.language.signature import Signature
+from asp.language.variable_sorts import variable_domains
 
 
 def ground_description(source: syntax.Source, signature: Signature, name: str) -> Description:

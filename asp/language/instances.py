@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import product
 
 from asp.language import syntax
-from asp.language.checker import variable_domains
 from asp.language.description import Literals
 from asp.language.literals import Literal
 from asp.language.signature import Signature
+from asp.language.variable_sorts import variable_domains
 
 Binding = Mapping[str, str]
 

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from importlib.resources import files
+from math import prod
 from pathlib import Path
+from typing import TypeVar
 
 from asp.language import syntax
 from asp.language.checker import check
 from asp.language.description import Description
-from asp.language.errors import SourceError
+from asp.language.errors import Problems, SourceError
 from asp.language.grounding import ground_description
 from asp.language.parser import parse
-from asp.language.signature import Problems, Signature, signature_of
-from asp.language.size_limits import check_sizes
+from asp.language.signature import Signature, signature_of
 from asp.language.stratification import check_cycles
+from asp.language.variable_sorts import variable_domains
 
 MOST_TEXTS = 32
 """Of how many texts the description is remembered: those that were read last."""
@@ -84,3 +87,96 @@ def packaged_domains() -> tuple[str, ...]:
     """The bare names of the domains that come with this package."""
     entries = files("asp").joinpath("domains").iterdir()
     return tuple(sorted(e.name.removesuffix(".al") for e in entries if e.name.endswith(".al")))
+
+
+MOST_SYMBOLS = 500_000
+"""Ground fluents and actions of a description."""
+MOST_INSTANCES = 5_000_000
+"""Instances of all statements of a description, those included that their bodies rule out."""
+
+S = TypeVar("S", bound=syntax.Statement)
+
+
+def check_sizes(source: syntax.Source, signature: Signature, problems: Problems) -> None:
+    """Reports what has most instances where there are too many of them."""
+    declared = [own for own in signature.symbols.values() if own.kind != "static"]
+    _check(
+        declared,
+        lambda own: prod(len(signature.sorts[sort.name]) for sort in own.sorts),
+        MOST_SYMBOLS,
+        "all fluents and actions together",
+        problems,
+    )
+    _check(
+        _instantiated(source),
+        lambda own: prod(map(len, variable_domains(own, signature).values())),
+        MOST_INSTANCES,
+        "all statements together",
+        problems,
+    )
+
+
+def _instantiated(source: syntax.Source) -> list[syntax.Statement]:
+    others = syntax.SortDefinition | syntax.Declaration
+    return [own for own in source.statements if not isinstance(own, others)]
+
+
+def _check(
+    items: Iterable[S], size: Callable[[S], int], most: int, whose: str, problems: Problems
+) -> None:
+    sizes = [(size(item), item) for item in items]
+    if sum(number for number, _ in sizes) > most:
+        number, largest = max(sizes, key=lambda own: own[0])
+        problems.report(
+            largest.place, f"has {number} instances; {most} are the most for {whose}: smaller sorts"
+        )
+
+
+def check_one_robot(text: str, file: str) -> None:
+    """Check that the actions of a description are those of one robot.
+
+    The robot is the first constant that sees something. A second one is a constant that can take
+    its place in each action; or one that sees, too, and has actions, but no part in the first's.
+
+    Raises:
+        SourceError: at the sort that has the second robot; or for a mistake in the text.
+    """
+    seers = parse_description(text, file).robots
+    source, signature = analyse(text, file)
+    second = next(_second(seers, signature), None)
+    if second is not None:
+        place = _declared(second, source)
+        raise SourceError(
+            file,
+            place.line,
+            place.column,
+            f"{seers[0]} and {second} are two robots, and a description has one for now; "
+            f"drop {second}, or give what is no robot a sort of its own",
+        )
+
+
+def _second(seers: Sequence[str], signature: Signature) -> Iterator[str]:
+    for robot in seers[:1]:
+        own = [places for places in _places(signature) if any(robot in sort for sort in places)]
+        alike = [{c for sort in places if robot in sort for c in sort} for places in own]
+        if len(own) == len(_places(signature)):
+            yield from sorted(set.intersection(*alike) - {robot}) if own else ()
+        acted_upon = {constant for places in own for sort in places for constant in sort}
+        acting = {c for places in _places(signature) for sort in places for c in sort}
+        yield from (seer for seer in seers[1:] if own and seer in acting - acted_upon)
+
+
+def _places(signature: Signature) -> list[list[tuple[str, ...]]]:
+    """The members of the sorts of the arguments, by action of an agent."""
+    actions = [symbol for symbol in signature.symbols.values() if symbol.kind == "agent"]
+    return [[signature.sorts[sort.name] for sort in action.sorts] for action in actions]
+
+
+def _declared(constant: str, source: syntax.Source) -> syntax.Place:
+    """Where the sort stands that lists the constant."""
+    sorts = source.each(syntax.SortDefinition)
+    return next(s.place for s in sorts if any(constant == t.name for t in _listed(s)))
+
+
+def _listed(definition: syntax.SortDefinition) -> list[syntax.Term]:
+    return [term for part in definition.parts if isinstance(part, tuple) for term in part]

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, ClassVar
 
 from lark import Lark, Token, Transformer, v_args
 from lark.exceptions import UnexpectedInput
@@ -62,7 +62,27 @@ def place_of(meta: Meta | Token) -> syntax.Place:
 
 @v_args(meta=True)
 class ToSyntax(Transformer[Token, Any]):
-    """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules."""
+    """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules.
+
+    A rule without one is a statement whose fields are the rule's parts in their order.
+    """
+
+    STATEMENTS: ClassVar[dict[str, type[syntax.Statement]]] = {
+        "causal_law": syntax.CausalLaw,
+        "state_constraint": syntax.StateConstraint,
+        "fact": syntax.Fact,
+        "sees": syntax.SeesStatement,
+        "shows": syntax.ShowsStatement,
+        "initially": syntax.InitiallyStatement,
+        "default": syntax.DefaultStatement,
+        "exception": syntax.ExceptionStatement,
+        "quiet": syntax.QuietStatement,
+    }
+
+    def __default__(self, data: str, children: list[Any], meta: Meta) -> syntax.Statement:
+        parts = (str(part) if isinstance(part, Token) else part for part in children)
+        kind = self.STATEMENTS[data]
+        return kind(place_of(meta), meta.end_line, *(() if p is None else p for p in parts))
 
     def section(self, _: Meta, children: list[Any]) -> list[syntax.Statement]:
         return children[1:]
@@ -98,45 +118,15 @@ class ToSyntax(Transformer[Token, Any]):
 
     action = fluent
 
-    def causal_law(self, meta: Meta, children: list[Any]) -> syntax.CausalLaw:
-        action, head, body = children
-        return syntax.CausalLaw(place_of(meta), meta.end_line, action, head, body or ())
-
     def executability(self, meta: Meta, children: list[Any]) -> syntax.ExecutabilityCondition:
         *actions, body = children
         return syntax.ExecutabilityCondition(
             place_of(meta), meta.end_line, tuple(actions), body or ()
         )
 
-    def state_constraint(self, meta: Meta, children: list[Any]) -> syntax.StateConstraint:
-        head, body = children
-        return syntax.StateConstraint(place_of(meta), meta.end_line, head, body or ())
-
-    def fact(self, meta: Meta, children: list[Any]) -> syntax.Fact:
-        return syntax.Fact(place_of(meta), meta.end_line, children[0])
-
-    def sees(self, meta: Meta, children: list[Any]) -> syntax.SeesStatement:
-        robot, fluent, body = children
-        return syntax.SeesStatement(place_of(meta), meta.end_line, robot, fluent, body or ())
-
-    def shows(self, meta: Meta, children: list[Any]) -> syntax.ShowsStatement:
-        action, fluent, body = children
-        return syntax.ShowsStatement(place_of(meta), meta.end_line, action, fluent, body or ())
-
     def cost(self, meta: Meta, children: list[Any]) -> syntax.CostStatement:
         action, units = children
         return syntax.CostStatement(place_of(meta), meta.end_line, action, int(units))
-
-    def initially(self, meta: Meta, children: list[Any]) -> syntax.InitiallyStatement:
-        return syntax.InitiallyStatement(place_of(meta), meta.end_line, *children)
-
-    def default(self, meta: Meta, children: list[Any]) -> syntax.DefaultStatement:
-        name, head, body = children
-        return syntax.DefaultStatement(place_of(meta), meta.end_line, str(name), head, body or ())
-
-    def exception(self, meta: Meta, children: list[Any]) -> syntax.ExceptionStatement:
-        name, body = children
-        return syntax.ExceptionStatement(place_of(meta), meta.end_line, str(name), body, None)
 
     def trigger(self, meta: Meta, children: list[Any]) -> syntax.TriggerStatement:
         scenario, event, upon, drawing, body, probability = children
@@ -153,18 +143,12 @@ class ToSyntax(Transformer[Token, Any]):
             probability=1.0 if probability is None else probability,
         )
 
-    def quiet(self, meta: Meta, children: list[Token]) -> syntax.QuietStatement:
-        return syntax.QuietStatement(place_of(meta), meta.end_line, str(children[0]))
-
     def drawing(self, _: Meta, children: list[Any]) -> tuple[syntax.Term, syntax.Body]:
         variable, body = children
         return variable, body or ()
 
     def probability(self, _: Meta, children: list[Token]) -> float:
         return float(children[0])
-
-    def if_body(self, _: Meta, children: list[syntax.Body]) -> syntax.Body:
-        return children[0]
 
     def body(self, _: Meta, conditions: list[syntax.Condition]) -> syntax.Body:
         return tuple(conditions)
@@ -187,3 +171,33 @@ class ToSyntax(Transformer[Token, Any]):
         return syntax.Term(name, place_of(token))
 
     variable = constant
+
+
+def scenario_notes(text: str, file: str = "<text>") -> dict[str, str]:
+    """The comment right above the first statement of each scenario that has one, as a sentence.
+
+    A scenario's name in front is left out: `% 3: a book leaves.` is `A book leaves.` Raises
+    SourceError.
+    """
+    source = parse(text, file)
+    comments = {comment.line: comment.text for comment in source.comments if comment.alone}
+    notes: dict[str, str] = {}
+    for statement in source.statements:
+        if isinstance(statement, syntax.TriggerStatement | syntax.QuietStatement):
+            note = _above(statement.place.line, comments)
+            notes.setdefault(statement.scenario, _sentence(note, statement.scenario))
+    return {scenario: note for scenario, note in notes.items() if note}
+
+
+def _above(line: int, comments: dict[int, str]) -> str:
+    lines: list[str] = []
+    while line - 1 in comments:
+        line -= 1
+        lines.insert(0, comments[line].lstrip("% "))
+    return " ".join(lines)
+
+
+def _sentence(note: str, scenario: str) -> str:
+    for sign in (",", ":"):
+        note = note.removeprefix(f"{scenario}{sign} ")
+    return note[:1].upper() + note[1:]

@@ -1,37 +1,26 @@
-"""The sorted signature of a description: its sorts with their members, its symbols."""
+"""The sorted signature of a description: its sorts with their members, its symbols.
+
+Names to which the programs give a meaning of their own are reserved: a domain has to use others.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import clingo
+from clingo import ast
 
 from asp.language import syntax
-from asp.language.errors import SourceError
-from asp.language.reserved_names import is_reserved_constant, is_reserved_sort, is_reserved_symbol
-from asp.language.spelling import suggestion
+from asp.language.errors import Problems, suggestion
+from asp.language.syntax import SymbolKind
 
-
-class Problems(list[SourceError]):
-    """The mistakes found so far in one text.
-
-    `failed` are the declarations whose names cannot be what they were meant to be: what uses
-    the names that were meant is right.
-    """
-
-    def __init__(self, file: str) -> None:
-        super().__init__()
-        self.file = file
-        self.failed: list[syntax.Declaration] = []
-
-    def report(self, place: syntax.Place, message: str) -> None:
-        self.append(SourceError(self.file, place.line, place.column, message))
-
-    def raise_first(self) -> None:
-        """Raises the first mistake in the order of the source, which then knows all of them."""
-        if self:
-            ordered = sorted(self, key=lambda error: (error.line, error.column))
-            ordered[0].all = tuple(ordered)
-            raise ordered[0]
+_CONSTANTS = frozenset({"n", "not"})
+_ENVIRONMENT = frozenset({"wait", "none"})
+_REFINED = frozenset({"component", "fine", "coarse", "outcome"})
+"""Names that refined descriptions declare, so that theories of them may speak of them."""
 
 
 @dataclass(frozen=True)
@@ -70,8 +59,8 @@ def signature_of(source: syntax.Source, problems: Problems) -> Signature:
     return Signature(sorts, symbols)
 
 
-def _report_sort(name: str, place: syntax.Place, sorts: Iterable[str], problems: Problems) -> None:
-    problems.report(place, f"unknown sort '{name}'; {suggestion(name, sorts)}")
+def _report_sort(sort: syntax.Term, sorts: Iterable[str], problems: Problems) -> None:
+    problems.report(sort.place, f"unknown sort '{sort.name}'; {suggestion(sort.name, sorts)}")
 
 
 def _claim(
@@ -95,9 +84,7 @@ def _members(
         elif part.name in sorts:
             members += sorts[part.name]
         else:
-            problems.report(
-                part.place, f"unknown sort '{part.name}'; {suggestion(part.name, sorts)}"
-            )
+            _report_sort(part, sorts, problems)
     return tuple(dict.fromkeys(members))
 
 
@@ -131,6 +118,65 @@ def _check_sorts(
 ) -> None:
     for sort in declaration.sorts:
         if sort.name not in sorts:
-            problems.report(
-                sort.place, f"unknown sort '{sort.name}'; {suggestion(sort.name, sorts)}"
-            )
+            _report_sort(sort, sorts, problems)
+
+
+def is_reserved_constant(name: str) -> bool:
+    """Whether a member of a sort cannot have this name."""
+    return name in _CONSTANTS or name in _words().constants
+
+
+def is_reserved_symbol(name: str, kind: SymbolKind) -> bool:
+    """Whether a static, fluent or action cannot have this name."""
+    if kind == "static":
+        return is_reserved_sort(name)
+    return is_reserved_constant(name) or name in _ENVIRONMENT or name in _words().terms
+
+
+def is_reserved_sort(name: str) -> bool:
+    """Whether a sort cannot have this name."""
+    return name in _CONSTANTS or name in _words().predicates - _REFINED
+
+
+class _Words(ast.Transformer):
+    """Collects the names that stand in programs, by what they stand for."""
+
+    def __init__(self) -> None:
+        self.predicates: set[str] = set()
+        self.terms: set[str] = set()
+        self.constants: set[str] = set()
+
+    def collect(self, statement: ast.AST) -> None:
+        self.visit(statement)
+
+    def visit_SymbolicAtom(self, node: ast.AST) -> ast.AST:  # noqa: N802 (clingo's name)
+        symbol = node.symbol
+        while symbol.ast_type == ast.ASTType.UnaryOperation:
+            symbol = symbol.argument
+        self.predicates.add(symbol.name)
+        self.visit_sequence(symbol.arguments)
+        return node
+
+    def visit_Function(self, node: ast.AST) -> ast.AST:  # noqa: N802
+        self.terms.add(node.name)
+        self.visit_sequence(node.arguments)
+        return node
+
+    def visit_SymbolicTerm(self, node: ast.AST) -> ast.AST:  # noqa: N802
+        if node.symbol.type == clingo.SymbolType.Function:
+            self.terms.add(node.symbol.name)
+        return node
+
+    def visit_Definition(self, node: ast.AST) -> ast.AST:  # noqa: N802
+        self.constants.add(node.name)
+        return node
+
+
+@cache
+def _words() -> _Words:
+    """The names in all of `asp/theories`."""
+    words = _Words()
+    for entry in files("asp").joinpath("theories").iterdir():
+        if entry.name.endswith(".lp"):
+            ast.parse_string(entry.read_text(encoding="utf-8"), words.collect)
+    return words

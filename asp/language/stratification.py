@@ -13,9 +13,10 @@ from collections.abc import Mapping
 
 from asp.language import syntax
 from asp.language import variable_sorts as roles
+from asp.language.errors import Problems
 from asp.language.instances import instances_of, literal_of, static_truth
 from asp.language.literals import Literal, atom, complement, is_positive, name
-from asp.language.signature import Problems, Signature
+from asp.language.signature import Signature
 
 Graph = Mapping[str, set[str]]
 

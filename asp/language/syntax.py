@@ -167,7 +167,7 @@ class ExceptionStatement(Statement):
 
     name: str
     body: Body
-    of: DefaultStatement | None
+    of: DefaultStatement | None = None
 
 
 @dataclass(frozen=True)

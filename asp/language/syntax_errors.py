@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from lark import ParseTree, Token, Tree
 from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
 
-from asp.language.errors import SourceError
-from asp.language.spelling import nearest
+from asp.language.errors import SourceError, nearest
 
 _READABLE = {
     "NAME": "a name",

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import singledispatch
 
 from asp.language import syntax
+from asp.language.signature import Signature
 
+INERTIAL = frozenset({"inertial"})
 FLUENTS = frozenset({"inertial", "defined"})
 DOMAIN = FLUENTS | {"static"}
 AGENT = frozenset({"agent"})
 EXOGENOUS = frozenset({"exogenous"})
 ACTIONS = AGENT | EXOGENOUS
 SORT = "sort"
+
+
+Domains = Mapping[str, tuple[str, ...]]
+"""What each variable of one statement ranges over."""
 
 
 @dataclass(frozen=True)
@@ -25,78 +30,43 @@ class Use:
     wanted: str
 
 
-@singledispatch
-def uses(_statement: syntax.Statement) -> Iterator[Use]:
+Role = tuple[frozenset[str], str]
+
+ROLES: dict[type[syntax.Statement], dict[str, Role]] = {
+    syntax.CausalLaw: {
+        "action": (ACTIONS, "an action before 'causes'"),
+        "head": (INERTIAL, "an inertial fluent as the effect"),
+    },
+    syntax.StateConstraint: {"head": (DOMAIN, "a fluent or a static as the head")},
+    syntax.ExecutabilityCondition: {"actions": (ACTIONS, "an action after 'impossible'")},
+    syntax.Fact: {"literal": (frozenset({"static"}), "a static as a fact")},
+    syntax.SeesStatement: {"fluent": (FLUENTS, "a fluent after 'sees'")},
+    syntax.ShowsStatement: {
+        "action": (AGENT, "an agent action before 'shows'"),
+        "fluent": (FLUENTS, "a fluent after 'shows'"),
+    },
+    syntax.CostStatement: {"action": (AGENT, "an agent action before 'costs'")},
+    syntax.InitiallyStatement: {"fluent": (FLUENTS, "a fluent before 'for some'")},
+    syntax.DefaultStatement: {"head": (INERTIAL, "an inertial fluent as the conclusion")},
+    syntax.TriggerStatement: {
+        "event": (EXOGENOUS, "an exogenous action as the event"),
+        "upon": (AGENT, "an agent action after 'upon'"),
+    },
+}
+"""The kinds of symbols that may stand in a field of a statement, beside its bodies."""
+_IN_BODIES = DOMAIN | {SORT}, "a fluent, a static or a sort in a body"
+
+
+def uses(statement: syntax.Statement) -> Iterator[Use]:
     """Every atom of the statement with its role; none in sorts and declarations."""
-    yield from ()
-
-
-@uses.register
-def _(law: syntax.CausalLaw) -> Iterator[Use]:
-    yield Use(law.action, ACTIONS, "an action before 'causes'")
-    yield Use(law.head.atom, frozenset({"inertial"}), "an inertial fluent as the effect")
-    yield from body_uses(law.body)
-
-
-@uses.register
-def _(law: syntax.StateConstraint) -> Iterator[Use]:
-    yield Use(law.head.atom, DOMAIN, "a fluent or a static as the head")
-    yield from body_uses(law.body)
-
-
-@uses.register
-def _(law: syntax.ExecutabilityCondition) -> Iterator[Use]:
-    for action in law.actions:
-        yield Use(action, ACTIONS, "an action after 'impossible'")
-    yield from body_uses(law.body)
-
-
-@uses.register
-def _(fact: syntax.Fact) -> Iterator[Use]:
-    yield Use(fact.literal.atom, frozenset({"static"}), "a static as a fact")
-
-
-@uses.register
-def _(statement: syntax.SeesStatement) -> Iterator[Use]:
-    yield Use(statement.fluent, FLUENTS, "a fluent after 'sees'")
-    yield from body_uses(statement.body)
-
-
-@uses.register
-def _(statement: syntax.ShowsStatement) -> Iterator[Use]:
-    yield Use(statement.action, AGENT, "an agent action before 'shows'")
-    yield Use(statement.fluent, FLUENTS, "a fluent after 'shows'")
-    yield from body_uses(statement.body)
-
-
-@uses.register
-def _(statement: syntax.CostStatement) -> Iterator[Use]:
-    yield Use(statement.action, AGENT, "an agent action before 'costs'")
-
-
-@uses.register
-def _(statement: syntax.InitiallyStatement) -> Iterator[Use]:
-    yield Use(statement.fluent, FLUENTS, "a fluent before 'for some'")
-
-
-@uses.register
-def _(default: syntax.DefaultStatement) -> Iterator[Use]:
-    yield Use(default.head.atom, frozenset({"inertial"}), "an inertial fluent as the conclusion")
-    yield from body_uses(default.body)
-
-
-@uses.register
-def _(exception: syntax.ExceptionStatement) -> Iterator[Use]:
-    yield from body_uses(exception.body)
-
-
-@uses.register
-def _(statement: syntax.TriggerStatement) -> Iterator[Use]:
-    yield Use(statement.event, EXOGENOUS, "an exogenous action as the event")
-    if statement.upon is not None:
-        yield Use(statement.upon, AGENT, "an agent action after 'upon'")
-    yield from body_uses(statement.pool)
-    yield from body_uses(statement.body)
+    for field, (kinds, wanted) in ROLES.get(type(statement), {}).items():
+        value = getattr(statement, field)
+        for part in value if isinstance(value, tuple) else (value,):
+            if part is not None:
+                atom = part.atom if isinstance(part, syntax.Literal) else part
+                yield Use(atom, kinds, wanted)
+    for literal in literals(bodies(statement)):
+        yield Use(literal.atom, *_IN_BODIES)
 
 
 def scope(statement: syntax.Statement) -> Iterator[Use]:
@@ -113,12 +83,6 @@ def noun(kinds: frozenset[str]) -> str:
     return "static" if kinds == {"static"} else "fluent"
 
 
-def body_uses(body: syntax.Body) -> Iterator[Use]:
-    """The atoms of a body with their role."""
-    for literal in literals(body):
-        yield Use(literal.atom, DOMAIN | {SORT}, "a fluent, a static or a sort in a body")
-
-
 def literals(body: Iterable[syntax.Condition]) -> Iterator[syntax.Literal]:
     return (condition for condition in body if isinstance(condition, syntax.Literal))
 
@@ -129,5 +93,32 @@ def comparisons(body: Iterable[syntax.Condition]) -> Iterator[syntax.Comparison]
 
 def bodies(statement: syntax.Statement) -> Iterator[syntax.Condition]:
     """The conditions of all the bodies of a statement."""
-    for field in ("body", "pool"):
+    for field in ("pool", "body"):
         yield from getattr(statement, field, ())
+
+
+def variable_domains(statement: syntax.Statement, signature: Signature) -> Domains:
+    """The members that each variable may take: common to the sorts of all its places."""
+    domains: dict[str, tuple[str, ...]] = {}
+    for use in scope(statement):
+        for term, members in zip(use.atom.args, places_of(use.atom, signature), strict=True):
+            if term.is_variable:
+                domains[term.name] = _common(domains.get(term.name, members), members)
+    if isinstance(statement, syntax.SeesStatement) and statement.robot.is_variable:
+        domains.setdefault(statement.robot.name, ())
+    return domains
+
+
+def _common(some: tuple[str, ...], others: tuple[str, ...]) -> tuple[str, ...]:
+    """The members of both, in the order of the first."""
+    if some is others:
+        return some
+    both = set(others)
+    return tuple(member for member in some if member in both)
+
+
+def places_of(atom: syntax.Atom, signature: Signature) -> list[tuple[str, ...]]:
+    """The members of the sorts of an atom's arguments."""
+    if atom.name in signature.sorts:
+        return [signature.sorts[atom.name]]
+    return [signature.sorts[sort.name] for sort in signature.symbols[atom.name].sorts]

@@ -3,68 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import singledispatch
 
 from asp.language import syntax
 
 
-@singledispatch
 def text_of(statement: syntax.Statement) -> str:
     """The statement on one line, with its full stop. Raises TypeError for kinds not listed here."""
+    return f"{_text_of(statement)}."
+
+
+def _text_of(statement: syntax.Statement) -> str:
+    match statement:
+        case syntax.SortDefinition(name=name, parts=parts):
+            texts = ("{" + _listed(p) + "}" if isinstance(p, tuple) else p.name for p in parts)
+            return f"{name} = {' + '.join(texts)}"
+        case syntax.Declaration(kind=kind, name=name, sorts=sorts):
+            arguments = f"({_listed(sorts)})" if sorts else ""
+            return ("" if kind == "static" else f"{kind} ") + name + arguments
+        case syntax.CausalLaw(action=action, head=head, body=body):
+            return f"{atom_text(action)} causes {_literal(head)}{_if(body)}"
+        case syntax.StateConstraint(head=head, body=body):
+            return f"{_literal(head)}{_if(body)}"
+        case syntax.ExecutabilityCondition(actions=actions, body=body):
+            return f"impossible {', '.join(map(atom_text, actions))}{_if(body)}"
+        case syntax.Fact(literal=literal):
+            return _literal(literal)
+        case syntax.SeesStatement(robot=robot, fluent=fluent, body=body):
+            return f"{robot.name} sees {atom_text(fluent)}{_if(body)}"
+        case syntax.ShowsStatement(action=action, fluent=fluent, body=body):
+            return f"{atom_text(action)} shows {atom_text(fluent)}{_if(body)}"
+        case syntax.InitiallyStatement(fluent=fluent, variable=variable):
+            return f"{atom_text(fluent)} for some {variable.name}"
     raise TypeError(f"{type(statement).__name__} has no text here")
-
-
-@text_of.register
-def _(statement: syntax.SortDefinition) -> str:
-    parts = (
-        "{" + _listed(part) + "}" if isinstance(part, tuple) else part.name
-        for part in statement.parts
-    )
-    return f"{statement.name} = {' + '.join(parts)}."
-
-
-@text_of.register
-def _(statement: syntax.Declaration) -> str:
-    kind = "" if statement.kind == "static" else f"{statement.kind} "
-    arguments = f"({_listed(statement.sorts)})" if statement.sorts else ""
-    return f"{kind}{statement.name}{arguments}."
-
-
-@text_of.register
-def _(law: syntax.CausalLaw) -> str:
-    return f"{atom_text(law.action)} causes {_literal(law.head)}{_if(law.body)}."
-
-
-@text_of.register
-def _(law: syntax.StateConstraint) -> str:
-    return f"{_literal(law.head)}{_if(law.body)}."
-
-
-@text_of.register
-def _(law: syntax.ExecutabilityCondition) -> str:
-    return f"impossible {', '.join(map(atom_text, law.actions))}{_if(law.body)}."
-
-
-@text_of.register
-def _(fact: syntax.Fact) -> str:
-    return f"{_literal(fact.literal)}."
-
-
-@text_of.register
-def _(statement: syntax.SeesStatement) -> str:
-    fluent = atom_text(statement.fluent)
-    return f"{statement.robot.name} sees {fluent}{_if(statement.body)}."
-
-
-@text_of.register
-def _(statement: syntax.ShowsStatement) -> str:
-    shown = f"{atom_text(statement.action)} shows {atom_text(statement.fluent)}"
-    return f"{shown}{_if(statement.body)}."
-
-
-@text_of.register
-def _(statement: syntax.InitiallyStatement) -> str:
-    return f"{atom_text(statement.fluent)} for some {statement.variable.name}."
 
 
 def atom_text(atom: syntax.Atom) -> str:

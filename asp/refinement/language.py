@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import ClassVar
 
 from lark import Lark, Token, v_args
 from lark.exceptions import UnexpectedInput
@@ -68,10 +67,7 @@ class TestsStatement(syntax.Statement):
     body: syntax.Body
 
 
-@roles.uses.register
-def _(statement: TestsStatement) -> Iterator[roles.Use]:
-    yield roles.Use(statement.fluent, roles.FLUENTS, "a fluent after 'tests'")
-    yield from roles.body_uses(statement.body)
+roles.ROLES[TestsStatement] = {"fluent": (roles.FLUENTS, "a fluent after 'tests'")}
 
 
 def parse_fine(text: str, file: str = "<text>") -> syntax.Source:
@@ -102,23 +98,18 @@ def _grammar() -> Lark:
 
 @v_args(meta=True)
 class _ToRefinement(ToSyntax):
-    """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules."""
+    """Builds the abstract syntax bottom-up; the ."""
+
+    STATEMENTS: ClassVar = {
+        "magnification": Magnification,
+        "components": Components,
+        "counterpart": Counterpart,
+        "test": TestsStatement,
+        **ToSyntax.STATEMENTS,
+    }
 
     magnify = components_section = counterparts = tests_section = ToSyntax.section
     refinement = ToSyntax.start
 
     def refines(self, meta: Meta, children: list[Token]) -> list[Refines]:
         return [Refines(place_of(meta), meta.end_line, str(children[1]).strip('"'))]
-
-    def magnification(self, meta: Meta, children: list[Any]) -> Magnification:
-        return Magnification(place_of(meta), meta.end_line, children[0], str(children[1]))
-
-    def components(self, meta: Meta, children: list[Any]) -> Components:
-        return Components(place_of(meta), meta.end_line, children[0], children[1])
-
-    def counterpart(self, meta: Meta, children: list[syntax.Term]) -> Counterpart:
-        return Counterpart(place_of(meta), meta.end_line, children[0])
-
-    def test(self, meta: Meta, children: list[Any]) -> TestsStatement:
-        robot, fluent, body = children
-        return TestsStatement(place_of(meta), meta.end_line, robot, fluent, body or ())

@@ -7,8 +7,7 @@ from itertools import product
 import pytest
 
 from asp import Description, load_description, parse_description
-from asp.language import Causal, Constraint, Trigger
-from asp.language.description import Default, Executability, Sees, Shows
+from asp.language import Causal, Constraint, Default, Executability, Sees, Shows, Trigger
 
 # A harbour: ships of two kinds, berths in a row, cranes that serve some of them.
 SIGNATURE = """\

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from asp import load_description, parse_description
-from asp.language.reserved_names import is_reserved_constant, is_reserved_sort, is_reserved_symbol
+from asp.language import is_reserved_constant, is_reserved_sort, is_reserved_symbol
 
 PAGE = (Path(__file__).parents[3] / "docs" / "action-language.md").read_text(encoding="utf-8")
 OFFICE, _, _ = load_description("office").source.partition("scenarios\n")

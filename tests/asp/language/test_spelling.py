@@ -2,8 +2,7 @@
 
 import pytest
 
-from asp.language import suggestion
-from asp.language.spelling import nearest
+from asp.language import nearest, suggestion
 
 
 @pytest.mark.parametrize(

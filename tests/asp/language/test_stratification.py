@@ -10,11 +10,11 @@ from asp.language import (
     analyse,
     check_cycles,
     may_have_cycles,
+    packaged_domains,
     parse,
     read_domain,
     signature_of,
 )
-from asp.language.loading import packaged_domains
 from tests.asp.refinement.levels import level
 
 SIGNATURE = """\

@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from asp.language import parse, read_domain, syntax, text_of
-from asp.language.loading import packaged_domains
+from asp.language import packaged_domains, parse, read_domain, syntax, text_of
 from tests.asp.reasoning.stories import CART
 from tests.asp.refinement.levels import level
 

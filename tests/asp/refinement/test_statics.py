@@ -2,8 +2,7 @@
 
 import pytest
 
-from asp.language import analyse, parse_description, read_domain
-from asp.language.loading import packaged_domains
+from asp.language import analyse, packaged_domains, parse_description, read_domain
 from asp.refinement import true_statics
 from tests.asp.reasoning.stories import CART
 from tests.asp.refinement.levels import level

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.language import (
+    Instances,
     Problems,
     Signature,
     arguments,
@@ -21,7 +22,6 @@ from asp.language import (
     signature_of,
     syntax,
 )
-from asp.language.instances import Instances
 from asp.refinement import (
     Refinement,
     Transition,
