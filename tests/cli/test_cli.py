@@ -46,7 +46,7 @@ def _trials(folder: str | Path) -> list[dict[str, object]]:
 
 def _untimed(folder: str | Path) -> list[dict[str, object]]:
     return [
-        {k: v for k, v in t.items() if not k.endswith(("_time_s", "_cpu_s"))}
+        {k: v for k, v in t.items() if not k.endswith(("_time_s", "_cpu_s")) and k != "crc32"}
         for t in _trials(folder)
     ]
 
