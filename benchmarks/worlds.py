@@ -7,8 +7,7 @@ from itertools import islice
 
 import numpy as np
 
-from agents.adversary.base import AdversaryView
-from agents.adversary.random import Random
+from agents.adversary import AdversaryView, Game, Random
 from asp.domains.levels import LEVELS, LevelSize, level_text
 from asp.language import name as name_of
 from asp.refinement import Refinement, load
@@ -73,7 +72,13 @@ def _steps(core: Core, twin: Core, steps: int) -> Iterator[float]:
 
     What is possible is asked of the twin, so that the core does not know it from before.
     """
-    adversary, choose = Random(core.world.exogenous_actions, _RATE), np.random.default_rng(1)
+    game = Game(
+        scenario="",
+        goal=(),
+        exogenous_actions=core.world.exogenous_actions,
+        description=core.world.description,
+    )
+    adversary, choose = Random(game, Random.Options(_RATE)), np.random.default_rng(1)
     for _ in range(steps):
         action = _possible(twin, core.situation.state, choose)
 

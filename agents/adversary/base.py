@@ -1,20 +1,40 @@
-"""What an adversary is: it sees everything, the robot's chosen action included."""
+"""What an adversary is, what it is told of a game, and what it sees at a step."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol
+
+from asp import Description
+
+Sight = Literal["state", "robot_action"]
+"""What a class of adversaries may declare to see, as its attribute `sees`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Game:
+    """What an adversary is told of a trial before it begins.
+
+    `goal` are the robot's literals, `exogenous_actions` the ground actions that the adversary has,
+    `description` the domain, at the coarse resolution.
+    """
+
+    scenario: str
+    goal: tuple[str, ...]
+    exogenous_actions: Sequence[str]
+    description: Description
 
 
 @dataclass(frozen=True)
 class AdversaryView:
     """What an adversary sees before it answers.
 
-    `state` are the true fluents, `robot_action` what the robot will attempt at this step, `legal`
-    what may be answered: `none`, and the exogenous actions possible beside the robot's. Where these
-    are many, asking whether one is legal is quick, and listing all is not. `physical`: whether the
-    robot's action is one that is to change the world, and not a mental action or a test.
+    `state` are the true fluents, `robot_action` what the robot will attempt at this step; without
+    the sight of it either is empty. `legal` is what may be answered: `none`, and the exogenous
+    actions possible beside the robot's. Where these are many, asking whether one is legal is quick,
+    and listing all is not. `physical`: whether the robot's action is one that is to change the
+    world, and not a mental action or a test; False without the sight of `robot_action`.
     """
 
     step: int
@@ -25,10 +45,19 @@ class AdversaryView:
 
 
 class Adversary(Protocol):
-    """One adversary over many trials."""
+    """One adversary over many trials.
+
+    A class that configurations name is made with a `Game` and with its options. It declares what
+    it `sees`, and as `Options`, if it has any, a dataclass with a field per key of
+    `adversary.options`.
+    """
+
+    @property
+    def sees(self) -> Sequence[Sight]:
+        """What `AdversaryView` is to hold beside the step and what is legal."""
 
     def reset(self, seed: int) -> None:
         """Begins a trial; everything drawn in it follows from the seed."""
 
     def act(self, view: AdversaryView) -> str:
-        """The answer at a step: `none` or a ground exogenous action."""
+        """The answer at a step: `none` or a ground exogenous action that is legal."""

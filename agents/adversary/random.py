@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from agents.adversary.base import AdversaryView
+from agents.adversary.base import AdversaryView, Game, Sight
 from asp.language import literals as text
 from testbed.environment import NONE
+
+RANDOM_RATE = 0.1
+"""Probability per step of a random event at the coarse resolution, unless given."""
 
 
 class Random:
@@ -18,13 +22,22 @@ class Random:
     done, then what is done. Only as many events are tried as it takes to find a legal one.
     """
 
-    def __init__(self, exogenous_actions: Sequence[str], rate: float) -> None:
-        """Raises ValueError for a rate that is no probability."""
-        if not 0 <= rate <= 1:
-            raise ValueError(f"rate: {rate} does not lie between 0 and 1")
-        self._rate = rate
+    @dataclass(frozen=True)
+    class Options:
+        """`rate`: probability per step. Raises ValueError for one that is none."""
+
+        rate: float = RANDOM_RATE
+
+        def __post_init__(self) -> None:
+            if not 0 <= self.rate <= 1:
+                raise ValueError(f"rate: {self.rate} does not lie between 0 and 1")
+
+    sees: Sequence[Sight] = ()
+
+    def __init__(self, game: Game, options: Options) -> None:
+        self._rate = options.rate
         groups: dict[tuple[str, ...], list[str]] = {}
-        for event in exogenous_actions:
+        for event in game.exogenous_actions:
             groups.setdefault(text.arguments(event)[:1], []).append(event)
         self._groups = list(groups.values())
         self.reset(0)

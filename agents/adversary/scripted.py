@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
-from agents.adversary.base import AdversaryView
-from asp import Description
+from agents.adversary.base import AdversaryView, Game, Sight
 from asp.language import Trigger
 from asp.language import literals as text
 from testbed.environment import NONE
@@ -26,12 +26,21 @@ class Triggered:
     robot waits.
     """
 
-    def __init__(self, description: Description, scenario: str) -> None:
+    @dataclass(frozen=True)
+    class Options:
+        """`rate`: probability per step that a trigger is tried; None: as the domain says."""
+
+        rate: float | None = None
+
+    sees: Sequence[Sight] = ("state", "robot_action")
+
+    def __init__(self, game: Game, options: Options) -> None:
         """Raises ValueError, naming the scenarios there are, for an unknown one."""
-        known = description.scenarios
-        if scenario not in known:
-            raise ValueError(f"no scenario {scenario}; there are {', '.join(known)}")
-        self._triggers = [t for t in description.triggers if t.scenario == scenario]
+        known = game.description.scenarios
+        if game.scenario not in known:
+            raise ValueError(f"no scenario {game.scenario}; there are {', '.join(known)}")
+        self._triggers = [t for t in game.description.triggers if t.scenario == game.scenario]
+        self._rate = options.rate
         self.reset(0)
 
     def reset(self, seed: int) -> None:
@@ -52,7 +61,7 @@ class Triggered:
         """The coin of a step. The triggers of a scenario that apply together share one."""
         if not triggers:
             return False
-        probability = triggers[0].probability
+        probability = triggers[0].probability if self._rate is None else self._rate
         return probability >= 1 or bool(self._random.random() < probability)
 
     def _choose(self, triggers: Sequence[Trigger], view: AdversaryView) -> str:
@@ -75,6 +84,8 @@ class Script:
     An impossible entry is played all the same, and the environment refuses it and says why; or it
     is skipped. `skipped` are the entries that were due at the last step and were not played.
     """
+
+    sees: Sequence[Sight] = ("robot_action",)
 
     def __init__(
         self,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from agents.adversary import RANDOM_RATE
 from asp.language import read_domain
 from testbed.config import (
-    RANDOM_RATE,
     ExperimentConfig,
     Observability,
     ScenarioSettings,
@@ -76,7 +76,12 @@ def _script(own: ScenarioSettings) -> object:
 
 def _events(config: ExperimentConfig) -> object:
     own = config.adversary
-    return own.strategy or ("random" if config.is_fine else "triggers"), own.rate, own.pace
+    return (
+        own.strategy or ("random" if config.is_fine else "triggers"),
+        own.rate,
+        own.options,
+        own.pace,
+    )
 
 
 def _limits(config: ExperimentConfig) -> dict[str, object]:
@@ -115,11 +120,14 @@ def _strategy(config: ExperimentConfig, own: ScenarioSettings) -> str:
     rate = config.adversary.rate
     if own.script is not None:
         return "exogenous actions by script" if own.script else "no exogenous actions"
-    if config.is_fine:
-        return _random(rate or 0.0)
-    if config.has_random_events:
-        return _random(RANDOM_RATE if rate is None else rate)
-    return "exogenous actions by triggers" + ("" if rate is None else f" at rate {rate}")
+    at_rate = "" if rate is None else f" at rate {rate}"
+    if config.plays_triggers:
+        return f"exogenous actions by triggers{at_rate}"
+    if config.adversary.strategy in (None, "random"):
+        by_default = 0.0 if config.is_fine else RANDOM_RATE
+        return _random(by_default if rate is None else rate)
+    options = "".join(f", {name} {value}" for name, value in config.adversary.options.items())
+    return f"exogenous actions by {config.adversary.strategy}{at_rate}{options}"
 
 
 def _random(rate: float) -> str:

@@ -71,7 +71,7 @@ def eventful(config: ExperimentConfig) -> frozenset[str]:
         return frozenset()
     triggers = load_world(config.domain).description.triggers
     certain = {trigger.scenario for trigger in triggers if trigger.probability == CERTAIN}
-    sure: set[str] = set() if config.has_random_events else certain
+    sure: set[str] = certain if config.plays_triggers else set()
     scripts = {name: config.settings(name).script for name in config.scenarios}
     return frozenset(
         n for n, script in scripts.items() if (n in sure if script is None else script)

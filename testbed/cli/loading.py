@@ -1,4 +1,4 @@
-"""Configurations that may be run here: with the robots that there are."""
+"""Configurations that may be run here: with the robots and the adversaries that there are."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.adversaries import adversary_findings
 from testbed.experiment.provenance import modules_of
 from testbed.experiment.robots import robot_findings
-from testbed.registry import search_last
+from testbed.registry import search_as_told, search_last
 
-CHECKS = (robot_findings,)
+CHECKS = (robot_findings, adversary_findings)
 """Of what a configuration calls by name."""
 
 
@@ -21,6 +22,8 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
     """
     if Path(source).is_file():
         search_beside(Path(source))
+    else:
+        search_as_told()
     return load_config(source, overrides, CHECKS)
 
 

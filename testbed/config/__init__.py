@@ -14,7 +14,7 @@ from testbed.config.levels import (
 from testbed.config.loading import config_names, find_config, load_config
 from testbed.config.models import (
     JUDGE_STATES,
-    RANDOM_RATE,
+    TRIGGERS,
     AdversarySettings,
     ExperimentConfig,
     Limits,
@@ -28,8 +28,8 @@ from testbed.config.scenarios import early_script_findings
 
 __all__ = [
     "JUDGE_STATES",
-    "RANDOM_RATE",
     "SCENARIO_KEYS",
+    "TRIGGERS",
     "AdversarySettings",
     "Check",
     "ConfigError",

@@ -11,7 +11,7 @@ from pathlib import Path
 from asp.domains.levels import LEVELS, LevelSize, level_text
 from asp.language import Signature, atom, literals, read_domain, suggestion
 from asp.refinement import Refinement, load, read_refinement, refined_name
-from testbed.config.models import Drawing, ExperimentConfig
+from testbed.config.models import TRIGGERS, Drawing, ExperimentConfig
 from testbed.config.places import NO_ROBOT, Finding, Key, unknown_atom
 from testbed.config.scenarios import moment_findings
 from testbed.world import StateError, world_of
@@ -81,7 +81,7 @@ def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:
         yield ("levels",), "goes with no refinement, which is a level of its own; give one of them"
     elif config.levels and config.domain != ExperimentConfig.model_fields["domain"].default:
         yield ("domain",), "goes with no levels, which are made; with a domain give its refinement"
-    if config.adversary.strategy == "triggers":
+    if config.adversary.strategy == TRIGGERS:
         yield ("adversary", "strategy"), "triggers belong to scenarios; at levels events are random"
     yield from _names(config)
     yield from _sizes(config)

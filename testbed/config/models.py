@@ -15,7 +15,6 @@ from testbed import environment
 from testbed.protocol import Knowledge
 
 LinkKind = Literal["zenoh", "inprocess"]
-Strategy = Literal["triggers", "random"]
 Pace = Literal["concrete", "abstract"]
 ScriptPolicy = Literal["error", "skip"]
 Protocol = Literal["table1", "levels"]
@@ -28,6 +27,8 @@ MOST = 2**31 - 1
 LARGEST_SEED = 2**63 - 1
 LONGEST_S = 31_536_000.0
 """The longest time: a year, which every clock and timer can measure."""
+TRIGGERS = "triggers"
+"""The strategy of an adversary that plays the domain's triggers."""
 NONE = "none"
 """The scenario in which nothing exogenous happens, unless the domain has one of this name."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
@@ -128,20 +129,18 @@ class Limits(Section):
 class AdversarySettings(Section):
     """What others do, and when.
 
-    `strategy`: the domain's `triggers`, or `random` events; absent: triggers in scenarios, random
-    at levels. `rate`: probability a step that a trigger fires, absent: as the domain states it;
-    or that a random event happens, absent: `RANDOM_RATE`, at levels never. `pace`: at the fine
-    resolution, at each `concrete` action or only at those that change what holds at the coarse one
-    (`abstract`).
+    `strategy`: the domain's `triggers`, `random` events, or an adversary of one's own; absent:
+    triggers in scenarios, random at levels. `rate`: probability per step that a trigger fires,
+    absent: as the domain states it; or that a random event happens, absent: 0.1, at levels 0; of
+    others what they take it for. `options` are those that the strategy declares. `pace`: at the
+    fine resolution, at each `concrete` action or only at those that change what holds at the coarse
+    one (`abstract`).
     """
 
-    strategy: Strategy | None = None
+    strategy: Name | None = None
+    options: dict[str, Any] = Field(default_factory=dict)
     rate: Probability | None = None
     pace: Pace = "concrete"
-
-
-RANDOM_RATE = 0.1
-"""Probability a step of a random event at the coarse resolution, unless given."""
 
 
 class LevelSettings(Section):
@@ -240,9 +239,9 @@ class ExperimentConfig(Section):
         return bool(self.levels) or self.refinement is not None
 
     @property
-    def has_random_events(self) -> bool:
-        """Whether scenarios without a script have random events in place of triggers."""
-        return not self.is_fine and self.adversary.strategy == "random"
+    def plays_triggers(self) -> bool:
+        """Whether in scenarios without a script the domain's triggers are played."""
+        return not self.is_fine and self.adversary.strategy in (None, TRIGGERS)
 
     @property
     def gives_goal_feedback(self) -> bool:

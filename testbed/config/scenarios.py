@@ -9,21 +9,24 @@ from asp.language import suggestion
 from testbed.config.models import NONE, ExperimentConfig, ScenarioSettings, ScriptEntry
 from testbed.config.places import Finding, Key, unknown_atom
 
-SCRIPT, RANDOM = "script", "random"
-"""Names of the one scenario of a run without scenarios that has a script, or random events."""
+SCRIPT = "script"
+"""Name of the one scenario of a run without scenarios that has a script."""
 
 
 def scenarios_of(config: ExperimentConfig, known: tuple[str, ...]) -> tuple[str, ...]:
     """The scenarios that are played: those given, or what there is to play in a domain.
 
-    `known` are the domain's. Where there is neither a script nor a random event nor a scenario of
-    the domain, nothing exogenous happens.
+    `known` are the domain's. Where an adversary takes the place of triggers the one scenario is
+    called as it is. Where there is neither a script nor such an adversary nor a scenario of the
+    domain, nothing exogenous happens.
     """
     if config.scenarios:
         return config.scenarios
     if config.script is not None:
         return (SCRIPT,)
-    return (RANDOM,) if config.has_random_events else known or (NONE,)
+    if config.adversary.strategy is not None and not config.plays_triggers:
+        return (config.adversary.strategy,)
+    return known or (NONE,)
 
 
 def with_scenarios(config: ExperimentConfig, known: tuple[str, ...]) -> ExperimentConfig:
@@ -51,7 +54,7 @@ def scenario_findings(config: ExperimentConfig, known: tuple[str, ...]) -> Itera
 def _is_played(name: str, config: ExperimentConfig, known: Collection[str]) -> bool:
     """Whether something says what happens in a scenario: its triggers, a script, or chance."""
     scripted = config.settings(name).script is not None
-    return scripted or config.has_random_events or name in known
+    return scripted or not config.plays_triggers or name in known
 
 
 def _what_is_known(name: str, known: Collection[str]) -> str:

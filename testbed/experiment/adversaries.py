@@ -1,36 +1,152 @@
-"""The adversary of a trial: an explicit script, random events, or the scenario's triggers."""
+"""The adversaries that can be asked for, their options, and the one that plays a trial."""
 
 from __future__ import annotations
 
-import dataclasses
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any, Protocol, TypeVar, get_args
 
-from agents.adversary.base import Adversary, AdversaryView
-from agents.adversary.random import Random
-from agents.adversary.scripted import Script, Triggered
-from asp import Description
-from testbed.config import RANDOM_RATE
-from testbed.experiment.specs import Setting, TrialSpec
+import msgspec
 
-__all__ = ["Adversary", "AdversaryView", "make_adversary"]
+from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
+from asp.language import suggestion
+from testbed.config import ExperimentConfig, Finding
+from testbed.experiment.specs import Setting
+from testbed.link import in_one_line
+from testbed.registry import Registry, RegistryError, class_fault
 
-
-def make_adversary(spec: TrialSpec, description: Description) -> Adversary:
-    """The adversary that plays a trial. Raises ValueError for an unknown scenario."""
-    if spec.setting.script is not None:
-        return script_of(spec.setting)
-    if spec.setting.random_events:
-        rate = RANDOM_RATE if spec.setting.rate is None else spec.setting.rate
-        return Random(description.exogenous_actions, rate)
-    return Triggered(_at_rate(description, spec.setting.rate), spec.scenario)
+T = TypeVar("T")
+SIGHTS = get_args(Sight)
+RATE = "rate"
+"""The option that is a key of its own in configurations."""
 
 
-def script_of(setting: Setting) -> Script:
-    """The script of a setting, which has one."""
-    return Script(setting.script or (), setting.script_at_actions, setting.script_skips)
+class AdversaryClass(Protocol):
+    """The class of an adversary, with what it declares; `Options` may be missing."""
+
+    sees: Sequence[Sight]
+    Options: type
+
+    def __call__(self, game: Game, options: Any) -> Adversary: ...
 
 
-def _at_rate(description: Description, rate: float | None) -> Description:
-    if rate is None:
-        return description
-    triggers = tuple(dataclasses.replace(t, probability=rate) for t in description.triggers)
-    return dataclasses.replace(description, triggers=triggers)
+class AdversaryError(RuntimeError):
+    """What an adversary of a user's did wrong: one line that names it."""
+
+
+def _fault(found: Any) -> str | None:
+    fault = class_fault(found, "reset", "act", arguments=2)
+    sees = getattr(found, "sees", None)
+    if fault is None and not (isinstance(sees, tuple) and set(sees) <= set(SIGHTS)):
+        return f"should declare sees, a tuple with some of {', '.join(SIGHTS)}, or with none"
+    if fault is None and not is_dataclass(getattr(found, "Options", _NoOptions)):
+        return "has Options that are no dataclass"
+    return fault
+
+
+@dataclass(frozen=True)
+class _NoOptions:
+    """Of an adversary that declares none."""
+
+
+ADVERSARIES: Registry[AdversaryClass] = Registry(
+    "adversary",
+    "intention_testbed.adversaries",
+    {
+        "triggers": "agents.adversary.scripted:Triggered",
+        "random": "agents.adversary.random:Random",
+    },
+    _fault,
+)
+
+
+class OptionError(ValueError):
+    """An option that an adversary does not take: `name` says which, None where one is missing."""
+
+    def __init__(self, name: str | None, why: str) -> None:
+        super().__init__(why)
+        self.name = name
+
+
+def make_adversary(setting: Setting, game: Game) -> Adversary:
+    """The adversary of a trial: the script that is given, else the strategy.
+
+    Raises:
+        RegistryError: where there is no such strategy.
+        OptionError: for options that it does not take.
+        ValueError: for a scenario that the strategy does not know.
+    """
+    if setting.script is not None:
+        return Script(setting.script, setting.script_at_actions, setting.script_skips)
+    fine = setting.fine is not None
+    name = setting.strategy or default_strategy(fine)
+    found, given = ADVERSARIES.find(name), dict(setting.options or {})
+    if setting.rate is not None:
+        given[RATE] = setting.rate
+    elif setting.strategy is None and fine:
+        given[RATE] = 0.0
+    return _Named(name, lambda: found(game, options_of(found, given)))
+
+
+def default_strategy(fine: bool) -> str:
+    """The strategy of a configuration that gives none."""
+    return "random" if fine else "triggers"
+
+
+def options_of(found: AdversaryClass, given: Mapping[str, object]) -> object:
+    """The options that an adversary is made with. Raises OptionError."""
+    declared = getattr(found, "Options", _NoOptions)
+    known = [field.name for field in fields(declared)]
+    for name in given:
+        if name not in known:
+            raise OptionError(name, f"no such option; {suggestion(name, known)}")
+    try:
+        return msgspec.convert(dict(given), declared)
+    except msgspec.ValidationError as error:
+        why, _, place = str(error).replace("`", "").partition(" - at $")
+        raise OptionError(re.split(r"[.\[]", place.lstrip("."))[0] or None, why) from None
+
+
+def adversary_findings(config: ExperimentConfig) -> Iterator[Finding]:
+    """A strategy that there is not, and options that it does not take."""
+    own = config.adversary
+    strategy = own.strategy or default_strategy(config.is_fine)
+    given = dict(own.options)
+    if RATE in given:
+        yield ("adversary", "options", RATE), "is a key of its own; give adversary.rate"
+    elif own.rate is not None:
+        given[RATE] = own.rate
+    try:
+        options_of(ADVERSARIES.find(strategy), given)
+    except RegistryError as error:
+        yield ("adversary", "strategy"), str(error)
+    except OptionError as error:
+        where = (RATE,) if error.name == RATE else ("options", *filter(None, [error.name]))
+        yield ("adversary", *where), f"{error} (of {strategy})"
+
+
+class _Named:
+    """An adversary whose errors name it."""
+
+    def __init__(self, name: str, make: Callable[[], Adversary]) -> None:
+        self._name = name
+        self._adversary = self._asked(make)
+        self.sees = self._adversary.sees
+
+    def reset(self, seed: int) -> None:
+        """Begins a trial. Raises AdversaryError."""
+        self._asked(lambda: self._adversary.reset(seed))
+
+    def act(self, view: AdversaryView) -> str:
+        """The answer at a step. Raises AdversaryError, also for one that is no text."""
+        answer: object = self._asked(lambda: self._adversary.act(view))
+        if not isinstance(answer, str):
+            raise AdversaryError(f"{self._name} answered {answer!r}, which is not an action")
+        return answer
+
+    def _asked(self, call: Callable[[], T]) -> T:
+        try:
+            return call()
+        except Exception as error:  # whatever it is, it is the adversary's
+            raise AdversaryError(f"{self._name}: {in_one_line(error)}") from error

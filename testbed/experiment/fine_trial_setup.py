@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from agents.adversary.base import Adversary
-from agents.adversary.random import Random
+from agents.adversary import Adversary, Game
 from asp.language import arguments, complement
 from testbed.config import Ground
 from testbed.environment import Core, fine_core
-from testbed.experiment.adversaries import script_of
+from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.game_rules import known, rules_of
 from testbed.experiment.judge import Judge
 from testbed.experiment.oracle import Oracle
@@ -41,10 +40,14 @@ class FineStage:
         return fine_core(self._refinement, rules_of(setting), fine.statistics, pace=fine.pace)
 
     def adversary(self, spec: TrialSpec) -> Adversary:
-        """Random events at the setting's rate, or the script."""
-        if spec.setting.script is not None:
-            return script_of(spec.setting)
-        return Random(self._world.exogenous_actions, spec.setting.rate or 0.0)
+        """The script, or the strategy that the setting has."""
+        game = Game(
+            scenario=spec.scenario,
+            goal=spec.setting.goal,
+            exogenous_actions=self._world.exogenous_actions,
+            description=self._refinement.description,
+        )
+        return make_adversary(spec.setting, game)
 
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
         """Of the fine initial state the robot is told what holds of itself."""

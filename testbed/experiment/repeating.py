@@ -23,7 +23,7 @@ def repeats_of(config: ExperimentConfig, scenario: str, description: Description
 
 def _events_are_drawn(config: ExperimentConfig, triggers: Sequence[Trigger]) -> bool:
     rate = config.adversary.rate
-    if config.has_random_events:
+    if not config.plays_triggers:
         return rate != 0
     return any(t.drawn or _open(t.probability if rate is None else rate) for t in triggers)
 

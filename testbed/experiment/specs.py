@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import msgspec
 import numpy as np
 
 from asp.domains.levels import LevelSize
-from testbed.config import JUDGE_STATES, ExperimentConfig, Pace, ScriptEntry
+from testbed.config import JUDGE_STATES, TRIGGERS, ExperimentConfig, Pace, ScriptEntry
 from testbed.environment import Observability
 from testbed.protocol import Knowledge
 
@@ -34,9 +35,10 @@ class FineSetting(msgspec.Struct, frozen=True, kw_only=True):
 class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What holds in every trial of one scenario, or at one level, of a configuration.
 
-    `script` is `((step, action), ...)`, or None for the scenario's triggers, or for random events
-    in place of them; `script_at_actions` has numbers of the robot's physical actions in place of
-    steps. `observability` is by the name of the exogenous action.
+    `script` is `((step, action), ...)`, or None for the `strategy` of an adversary, None being the
+    scenario's triggers, at levels random events; `script_at_actions` has numbers of the
+    robot's physical actions in place of steps. `observability` is by the name of the exogenous
+    action.
     """
 
     domain: str
@@ -54,7 +56,8 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     ground_rules: int | None
     expansions: int | None
     fine: FineSetting | None = None
-    random_events: bool = False
+    strategy: str | None = None
+    options: dict[str, Any] | None = None
     judge_states: int = JUDGE_STATES
     script_at_actions: tuple[tuple[int, str], ...] = ()
     script_skips: bool = False
@@ -93,11 +96,18 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         conflicts=config.limits.conflicts,
         ground_rules=config.limits.ground_rules,
         expansions=config.limits.expansions,
-        random_events=config.has_random_events,
+        strategy=_strategy(config),
+        options=config.adversary.options or None,
         judge_states=config.limits.judge_states,
         script_at_actions=_numbered(own.script or (), "at_action"),
         script_skips=config.script_policy == "skip",
     )
+
+
+def _strategy(config: ExperimentConfig) -> str | None:
+    """The adversary's strategy; None for that by default, whether or not it is given."""
+    by_default = "random" if config.is_fine else TRIGGERS
+    return None if config.adversary.strategy == by_default else config.adversary.strategy
 
 
 def _numbered(script: Sequence[ScriptEntry], key: str) -> tuple[tuple[int, str], ...]:
@@ -152,7 +162,10 @@ def _without_files(setting: Setting, domain: str) -> object:
     )
     defaults = {field.name: field.default for field in msgspec.structs.fields(Setting)}
     # msgspec omits a default that is the same object, which an equal number need not be.
-    return {name: value for name, value in values.items() if value != defaults[name]}
+    given = {name: value for name, value in values.items() if value != defaults[name]}
+    if given.get("strategy") == "random":  # ids are older than other strategies
+        given["random_events"] = bool(given.pop("strategy"))
+    return given
 
 
 def generator_of(root: int, path: object) -> np.random.Generator:

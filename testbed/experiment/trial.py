@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import msgspec
 import numpy as np
 
-from agents.adversary.scripted import Script
+from agents.adversary import Adversary, AdversaryView, Script, Sight
 from testbed.environment import NONE, Core, IllegalActionError
-from testbed.experiment.adversaries import Adversary, AdversaryView
 from testbed.experiment.record import check
 from testbed.experiment.recorder import Recorder, Result, recorder_of
 from testbed.experiment.specs import TrialSpec
@@ -118,7 +117,7 @@ def _step(
     decision = client.ask(percept)
     if decision.action not in core.robot_actions:
         raise RobotLost(f"answered '{decision.action}', which is not an action")
-    event = adversary.act(_view(core, decision.action))
+    event = adversary.act(_view(core, decision.action, adversary.sees))
     skipped = adversary.skipped if isinstance(adversary, Script) else ()
     for impossible in skipped:
         why = core.why_not(decision.action, impossible) or f"beside {event}"
@@ -134,14 +133,14 @@ def _step(
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state, skipped)
 
 
-def _view(core: Core, robot_action: str) -> AdversaryView:
-    now = core.situation
+def _view(core: Core, robot_action: str, sees: Sequence[Sight]) -> AdversaryView:
+    now, sees_action = core.situation, "robot_action" in sees
     return AdversaryView(
         step=now.step,
-        state=frozenset(core.world.true_atoms(now.state)),
-        robot_action=robot_action,
+        state=frozenset(core.world.true_atoms(now.state) if "state" in sees else ()),
+        robot_action=robot_action if sees_action else "",
         legal=core.legal_events(robot_action),
-        physical=core.is_physical(robot_action),
+        physical=sees_action and core.is_physical(robot_action),
     )
 
 

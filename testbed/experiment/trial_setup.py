@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Protocol
 
-from agents.adversary.base import Adversary
+from agents.adversary import Adversary, Game
 from testbed.config import Ground, ground_of_files, ground_of_size
 from testbed.environment import Core
 from testbed.experiment.adversaries import make_adversary
@@ -57,8 +57,15 @@ class CoarseStage:
         return Core(self._world, rules_of(setting), ())
 
     def adversary(self, spec: TrialSpec) -> Adversary:
-        """The scenario's triggers, or the script."""
-        return make_adversary(spec, self._world.description)
+        """The script, or the strategy that the setting has."""
+        description = self._world.description
+        game = Game(
+            scenario=spec.scenario,
+            goal=spec.setting.goal,
+            exogenous_actions=description.exogenous_actions,
+            description=description,
+        )
+        return make_adversary(spec.setting, game)
 
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
         """Of the initial state the robot is told what the setting says that it knows."""

@@ -176,7 +176,7 @@ def _published(analysis: Analysis) -> dict[str, Any]:
 
 def _trials(folder: Path, config: ExperimentConfig) -> dict[str, Any]:
     source = reversed(read_domain(config.domain))
-    told = list(chapters(folder, {} if config.has_random_events else scenario_notes(*source)))
+    told = list(chapters(folder, scenario_notes(*source) if config.plays_triggers else {}))
     return {
         "accounts": accounts_of(read_records(folder)),
         "slowest": slowest(read_records(folder), folder),

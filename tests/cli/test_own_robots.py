@@ -66,7 +66,6 @@ def _own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     monkeypatch.setenv(PATH_VARIABLE, "")
     monkeypatch.setattr(sys, "path", list(sys.path))
-    monkeypatch.setattr(sys, "modules", dict(sys.modules))
     beside = tmp_path / "beside"
     beside.mkdir()
     (beside / "pots.al").write_text(GREENHOUSE, encoding="utf-8")

@@ -81,7 +81,7 @@ def released_weights(run: Run, mind: str) -> dict[str, float]:
 
 def _is_redrawable(config: ExperimentConfig) -> bool:
     own = config.settings(RANDOM)
-    by_triggers = own.script is None and config.adversary.strategy != "random"
+    by_triggers = own.script is None and config.plays_triggers
     return by_triggers and not (own.exogenous_while_thinking or config.is_fine)
 
 

@@ -5,13 +5,22 @@ from collections.abc import Sequence
 
 import pytest
 
-from agents.adversary.base import AdversaryView
-from agents.adversary.random import Random
+from agents.adversary import AdversaryView, Game, Random
+from asp import parse_description
 from asp.domains.levels import level_text
 from asp.refinement import load
 from testbed.environment import FINISH, NONE, Rules, fine_core
+from tests.greenhouse import GREENHOUSE
 
 EVENTS = [f"take({thing},{place})" for thing in "abc" for place in "wxyz"]
+
+
+NOWHERE = parse_description(GREENHOUSE, "pots.al")
+
+
+def at_rate(rate: float, events: Sequence[str] = EVENTS) -> Random:
+    game = Game(scenario="", goal=(), exogenous_actions=events, description=NOWHERE)
+    return Random(game, Random.Options(rate))
 
 
 def view(legal: Sequence[str]) -> AdversaryView:
@@ -19,15 +28,15 @@ def view(legal: Sequence[str]) -> AdversaryView:
 
 
 def test_it_acts_as_often_as_its_rate_says() -> None:
-    adversary = Random(EVENTS, 0.05)
+    adversary = at_rate(0.05)
     acts = sum(adversary.act(view([NONE, *EVENTS])) != NONE for _ in range(4000))
     # 4000 draws at 0.05 have a standard deviation of 14.
     assert acts == pytest.approx(200, abs=70)
-    assert all(Random(EVENTS, 0.0).act(view(EVENTS)) == NONE for _ in range(50))
+    assert all(at_rate(0.0).act(view(EVENTS)) == NONE for _ in range(50))
 
 
 def test_it_draws_a_thing_first_and_then_what_is_done_to_it() -> None:
-    adversary = Random(EVENTS, 1.0)
+    adversary = at_rate(1.0)
     legal = [NONE, "take(a,w)", "take(c,w)", "take(c,x)", "take(c,y)"]
     drawn = Counter(adversary.act(view(legal)) for _ in range(3000))
     # a and c alike, whatever can be done to them; of each as many draws at 1/2, 1/6.
@@ -38,11 +47,11 @@ def test_it_draws_a_thing_first_and_then_what_is_done_to_it() -> None:
 
 
 def test_where_nothing_is_possible_nothing_happens() -> None:
-    assert Random(EVENTS, 1.0).act(view([NONE])) == NONE
+    assert at_rate(1.0).act(view([NONE])) == NONE
 
 
 def test_everything_follows_from_the_seed() -> None:
-    one, other = Random(EVENTS, 0.5), Random(EVENTS, 0.5)
+    one, other = at_rate(0.5), at_rate(0.5)
     runs = []
     for seed in range(5):
         one.reset(seed)
@@ -54,14 +63,14 @@ def test_everything_follows_from_the_seed() -> None:
 
 def test_a_rate_that_is_no_probability_is_refused() -> None:
     with pytest.raises(ValueError, match=r"rate: 1\.2 does not lie between 0 and 1"):
-        Random(EVENTS, 1.2)
+        at_rate(1.2)
 
 
 def test_what_it_does_in_a_game_is_legal_and_tried_only_until_something_is() -> None:
     coarse, fine = level_text(3, 2, 2, ((4, 2),))
     core = fine_core(load(coarse, "level.al", fine, "level.fine"), Rules(goal=(), steps=10**6))
     core.reset(3)
-    adversary = Random(core.world.exogenous_actions, 1.0)
+    adversary = at_rate(1.0, core.world.exogenous_actions)
     asked: list[str] = []
     for number in range(60):
         action = core.robot_actions[2 + number % (len(core.robot_actions) - 2)]

@@ -2,8 +2,7 @@
 
 import pytest
 
-from agents.adversary.base import AdversaryView
-from agents.adversary.scripted import Script, Triggered
+from agents.adversary import AdversaryView, Game, Script, Triggered
 from asp import load_description
 from asp.language import literals as text
 from testbed.environment import FINISH, NONE, WAIT, Core, Rules
@@ -12,6 +11,13 @@ from testbed.world import world_of
 BOOKS, ROOMS = ("book1", "book2"), ("kitchen", "office1", "office2", "library")
 SCENARIOS = ("2", "3", "4", "5", "6", "random")
 WORLD = world_of(load_description("office"))
+
+
+def triggered(scenario: str) -> Triggered:
+    description = WORLD.description
+    actions = description.exogenous_actions
+    game = Game(scenario=scenario, goal=(), exogenous_actions=actions, description=description)
+    return Triggered(game, Triggered.Options())
 
 
 def view(core: Core, robot_action: str) -> AdversaryView:
@@ -23,7 +29,7 @@ def asked(scenario: str, initial: list[str], action: str, seed: int = 0) -> str:
     """The adversary's answer beside the robot's first action."""
     core = Core(WORLD, Rules(goal=()), ())
     core.reset(seed=0, initial=initial)
-    adversary = Triggered(WORLD.description, scenario)
+    adversary = triggered(scenario)
     adversary.reset(seed)
     return adversary.act(view(core, action))
 
@@ -110,7 +116,7 @@ def waited(scenario: str, thinking: bool, robot_action: str = WAIT) -> set[str]:
     """Every answer over many seeds beside a robot that thinks in the library."""
     core = Core(WORLD, Rules(goal=(), exogenous_while_thinking=thinking), ())
     core.reset(seed=0, initial=DELIVERS_2)
-    adversary, found = Triggered(WORLD.description, scenario), set()
+    adversary, found = triggered(scenario), set()
     for seed in range(60):
         adversary.reset(seed)
         found.add(adversary.act(view(core, robot_action)))
@@ -143,7 +149,7 @@ def test_nothing_happens_at_steps_that_the_rules_close(scenario: str) -> None:
 def test_a_closed_step_draws_nothing() -> None:
     core = Core(WORLD, Rules(goal=()), ())
     core.reset(seed=0, initial=DELIVERS_1)
-    adversary = Triggered(WORLD.description, "random")
+    adversary = triggered("random")
     for seed in range(40):
         adversary.reset(seed)
         assert adversary.act(view(core, WAIT)) == NONE
@@ -157,7 +163,7 @@ def test_at_most_one_legal_event_a_trial_and_the_same_for_the_same_seed(scenario
     core = Core(WORLD, Rules(goal=(), steps=30), WORLD.initial_states())
     fired = 0
     for seed in range(60):
-        played = [walk(core, Triggered(WORLD.description, scenario), seed) for _ in range(2)]
+        played = [walk(core, triggered(scenario), seed) for _ in range(2)]
         assert played[0] == played[1]
         assert len(played[0]) <= 1
         fired += len(played[0])
@@ -182,7 +188,7 @@ def walk(core: Core, adversary: Triggered, seed: int) -> list[tuple[int, str]]:
 def test_a_reset_lets_it_fire_again() -> None:
     core = Core(WORLD, Rules(goal=()), ())
     core.reset(seed=0, initial=HOLDS_1)
-    adversary = Triggered(WORLD.description, "6")
+    adversary = triggered("6")
     asks = view(core, "move(rob1,library)")
     adversary.reset(0)
     assert [adversary.act(asks), adversary.act(asks)] == ["exo_lock(library)", NONE]
@@ -202,7 +208,7 @@ def test_the_random_event_comes_with_the_stated_probability() -> None:
 
 def test_an_unknown_scenario_names_the_known_ones() -> None:
     with pytest.raises(ValueError, match=r"no scenario 7; there are 1, 2, 3, 4, 5, 6, random"):
-        Triggered(WORLD.description, "7")
+        triggered("7")
 
 
 def test_a_script_plays_its_entries_at_their_steps() -> None:

@@ -4,8 +4,7 @@ from collections import Counter
 
 import pytest
 
-from agents.adversary.base import AdversaryView
-from agents.adversary.scripted import Triggered
+from agents.adversary import AdversaryView, Game, Triggered
 from testbed.environment import NONE
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Attempt, Occurrence
@@ -86,7 +85,11 @@ def test_what_is_stated_is_what_the_adversary_draws(literals: list[str], action:
     state = WORLD.state(literals)
     events = [e for e in WORLD.exogenous_actions if WORLD.executable(state, [action, e])]
     view = AdversaryView(1, frozenset(WORLD.true_atoms(state)), action, [NONE, *events])
-    adversary, drawn = Triggered(WORLD.description, "random"), Counter[str]()
+    actions, drawn = WORLD.exogenous_actions, Counter[str]()
+    game = Game(
+        scenario="random", goal=(), exogenous_actions=actions, description=WORLD.description
+    )
+    adversary = Triggered(game, Triggered.Options())
     for seed in range(4000):
         adversary.reset(seed)
         drawn[adversary.act(view)] += 1

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from agents.adversary.base import AdversaryView
-from agents.adversary.random import Random
+from agents.adversary import AdversaryView, Game, Random
 from agents.intentional.refined import EitherRobot
 from asp.domains.levels import LEVELS, level_text
 from asp.language import complement, read_domain
@@ -45,7 +44,13 @@ def trial(
     rules = Rules(tuple(goal), steps=1500, observability=TOLD if told else {})
     core = fine_core(refinement, rules, STATISTICS, initial=[state])
     core.reset(seed=seed, trial="trial")
-    adversary = Random(world.exogenous_actions, rate)
+    game = Game(
+        scenario="",
+        goal=tuple(goal),
+        exogenous_actions=world.exogenous_actions,
+        description=refinement.description,
+    )
+    adversary = Random(game, Random.Options(rate))
     adversary.reset(seed)
     robot = EitherRobot(zooms=zooms)
     robot.begin(
