@@ -1,0 +1,42 @@
+"""The examples run as a user would run them: from elsewhere, by their paths."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+def _records(tmp_path: Path, name: str, *overrides: str) -> Iterator[dict[str, Any]]:
+    command = [sys.executable, "-P", "-m", "testbed", "run", str(EXAMPLES / name), *overrides]
+    done = subprocess.run(
+        [*command, "--out", "run", "--workers", "1"],
+        cwd=tmp_path,
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "run" / "report.html").is_file()
+    lines = (tmp_path / "run" / "trials.jsonl").read_text(encoding="utf-8").splitlines()
+    return map(json.loads, lines)
+
+
+def test_the_robot_plays_beside_the_built_in_ones(tmp_path: Path) -> None:
+    played = {r["robot"]: r for r in _records(tmp_path, "custom_robot.yaml", "repeats=1")}
+    assert played.keys() == {"custom_robot:Replanner", "intentional", "traditional"}
+    own = played["custom_robot:Replanner"]
+    assert own["outcome"] == "achieved", "it sees everything, and always has a plan"
+    assert own["action_count"] >= own["minimal_actions"] > 0
+
+
+def test_the_adversary_spoils_as_often_as_its_options_say(tmp_path: Path) -> None:
+    twice = ["repeats=1", "robots=[intentional]", "adversary.options.times=2"]
+    (record,) = _records(tmp_path, "custom_adversary.yaml", *twice)
+    assert record["outcome"] == "achieved"
+    events = record["exogenous"]
+    assert len(events) == 2
+    assert all(event["step"] >= 2 and event["action"].startswith("haul(") for event in events)
