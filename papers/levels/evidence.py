@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import fmean, median
 
-from testbed.experiment.specs import playing_order
+from testbed.experiment.seeds import playing_order
 from testbed.studies.levels.comparing import Line
 from testbed.studies.levels.pairing import MEETINGS, Meeting, Pair
 from testbed.studies.levels.published import ZOOM, Paper

@@ -9,11 +9,11 @@ import msgspec
 
 from testbed.config import ExperimentConfig, grounds, level_size
 from testbed.experiment.drawing import Drawing
+from testbed.experiment.seeds import generator_of
 from testbed.experiment.specs import (
     FineSetting,
     Setting,
     TrialSpec,
-    generator_of,
     pair_specs,
     setting_of,
 )

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-import numpy as np
-
+from asp.language import Description, Trigger
 from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
 from testbed.experiment.level_plan import level_specs
 from testbed.experiment.record import COARSE
-from testbed.experiment.repeating import repeats_of
-from testbed.experiment.specs import TrialSpec, pair_specs, seed_words, setting_of
+from testbed.experiment.seeds import drawn_part
+from testbed.experiment.specs import TrialSpec, pair_specs, setting_of
 from testbed.world import World
 
 __all__ = ["TrialSpec", "plan_trials", "planned_trials"]
@@ -53,18 +52,9 @@ def _starts(
     given = config.settings(scenario).initial
     states = world.initial_states() if given is None else [world.state(given)]
     atoms = [tuple(sorted(world.true_atoms(state))) for state in states]
-    repeats = repeats_of(config, scenario, world.description)
-    drawn = _drawn(len(atoms) * repeats, config, scenario)
+    repeats = _repeats(config, scenario, world.description)
+    drawn = drawn_part(len(atoms) * repeats, config.limit, config.seed, scenario)
     return ((atoms[index // repeats], index % repeats) for index in drawn)
-
-
-def _drawn(count: int, config: ExperimentConfig, scenario: str) -> Sequence[int]:
-    """Which of `count` pairs to play: a smaller limit draws a part of what a larger one does."""
-    if config.limit is None or config.limit >= count:
-        return range(count)
-    sequence = np.random.SeedSequence(config.seed, spawn_key=seed_words(["limit", scenario]))
-    order = np.random.default_rng(sequence).permutation(count)
-    return sorted(int(index) for index in order[: config.limit])
 
 
 def _pair(
@@ -80,3 +70,32 @@ def _pair(
         *([repeat] * (repeat > 0)),
     ]
     return pair_specs(config, scenario, COARSE, path, initial, setting, domain)
+
+
+def _repeats(config: ExperimentConfig, scenario: str, description: Description) -> int:
+    """Pairs from each initial state of a scenario.
+
+    What others do, and what the robot is told of it, is what a seed draws; where neither is left
+    open, another pair would be the same trial again. (A domain whose actions have several outcomes
+    is played once, too, unless something else is drawn.)
+    """
+    own = config.settings(scenario)
+    triggers = [t for t in description.triggers if t.scenario == scenario]
+    drawn = own.script is None and _events_are_drawn(config, triggers)
+    return own.repeats or 1 if drawn or _news_is_drawn(config) else 1
+
+
+def _events_are_drawn(config: ExperimentConfig, triggers: Sequence[Trigger]) -> bool:
+    rate = config.adversary.rate
+    if not config.plays_triggers:
+        return rate != 0
+    return any(t.drawn or _open(t.probability if rate is None else rate) for t in triggers)
+
+
+def _news_is_drawn(config: ExperimentConfig) -> bool:
+    rules = config.observability.values()
+    return any(_open(own.probability) or own.false_reports > 0 for own in rules)
+
+
+def _open(probability: float) -> bool:
+    return 0.0 < probability < 1.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import msgspec
 
@@ -23,7 +23,6 @@ from testbed.experiment.record import (
     TrialRecord,
 )
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.wording import listed
 from testbed.protocol import Decision, Event, Explanation, FineTrace, NoPlan, Trace, shortened
 
 
@@ -151,11 +150,9 @@ class Recorder:
         """An exogenous action of the script that was not possible at `step`."""
         self.record.rejected.append(Rejected(step, action, shortened(reason)))
 
-    def unreached(self, moments: Sequence[str]) -> None:
-        """Steps of the script, and actions of the robot, before which the game was over."""
-        if moments:
-            were = "were" if len(moments) > 1 else "was"
-            self.record.reason = f"script {listed(moments)} {were} not reached"
+    def note(self, reason: str) -> None:
+        """What is to be known of a trial that was played to its end."""
+        self.record.reason = reason
 
     def fail(self, outcome: Outcome, reason: str, cause: Cause) -> None:
         """The trial could not be played to its end; only of the robot's own error it is judged."""

@@ -1,4 +1,4 @@
-"""What a trial is: its setting, and the ids and seeds that follow from them.
+"""What a trial is: its setting, and the id that follows from it.
 
 What a trial's result may depend on is hashed into its id; the link, the number of workers and
 the time allowed for an answer are not (one trial is the same trial wherever its robot runs).
@@ -6,16 +6,15 @@ the time allowed for an answer are not (one trial is the same trial wherever its
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator, Sequence
 from typing import Any
 
 import msgspec
-import numpy as np
 
 from asp.domains.levels import LevelSize
 from testbed.config import JUDGE_STATES, TRIGGERS, ExperimentConfig, Pace, ScriptEntry
 from testbed.environment import Observability
+from testbed.experiment.seeds import playing_order, short_hash, trial_seed
 from testbed.protocol import Knowledge
 
 
@@ -133,8 +132,8 @@ def pair_specs(
     logical = [config.seed, path, _without_files(setting, domain)]
     for robot in playing_order(seed, config.robots):
         yield TrialSpec(
-            trial=_short_hash([*logical, robot]),
-            pair=_short_hash(logical),
+            trial=short_hash([*logical, robot]),
+            pair=short_hash(logical),
             scenario=scenario,
             level=level,
             seed=seed,
@@ -143,15 +142,6 @@ def pair_specs(
             domain=domain,
             setting=setting,
         )
-
-
-def playing_order(seed: int, robots: Sequence[str]) -> tuple[str, ...]:
-    """The robots of a pair in the order in which they play.
-
-    What one of them has prepared can serve the other, which plays after it in the same process.
-    """
-    first = seed % len(robots)
-    return (*robots[first:], *robots[:first])
 
 
 def _without_files(setting: Setting, domain: str) -> object:
@@ -166,28 +156,3 @@ def _without_files(setting: Setting, domain: str) -> object:
     if given.get("strategy") == "random":  # ids are older than other strategies
         given["random_events"] = bool(given.pop("strategy"))
     return given
-
-
-def generator_of(root: int, path: object) -> np.random.Generator:
-    """What draws the trial at a seed path."""
-    return np.random.default_rng(np.random.SeedSequence(root, spawn_key=seed_words(["draw", path])))
-
-
-def trial_seed(root: int, path: object) -> int:
-    """The seed of the trials at a seed path: 32 bits that follow from the root seed and it."""
-    sequence = np.random.SeedSequence(root, spawn_key=seed_words(path))
-    return int(sequence.generate_state(1)[0])
-
-
-def seed_words(path: object) -> tuple[int, ...]:
-    """A seed path as numbers for a seed sequence."""
-    digest = hashlib.blake2b(_canonical(path), digest_size=16).digest()
-    return tuple(int.from_bytes(digest[i : i + 4], "big") for i in range(0, 16, 4))
-
-
-def _short_hash(value: object) -> str:
-    return hashlib.blake2b(_canonical(value), digest_size=6).hexdigest()
-
-
-def _canonical(value: object) -> bytes:
-    return msgspec.json.encode(value, enc_hook=str, order="deterministic")

@@ -8,14 +8,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import msgspec
-import numpy as np
 
 from agents.adversary import Adversary, AdversaryView, Script, Sight
 from testbed.environment import NONE, Core, IllegalActionError
 from testbed.experiment.record import check
 from testbed.experiment.recorder import Recorder, Result, recorder_of
+from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial_setup import load_stage
+from testbed.experiment.trial_setup import setup_of
+from testbed.experiment.wording import listed
 from testbed.link import NOT_UNDERSTOOD, in_one_line
 from testbed.protocol import Decision, Percept, RobotClient, RobotGone, RobotLost, RobotStopped
 
@@ -77,33 +78,33 @@ def _checked(recorder: Recorder, spec: TrialSpec) -> Recorder:
 
 
 def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch | None) -> None:
-    stage, goal = load_stage(spec.setting), spec.setting.goal
-    for_world, for_adversary, for_robot = _seeds(spec.seed)
-    core = stage.core(spec.setting)
+    setup, goal = setup_of(spec.setting), spec.setting.goal
+    for_world, for_adversary, for_robot = seeds_within(spec.seed)
+    core = setup.core(spec.setting)
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
     start, most_states = core.situation.state, spec.setting.judge_states
-    adversary = stage.adversary(spec)
+    adversary = setup.adversary(spec)
     adversary.reset(for_adversary)
     try:
-        client.begin(stage.task(spec, core.situation.state, for_robot))
+        client.begin(setup.task(spec, core.situation.state, for_robot))
         while core.situation.ending is None:
-            moment = _step(core, client, adversary, recorder, stage.costs)
+            moment = _step(core, client, adversary, recorder, setup.costs)
             if watch is not None:
                 watch(moment)
     except RobotLost as loss:
         if not isinstance(
             loss, RobotGone
         ):  # its own error: the trial counts if the goal has a plan
-            recorder.minimal(stage.judge.minimal(start, goal, most_states))
+            recorder.minimal(setup.judge.minimal(start, goal, most_states))
         raise
     finally:
         recorder.achieved(core.achieved)
-    recorder.minimal(stage.judge.minimal(start, goal, most_states))
+    recorder.minimal(setup.judge.minimal(start, goal, most_states))
     recorder.end(core.situation.ending)
     if not core.achieved:
-        recorder.in_reach(stage.judge.in_reach(core.situation.state, goal, most_states))
-    if isinstance(adversary, Script):
-        recorder.unreached(adversary.unreached(core.situation.step))
+        recorder.in_reach(setup.judge.in_reach(core.situation.state, goal, most_states))
+    if isinstance(adversary, Script) and (left := adversary.unreached(core.situation.step)):
+        recorder.note(f"script {listed(left)} {'were' if len(left) > 1 else 'was'} not reached")
 
 
 def _step(
@@ -142,9 +143,3 @@ def _view(core: Core, robot_action: str, sees: Sequence[Sight]) -> AdversaryView
         legal=core.legal_events(robot_action),
         physical=sees_action and core.is_physical(robot_action),
     )
-
-
-def _seeds(seed: int) -> tuple[int, int, int]:
-    """Seeds for the world, the adversary and the robot, so that none shares another's numbers."""
-    world, adversary, robot = np.random.SeedSequence(seed).generate_state(3)
-    return int(world), int(adversary), int(robot)

@@ -1,110 +1,133 @@
-"""Where a trial is played: its world, the game in it, and what the robot is told at the start."""
+"""Set up a trial: its world, the game in it, its adversary, and what the robot is told at first."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import lru_cache
-from typing import Protocol
+
+import msgspec
 
 from agents.adversary import Adversary, Game
+from asp.language import arguments, complement
 from testbed.config import Ground, ground_of_files, ground_of_size
-from testbed.environment import Core
+from testbed.environment import Core, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.domains import load_world
-from testbed.experiment.fine_trial_setup import FineStage, fine_part
-from testbed.experiment.game_rules import known, rules_of
-from testbed.experiment.judge import Judge
-from testbed.experiment.oracle import minimal_actions, minimal_units
+from testbed.experiment.judge import Judge, Narrowing
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.protocol import Task
-from testbed.world import World
+from testbed.world import World, world_of
 
 
-class Stage(Protocol):
-    """The place of a setting's trials at one resolution; it lives across them."""
+class TrialSetup:
+    """The setup of trials in a domain as it is described; it is reused across them.
 
-    @property
-    def costs(self) -> Mapping[str, int]:
-        """Execution units of the actions that a record counts."""
-
-    @property
-    def judge(self) -> Judge:
-        """Who knows the least number of recorded actions, and of their units."""
-
-    def core(self, setting: Setting) -> Core:
-        """A new game."""
-
-    def adversary(self, spec: TrialSpec) -> Adversary:
-        """Who plays against the robot."""
-
-    def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
-        """What the robot is told of a trial that begins in `state`."""
-
-
-class CoarseStage:
-    """A domain as it is described."""
+    `costs` are the execution units of the actions that a record counts, and `judge` knows the
+    fewest of them, and of their units.
+    """
 
     def __init__(self, world: World) -> None:
-        self._world = world
-        costs = self.costs = world.description.costs
-        self.judge = Judge(
-            lambda state, goal, most: minimal_actions(world, state, goal, most),
-            lambda state, goal, most: minimal_units(world, state, goal, costs, most),
-        )
+        self.costs = world.description.costs
+        self.judge = Judge(lambda state, goal: (world, state, goal), self.costs)
+        self._world, self._source = world, world.description.source
+        self._exogenous = world.exogenous_actions
 
     def core(self, setting: Setting) -> Core:
         """A new game."""
-        return Core(self._world, rules_of(setting), ())
+        return Core(self._world, _rules(setting), ())
 
     def adversary(self, spec: TrialSpec) -> Adversary:
         """The script, or the strategy that the setting has."""
-        description = self._world.description
         game = Game(
             scenario=spec.scenario,
             goal=spec.setting.goal,
-            exogenous_actions=description.exogenous_actions,
-            description=description,
+            exogenous_actions=self._exogenous,
+            description=self._world.description,
         )
         return make_adversary(spec.setting, game)
 
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
-        """Of the initial state the robot is told what the setting says that it knows."""
+        """What the robot is told of a trial that begins in `state`."""
+        setting, world = spec.setting, self._world
+        complete = setting.knowledge == "complete"
+        robot = world.description.robots[0]
         return Task(
             trial=spec.trial,
             robot=spec.robot,
             domain=spec.domain,
-            source=self._world.description.source,
-            goal=list(spec.setting.goal),
-            initial=list(known(spec.setting, self._world, state)),
-            plan_limit=spec.setting.plan_limit,
+            source=self._source,
+            goal=list(setting.goal),
+            initial=list(world.literals(state) if complete else world.visible(state, robot)),
+            plan_limit=setting.plan_limit,
             seed=seed,
-            decision_s=spec.setting.decision_s,
-            conflicts=spec.setting.conflicts,
-            ground_rules=spec.setting.ground_rules,
-            expansions=spec.setting.expansions,
+            decision_s=setting.decision_s,
+            conflicts=setting.conflicts,
+            ground_rules=setting.ground_rules,
+            expansions=setting.expansions,
         )
 
 
-def load_stage(setting: Setting) -> Stage:
-    """The stage of a setting; its world is loaded once. Raises what `asp.load_description` does."""
-    if setting.fine is None:
-        return _coarse_stage(setting.domain)
-    return _fine_stage(load_ground(setting))
+class FineTrialSetup(TrialSetup):
+    """The setup in a refined domain: the game is of cells and parts, costs and goals are coarse."""
+
+    def __init__(self, ground: Ground) -> None:
+        refinement = ground.refinement
+        description, coarse = refinement.description, refinement.coarse
+        super().__init__(world_of(description))
+        self._refinement, self._text, self._source = refinement, ground.text, coarse.text
+        self._fine = world_of(refinement)
+        self._exogenous = self._fine.exogenous_actions
+        narrowing = Narrowing(description, coarse, refinement.coarse_signature)
+        self.judge = Judge(
+            lambda state, goal: narrowing.problem(self._coarse_atoms(state), goal), self.costs
+        )
+        inertial, robot = self._fine.description.inertial, description.robots[0]
+        self._about_robot = [fluent for fluent in inertial if robot in arguments(fluent)]
+
+    def core(self, setting: Setting) -> Core:
+        """A new game, with the setting's statistics and pace."""
+        assert setting.fine is not None
+        statistics, pace = setting.fine.statistics, setting.fine.pace
+        return fine_core(self._refinement, _rules(setting), statistics, pace=pace)
+
+    def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
+        """As of the coarse state, and of the fine one the inertial literals about the robot."""
+        true = frozenset(self._fine.true_atoms(state))
+        own = [fluent if fluent in true else complement(fluent) for fluent in self._about_robot]
+        task = super().task(spec, self._world.state(self._coarse_atoms(state)), seed)
+        return msgspec.structs.replace(task, refinement=self._text, initial_fine=own)
+
+    def _coarse_atoms(self, state: int) -> frozenset[str]:
+        return frozenset(self._fine.true_atoms(state)).intersection(self._world.fluents)
+
+
+def setup_of(setting: Setting) -> TrialSetup:
+    """The setup of a setting; its world is loaded once. Raises what `asp.load_description` does."""
+    return _coarse(setting.domain) if setting.fine is None else _fine(load_ground(setting))
 
 
 def load_ground(setting: Setting) -> Ground:
     """The descriptions of a setting of the fine resolution. Raises SourceError and OSError."""
-    fine = fine_part(setting)
-    if fine.size is not None:
-        return ground_of_size(fine.size)
-    return ground_of_files(setting.domain, fine.refinement or "")
+    assert setting.fine is not None
+    if setting.fine.size is not None:
+        return ground_of_size(setting.fine.size)
+    return ground_of_files(setting.domain, setting.fine.refinement or "")
+
+
+def _rules(setting: Setting) -> Rules:
+    return Rules(
+        goal=setting.goal,
+        steps=setting.step_limit,
+        observability=setting.observability,
+        goal_feedback=setting.goal_feedback,
+        exogenous_while_thinking=setting.exogenous_while_thinking,
+    )
 
 
 @lru_cache(maxsize=8)
-def _coarse_stage(domain: str) -> CoarseStage:
-    return CoarseStage(load_world(domain))
+def _coarse(domain: str) -> TrialSetup:
+    return TrialSetup(load_world(domain))
 
 
 @lru_cache(maxsize=16)
-def _fine_stage(ground: Ground) -> FineStage:
-    return FineStage(ground)
+def _fine(ground: Ground) -> TrialSetup:
+    return FineTrialSetup(ground)

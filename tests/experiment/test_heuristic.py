@@ -1,4 +1,4 @@
-"""The oracle's heuristic: the same least numbers as without it, from fewer states."""
+"""The judge's heuristic: the same least numbers as without it, from fewer states."""
 
 import json
 from collections.abc import Iterable, Mapping
@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from asp.language import SourceError, parse_description
 from testbed.config import load_config
-from testbed.experiment import oracle
+from testbed.experiment import judge
 from testbed.experiment.domains import load_world
-from testbed.experiment.heuristic import Potentials, blind
+from testbed.experiment.heuristic.potentials import Potentials, blind
 from testbed.experiment.resume import play_missing
 from testbed.world import World, world_of
 from tests.experiment.gardens import GARDEN
@@ -184,13 +184,13 @@ def check(world: World, goal: tuple[str, ...], costs: Mapping[str, int], starts:
                 assert heuristic(state) <= costs[action] + heuristic(after)
                 left += {after} - reached
                 reached.add(after)
-        assert oracle.minimal_units(world, start, goal, costs) == least.get(start)
+        assert judge.minimal_units(world, start, goal, costs) == least.get(start)
 
 
 @pytest.fixture
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The heuristic is found after the first state."""
-    monkeypatch.setattr(oracle, "UNINFORMED", 1)
+    monkeypatch.setattr(judge, "UNINFORMED", 1)
 
 
 def measures(world: World) -> tuple[Mapping[str, int], Mapping[str, int]]:
@@ -211,7 +211,7 @@ def test_from_every_state_of_the_office_the_least_is_the_same(goal: tuple[str, .
     for costs in measures(world):
         least = distances(world, goal, costs)
         for state in world.states():
-            assert oracle.minimal_units(world, state, goal, costs) == least.get(state)
+            assert judge.minimal_units(world, state, goal, costs) == least.get(state)
 
 
 @pytest.mark.usefixtures("at_once")
@@ -249,7 +249,7 @@ def test_in_a_random_world_the_heuristic_is_consistent(
     goal = tuple(data.draw(st.lists(st.sampled_from(literals), min_size=1, max_size=3)))
     costs = {action: data.draw(st.integers(0, 9)) for action in world.agent_actions}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(oracle, "UNINFORMED", 1)
+        patch.setattr(judge, "UNINFORMED", 1)
         check(world, goal, costs, 16)
 
 

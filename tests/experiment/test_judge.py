@@ -7,11 +7,12 @@ from typing import Any
 
 import pytest
 
+from asp import parse_description
 from testbed.config import load_config
-from testbed.experiment.judge import Judge
-from testbed.experiment.oracle import BudgetError
+from testbed.experiment.judge import Goal, Judge, Problem
 from testbed.experiment.resume import play_missing
 from testbed.report import write_report
+from testbed.world import world_of
 
 Run = Callable[..., tuple[list[dict[str, Any]], dict[str, Any], str]]
 
@@ -102,16 +103,19 @@ def test_no_plan_is_another_reason_than_the_budget(run: Run) -> None:
 
 
 def test_whether_the_goal_is_in_reach_takes_one_search_and_no_units() -> None:
-    asked: list[int] = []
+    world = world_of(parse_description(LAMPS))
+    dark, lit = world.state(()), world.state([f"lit(l{number})" for number in range(1, 9)])
+    asked: list[tuple[int, Goal]] = []
 
-    def actions(state: int, _goal: tuple[str, ...], most: int) -> int | None:
-        asked.append(state)
-        if state > most:
-            raise BudgetError
-        return state or None
+    def problem(state: int, goal: Goal) -> Problem:
+        asked.append((state, goal))
+        return world, state, goal
 
-    judge = Judge(actions, lambda *_: pytest.fail("the units are not reported"))
+    judge = Judge(problem, {})
+    # Out of reach, reached, and farther than two states can show.
+    questions = [(lit, ("-lit(l1)",)), (lit, ("lit(l1)",)), (dark, ("lit(l1)", "lit(l2)"))]
     for _ in range(2):
-        assert [judge.in_reach(state, (), 1) for state in range(3)] == [False, True, None]
-        assert [judge.minimal(state, (), 1).reason for state in (0, 2)] == ["no plan", "budget"]
-    assert asked == [0, 1, 2]
+        assert [judge.in_reach(*question, 2) for question in questions] == [False, True, None]
+        reasons = [judge.minimal(*questions[number], 2).reason for number in (0, 2)]
+        assert reasons == ["no plan", "budget"]
+    assert asked == questions

@@ -10,7 +10,7 @@ from testbed.experiment.narration import teller_of
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord, logical
 from testbed.experiment.trial import play_trial
-from testbed.experiment.trial_setup import load_ground, load_stage
+from testbed.experiment.trial_setup import load_ground, setup_of
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, FineTrace, Percept, Task, Trace
 from testbed.world import world_of
@@ -233,7 +233,7 @@ def test_a_replay_says_which_action_took_no_effect_and_what_others_did() -> None
 
 
 def test_the_oracle_counts_abstract_actions() -> None:
-    stage = load_stage(_specs("levels=[L1]")[0].setting)
+    stage = setup_of(_specs("levels=[L1]")[0].setting)
     state = world_of(load_ground(_specs("levels=[L1]")[0].setting).refinement).state(
         ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room2_2)"]
     )

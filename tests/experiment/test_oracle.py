@@ -1,4 +1,4 @@
-"""The oracle finds shortest plans, and says where there is none."""
+"""The judge finds shortest plans, and says where there is none."""
 
 import itertools
 
@@ -9,7 +9,7 @@ from asp.domains.levels import level_text
 from asp.language import analyse, ground_description
 from testbed.environment import RandomGoal
 from testbed.experiment.domains import load_world
-from testbed.experiment.oracle import Oracle, minimal_actions, minimal_units, shortest_plan
+from testbed.experiment.judge import Narrowing, minimal_actions, minimal_units, shortest_plan
 from testbed.world import World, world_of
 
 DELIVERED = (
@@ -115,28 +115,27 @@ def test_no_shorter_sequence_of_actions_does_it(office: World) -> None:
 @pytest.mark.parametrize(
     "patterns", [["loc(object,room)"], ["loc(object,room)", "loc(robot,room)"]]
 )
-def test_the_oracle_of_many_constants_finds_what_the_plain_one_finds(patterns: list[str]) -> None:
+def test_a_narrowed_domain_has_the_same_least(patterns: list[str]) -> None:
     source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
     description = ground_description(source, signature, "level")
-    world, oracle = world_of(description), Oracle(description, source, signature)
+    world, narrowing = world_of(description), Narrowing(description, source, signature)
     draw = RandomGoal(world, patterns, description.sorts)
     random = np.random.default_rng(1)
     states = world.initial_states()
     for number in random.permutation(len(states))[:60]:
         state = states[number]
         goal = draw(state, random)
-        found = oracle.minimal_actions(world.true_atoms(state), goal)
-        assert found == minimal_actions(world, state, goal)
+        problem = narrowing.problem(world.true_atoms(state), goal)
+        assert minimal_actions(*problem) == minimal_actions(world, state, goal)
         costs = {action: 1 + len(action) % 7 for action in world.agent_actions}
-        units = oracle.minimal_units(world.true_atoms(state), goal, costs)
-        assert units == minimal_units(world, state, goal, costs)
+        assert minimal_units(*problem, costs) == minimal_units(world, state, goal, costs)
 
 
-def test_the_oracle_of_many_constants_says_what_is_out_of_reach() -> None:
+def test_a_narrowed_domain_says_what_is_out_of_reach() -> None:
     source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
     description = ground_description(source, signature, "level")
-    oracle = Oracle(description, source, signature)
+    narrowing = Narrowing(description, source, signature)
     start = [f"loc({thing},room1)" for thing in ("rob1", "object1", "object2", "object3")]
     impossible = ["in_hand(rob1,object1)", "loc(rob1,room1)", "loc(object1,room2)"]
-    assert oracle.minimal_actions(start, impossible) is None
-    assert oracle.minimal_actions(start, start) == 0
+    assert minimal_actions(*narrowing.problem(start, impossible)) is None
+    assert minimal_actions(*narrowing.problem(start, start)) == 0

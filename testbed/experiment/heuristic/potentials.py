@@ -9,17 +9,17 @@ the laws can do in any state, indirect effects and those under conditions like o
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
-from math import ceil
+from math import ceil, prod
 
 import numpy as np
 from scipy.optimize import linprog  # type: ignore[import-untyped]  # scipy ships no types
 from scipy.sparse import coo_array  # type: ignore[import-untyped]  # scipy ships no types
 
-from asp.language import Description, atom, is_positive
+from asp.language import Description, arguments, atom, is_positive
 from testbed.experiment.heuristic.changes import Changes, changes
-from testbed.experiment.heuristic.variables import variables
 
 Heuristic = Callable[[int], int]
 """A lower bound on what it costs to get from a state to the goal."""
@@ -44,7 +44,7 @@ class Potentials:
         self._fluents: dict[str, int] = {
             fluent: 1 << i for i, fluent in enumerate(description.fluents)
         }
-        self._variables = variables(description)
+        self._variables = variables_of(description)
 
     def heuristic(self, state: int, goal: Iterable[str], costs: Mapping[str, int]) -> Heuristic:
         """One that is as large as possible in `state`, for it and what can be reached from it.
@@ -126,3 +126,45 @@ class Potentials:
         """Whether the variable can have this value where the goal holds."""
         wanted = ((self._fluents[atom(literal)], is_positive(literal)) for literal in goal)
         return all(bool(value & own) == truth for own, truth in wanted if variable & own)
+
+
+def variables_of(description: Description) -> tuple[int, ...]:
+    """The variables, each a mask of fluents, whose value in a state masks those that are true.
+
+    There is one per constant, of the fluents that mention it, and one per fluent without any.
+    A variable that could have more values than two functions of its fluents is left out.
+    """
+    about: dict[str, list[int]] = defaultdict(list)
+    for number, fluent in enumerate(description.fluents):
+        for constant in dict.fromkeys(arguments(fluent)) or (fluent,):
+            about[constant].append(number)
+    exclusive = _exclusive(description)
+    return tuple(
+        sum(1 << number for number in fluents)
+        for fluents in about.values()
+        if _most_values(fluents, exclusive) <= max(2, len(fluents) ** 2)
+    )
+
+
+def _exclusive(description: Description) -> frozenset[tuple[int, int]]:
+    """Pairs of fluents of which a constraint allows at most one."""
+    number: dict[str, int] = {fluent: i for i, fluent in enumerate(description.fluents)}
+    pairs = [
+        (number[law.body[0]], number[atom(law.head)])
+        for law in description.constraints
+        if len(law.body) == 1 and is_positive(law.body[0]) and not is_positive(law.head)
+    ]
+    return frozenset((*pairs, *(pair[::-1] for pair in pairs)))
+
+
+def _most_values(fluents: Iterable[int], exclusive: frozenset[tuple[int, int]]) -> int:
+    """How many values at most: of fluents that exclude each other one is true, or none."""
+    groups: list[list[int]] = []
+    for fluent in fluents:
+        fitting = (g for g in groups if exclusive.issuperset((fluent, other) for other in g))
+        group = next(fitting, None)
+        if group is None:
+            groups.append([fluent])
+        else:
+            group.append(fluent)
+    return prod(len(group) + 1 for group in groups)

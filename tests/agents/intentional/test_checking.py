@@ -16,7 +16,7 @@ from agents.shared.sessions import Sessions, sessions_of
 from asp.language import parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent
-from testbed.experiment.oracle import minimal_actions
+from testbed.experiment.judge import minimal_actions
 from testbed.protocol import Robot, Task
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,

@@ -13,7 +13,7 @@ from agents.intentional.reference import ReferenceReasoner
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import GOAL, Explanation
 from asp.reasoning.knowledge import knowledge
-from testbed.experiment.oracle import minimal_actions
+from testbed.experiment.judge import minimal_actions
 from tests.agents.intentional.lives import (
     DOMAIN,
     SOURCE,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from testbed.experiment.oracle import minimal_actions
+from testbed.experiment.judge import minimal_actions
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
 
 STATES = list(WORLD.initial_states())
