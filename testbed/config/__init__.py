@@ -2,7 +2,6 @@
 
 from testbed.config.checking import Check
 from testbed.config.composing import write_yaml
-from testbed.config.keys import lists_keys
 from testbed.config.levels import (
     SCENARIO_KEYS,
     Ground,
@@ -11,7 +10,7 @@ from testbed.config.levels import (
     grounds,
     level_size,
 )
-from testbed.config.loading import config_names, find_config, load_config
+from testbed.config.loading import config_names, find_config, lists_keys, load_config
 from testbed.config.models import (
     JUDGE_STATES,
     TRIGGERS,

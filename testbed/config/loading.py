@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
@@ -18,6 +19,11 @@ from testbed.config.composing import compose
 from testbed.config.models import ExperimentConfig, Section
 from testbed.config.places import ConfigError, Key, Places
 from testbed.config.scenarios import with_scenarios
+
+Schema = Mapping[str, Any]
+F = TypeVar("F", bound=Callable[..., object])
+
+_TYPES = {"integer": "int", "number": "float", "string": "str", "boolean": "bool", "null": "None"}
 
 LONGEST = 80
 """How much of a value a line shows."""
@@ -202,3 +208,35 @@ def find_config(source: str | Path) -> Path:
     if path.name == str(source) and packaged.is_file():
         return packaged
     raise FileNotFoundError(f"{source}: no such file; {suggestion(path.stem, config_names())}")
+
+
+def listed_keys() -> Iterator[str]:
+    """One line per key: `name: type = default`; of a section the names of its own keys."""
+    schema = ExperimentConfig.model_json_schema()
+    for name, own in schema["properties"].items():
+        plain = "default" in own and not isinstance(own["default"], dict)
+        yield f"{name}: {_type(own, schema)}" + (f" = {own['default']!r}" if plain else "")
+
+
+def lists_keys(function: F) -> F:
+    """A decorator: the docstring ends with the keys, each of which is a keyword argument, too."""
+    keys = "\n".join(f"    {line}" for line in listed_keys())
+    title = "Keyword arguments beside these are keys of the configuration:"
+    function.__doc__ = f"{inspect.cleandoc(function.__doc__ or '')}\n\n{title}\n\n{keys}\n"
+    return function
+
+
+def _type(own: Schema, schema: Schema) -> str:
+    if "$ref" in own:
+        section = schema["$defs"][own["$ref"].rpartition("/")[2]]["properties"]
+        return "{" + ", ".join(section) + "}"
+    if "anyOf" in own:
+        return " | ".join(dict.fromkeys(_type(one, schema) for one in own["anyOf"]))
+    if "enum" in own:
+        return " | ".join(map(repr, own["enum"]))
+    if own.get("type") == "array":
+        items = own.get("prefixItems") or [own["items"]]
+        return f"list of {', '.join(dict.fromkeys(_type(item, schema) for item in items))}"
+    if own.get("type") == "object":
+        return f"names with {_type(own['additionalProperties'], schema)}"
+    return _TYPES.get(str(own.get("type")), "any")

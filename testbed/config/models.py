@@ -1,4 +1,4 @@
-"""What a configuration may say: types, bounds and defaults of every key.
+"""What a configuration may say: every key with its type and default.
 
 Literals and actions are ASP text without spaces, `f(a,b)` or `-f(a,b)`. Whether a domain knows
 them is checked in `testbed.config.checking`.
@@ -6,12 +6,25 @@ them is checked in `testbed.config.checking`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from testbed import environment
+from testbed.config.values import (
+    LARGEST_SEED,
+    MOST,
+    ByName,
+    Count,
+    Flag,
+    Literals,
+    Name,
+    Probability,
+    Scenarios,
+    Seconds,
+    Text,
+)
 from testbed.protocol import Knowledge
 
 LinkKind = Literal["zenoh", "inprocess"]
@@ -22,58 +35,10 @@ JUDGE_STATES = 5_000
 """States that are looked at for the least that achieves a goal, unless given."""
 FINE_STEPS = 5000
 """Environment steps of a trial at the fine resolution, unless given."""
-MOST = 2**31 - 1
-"""The largest count: a solver calculates with 32 bits."""
-LARGEST_SEED = 2**63 - 1
-LONGEST_S = 31_536_000.0
-"""The longest time: a year, which every clock and timer can measure."""
 TRIGGERS = "triggers"
 """The strategy of an adversary that plays the domain's triggers."""
-NONE = "none"
-"""The scenario in which nothing exogenous happens, unless the domain has one of this name."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
 """How a goal is written."""
-
-
-def _tidy(text: object) -> object:
-    return "".join(text.split()) if isinstance(text, str) else text
-
-
-def _whole(items: object) -> object:
-    """Literals as one item each: YAML splits an unquoted `[loc(a,b)]` at the inner comma."""
-    if not isinstance(items, Sequence) or isinstance(items, str):
-        return items
-    whole: list[Any] = []
-    for item in items:
-        if whole and isinstance(whole[-1], str) and whole[-1].count("(") > whole[-1].count(")"):
-            whole[-1] = f"{whole[-1]},{item}"
-        else:
-            whole.append(item)
-    return tuple(whole)
-
-
-def _named(value: object) -> object:
-    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
-
-
-def _scenarios(value: object) -> object:
-    """Nothing is what `none` stands for; null stands for what there is in the domain."""
-    return () if value is None else [NONE] if value in ([], NONE) else value
-
-
-def _named_keys(value: object) -> object:
-    return (
-        {_named(key): item for key, item in value.items()} if isinstance(value, Mapping) else value
-    )
-
-
-Text = Annotated[str, BeforeValidator(_tidy), Field(min_length=1)]
-Literals = Annotated[tuple[Text, ...], BeforeValidator(_whole)]
-Name = Annotated[str, BeforeValidator(_named), Field(min_length=1)]
-Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
-Seconds = Annotated[float, Field(strict=True, gt=0.0, le=LONGEST_S)]
-Probability = Annotated[float, Field(strict=True, ge=0.0, le=1.0)]
-Flag = Annotated[bool, Field(strict=True)]
 
 
 class Section(BaseModel):
@@ -199,14 +164,10 @@ class ExperimentConfig(Section):
     refinement: Name | None = None
     goal: Annotated[Literals, Field(examples=[GOAL])]
     initial: Literals | None = None
-    scenarios: Annotated[tuple[Name, ...], BeforeValidator(_scenarios)] = ()
-    scenario_settings: Annotated[dict[str, ScenarioSettings], BeforeValidator(_named_keys)] = Field(
-        default_factory=dict
-    )
+    scenarios: Scenarios = ()
+    scenario_settings: Annotated[dict[str, ScenarioSettings], ByName] = Field(default_factory=dict)
     levels: tuple[Name, ...] = ()
-    level_sizes: Annotated[dict[str, LevelSettings], BeforeValidator(_named_keys)] = Field(
-        default_factory=dict
-    )
+    level_sizes: Annotated[dict[str, LevelSettings], ByName] = Field(default_factory=dict)
     draw: Drawing = Drawing()
     robots: Annotated[tuple[Name, ...], Field(min_length=1)] = ("intentional", "traditional")
     repeats: Count = 1

@@ -10,7 +10,8 @@ from pathlib import Path
 import yaml
 
 from asp.language import literals, suggestion
-from testbed.config.models import NONE, ExperimentConfig
+from testbed.config.models import ExperimentConfig
+from testbed.config.values import NONE
 
 
 class ConfigError(ValueError):

@@ -6,8 +6,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from asp import Description
 from asp.language import suggestion
-from testbed.config.models import NONE, ExperimentConfig, ScenarioSettings, ScriptEntry
+from testbed.config.models import ExperimentConfig, ScenarioSettings, ScriptEntry
 from testbed.config.places import Finding, Key, unknown_atom
+from testbed.config.values import NONE
 
 SCRIPT = "script"
 """Name of the one scenario of a run without scenarios that has a script."""

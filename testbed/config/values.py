@@ -1,0 +1,60 @@
+"""Types of the values of a configuration: how each is written, and its bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field
+
+MOST = 2**31 - 1
+"""The largest count: a solver calculates with 32 bits."""
+LARGEST_SEED = 2**63 - 1
+LONGEST_S = 31_536_000.0
+"""The longest time: a year, which every clock and timer can measure."""
+NONE = "none"
+"""The scenario in which nothing exogenous happens, unless the domain has one of this name."""
+
+
+def _tidy(text: object) -> object:
+    return "".join(text.split()) if isinstance(text, str) else text
+
+
+def _whole(items: object) -> object:
+    """Literals as one item each: YAML splits an unquoted `[loc(a,b)]` at the inner comma."""
+    if not isinstance(items, Sequence) or isinstance(items, str):
+        return items
+    whole: list[Any] = []
+    for item in items:
+        if whole and isinstance(whole[-1], str) and whole[-1].count("(") > whole[-1].count(")"):
+            whole[-1] = f"{whole[-1]},{item}"
+        else:
+            whole.append(item)
+    return tuple(whole)
+
+
+def _named(value: object) -> object:
+    return str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _scenarios(value: object) -> object:
+    """Nothing is what `none` stands for; null stands for what there is in the domain."""
+    return () if value is None else [NONE] if value in ([], NONE) else value
+
+
+def _named_keys(value: object) -> object:
+    return (
+        {_named(key): item for key, item in value.items()} if isinstance(value, Mapping) else value
+    )
+
+
+Text = Annotated[str, BeforeValidator(_tidy), Field(min_length=1)]
+Literals = Annotated[tuple[Text, ...], BeforeValidator(_whole)]
+Name = Annotated[str, BeforeValidator(_named), Field(min_length=1)]
+Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
+Seconds = Annotated[float, Field(strict=True, gt=0.0, le=LONGEST_S)]
+Probability = Annotated[float, Field(strict=True, ge=0.0, le=1.0)]
+Flag = Annotated[bool, Field(strict=True)]
+Scenarios = Annotated[tuple[Name, ...], BeforeValidator(_scenarios)]
+ByName = BeforeValidator(_named_keys)
+"""Of a mapping whose keys are names."""
