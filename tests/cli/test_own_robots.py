@@ -4,16 +4,20 @@ import json
 import os
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 from testbed.cli import app
+from testbed.link import RemoteRobot, endpoint, open_driver
+from testbed.protocol import Percept, RobotLost, Task
 from testbed.registry import PATH_VARIABLE
 from tests.greenhouse import GREENHOUSE
 
 ROOT = Path(__file__).parents[2]
+PATIENCE_S = 600.0
 CONFIG = """\
 name: pots
 domain: pots.al
@@ -204,6 +208,43 @@ def test_a_name_that_two_distributions_claim_is_refused(
     assert "robots[0]" in line
 
 
-def test_a_process_serves_one_robot_by_its_place_and_refuses_a_wrong_one() -> None:
+def test_a_process_that_is_to_serve_a_robot_that_there_is_not_is_refused() -> None:
     line = _refused("robot", "--name", "carriers_of_pots:Nobody")
     assert "carriers_of_pots" in line
+
+
+def test_a_process_serves_the_robot_that_it_is_called_after_and_no_other(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Its module lies in the working directory."""
+    _module("carriers_of_pots")
+    monkeypatch.chdir("beside")
+    name = "carriers_of_pots:Carrier"
+    with open_driver() as session:
+        command = [sys.executable, "-P", "-m", "testbed", "robot", "--name", name]
+        command += ["--connect", endpoint(session)]
+        with subprocess.Popen(command, stderr=subprocess.DEVNULL) as process:
+            try:
+                with closing(RemoteRobot(session, "run", name, PATIENCE_S)) as robot:
+                    assert robot.wait(PATIENCE_S)
+                    robot.begin(_task("t1", name))
+                    step = Percept(trial="t1", step=1, visible=["-stands(fern,sill)"])
+                    assert robot.ask(step).action == "carry(gardener,fern,sill)"
+                    robot.begin(_task("t2", "traditional"))
+                    with pytest.raises(RobotLost, match="traditional"):
+                        robot.ask(Percept(trial="t2", step=1, visible=[]))
+            finally:
+                process.kill()
+
+
+def _task(trial: str, robot: str) -> Task:
+    return Task(
+        trial=trial,
+        robot=robot,
+        domain="pots",
+        source=GREENHOUSE,
+        goal=["stands(fern,sill)"],
+        initial=["stands(fern,bench)"],
+        plan_limit=3,
+        seed=0,
+    )
