@@ -1,7 +1,7 @@
 """How far robots are from the optimum: what they needed, divided by the least that achieves it.
 
 The least is what a search with complete knowledge finds from the initial state where nothing
-exogenous happens (`oracle`). Below 1 is who was helped on the way.
+exogenous happens (`judge`). Below 1 is who was helped on the way.
 """
 
 from __future__ import annotations

@@ -159,7 +159,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     `reason` is one line that says why a trial was lost, given up, or ended in error, or that it was
     over before its script; `cause` is None unless it was lost or ended in error.
     `retried` are the reasons of earlier attempts at the trial, which failed.
-    `minimal_actions` and `minimal_units` are the oracle's, from the initial state with nothing
+    `minimal_actions` and `minimal_units` are the judge's, from the initial state with nothing
     exogenous, of a trial that counts. Where the actions are None `minimal_reason`
     says why: `no plan` exists, or the `budget` of states did not suffice to find the least. The
     plan with the fewest actions need not be the one that costs least. `correct` is None where that

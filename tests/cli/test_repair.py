@@ -155,7 +155,11 @@ def test_what_is_damaged_of_a_retry_takes_no_place(
 def test_a_retry_whose_records_are_gone_is_repaired(whole: Path, tmp_path: Path) -> None:
     folder = Path(shutil.copytree(whole, tmp_path / "run"))
     (folder / "trials.jsonl").rename(folder / "retries.jsonl")
-    assert _do("repair", folder).exit_code == 0
+    repaired = _do("repair", folder)
+    (told,) = repaired.stderr.splitlines()
+    assert repaired.exit_code == 0
+    assert "retries.jsonl" in told
+    assert "and 3 more" in told
     assert _do(*RUN, folder, "--resume").exit_code == 0
     assert len((folder / "trials.jsonl").read_bytes().splitlines()) == 4
 
