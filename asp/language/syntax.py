@@ -14,8 +14,6 @@ MOST_MEMBERS = 100_000
 LARGEST = 10**9
 """Bound of a range; a larger one is taken for it."""
 
-FluentKind = Choice["inertial", "defined"]
-ActionKind = Choice["agent", "exogenous"]
 SymbolKind = Choice["static", "inertial", "defined", "agent", "exogenous"]
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from asp.language import Literal, Signature, syntax
+from asp.language import Literal, Signature, atom_text, condition_text, syntax
 from asp.language import variable_sorts as roles
 from asp.solving import first_model, ground
-from asp.translation import rule, term_text
 
 
 def true_statics(source: syntax.Source, signature: Signature) -> frozenset[Literal]:
@@ -16,14 +15,14 @@ def true_statics(source: syntax.Source, signature: Signature) -> frozenset[Liter
     """
     rules = [f"{sort}({';'.join(m)})." for sort, m in signature.sorts.items() if m]
     rules += (
-        rule(term_text(fact.literal.atom), _ranges([fact.literal.atom], signature))
+        _rule(fact.literal.atom, _ranges([fact.literal.atom], signature))
         for fact in source.each(syntax.Fact)
     )
     for law in source.each(syntax.StateConstraint):
         if signature.symbols[law.head.atom.name].kind == "static":
             atoms = [use.atom for use in roles.uses(law)]
             body = [_condition(part) for part in law.body]
-            rules.append(rule(term_text(law.head.atom), [*body, *_ranges(atoms, signature)]))
+            rules.append(_rule(law.head.atom, [*body, *_ranges(atoms, signature)]))
     shown = [
         f"#show {name}/{len(declaration.sorts)}."
         for name, declaration in signature.symbols.items()
@@ -31,6 +30,10 @@ def true_statics(source: syntax.Source, signature: Signature) -> frozenset[Liter
     ]
     model = first_model(ground(["\n".join([*rules, "#show.", *shown])], {}, []))
     return frozenset(Literal.parse(str(static)) for static in model or ())
+
+
+def _rule(head: syntax.Atom, body: list[str]) -> str:
+    return f"{atom_text(head)} :- {', '.join(body)}."
 
 
 def _ranges(atoms: list[syntax.Atom], signature: Signature) -> list[str]:
@@ -47,5 +50,5 @@ def _ranges(atoms: list[syntax.Atom], signature: Signature) -> list[str]:
 
 def _condition(part: syntax.Condition) -> str:
     if isinstance(part, syntax.Comparison):
-        return f"{part.left.name} {'=' if part.equal else '!='} {part.right.name}"
-    return ("" if part.positive else "not ") + term_text(part.atom)
+        return condition_text(part)
+    return ("" if part.positive else "not ") + atom_text(part.atom)

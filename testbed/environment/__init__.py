@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from testbed.environment.agents import ADVERSARY, ROBOT, rewards
-from testbed.environment.core import Core, Draw, DrawGoal
+from testbed.environment.core import Core, Draw
 from testbed.environment.errors import (
     IllegalActionError,
     NotResetError,
@@ -15,7 +15,7 @@ from testbed.environment.execution import Execution, Pace, Statistics
 from testbed.environment.fine import fine_core
 from testbed.environment.legality import FINISH, NONE, WAIT
 from testbed.environment.random_start import RandomGoal, RandomStart
-from testbed.environment.rules import Ending, Mode, Observability, Rules, Situation, Snapshot
+from testbed.environment.rules import Ending, Mode, Observability, Rules
 
 if TYPE_CHECKING:
     from testbed.environment.aec import AECView, OrderedView
@@ -30,7 +30,6 @@ __all__ = [
     "AECView",
     "Core",
     "Draw",
-    "DrawGoal",
     "Ending",
     "Execution",
     "IllegalActionError",
@@ -43,8 +42,6 @@ __all__ = [
     "RandomGoal",
     "RandomStart",
     "Rules",
-    "Situation",
-    "Snapshot",
     "Statistics",
     "UnknownAgentError",
     "UnknownOptionError",
