@@ -13,7 +13,7 @@ from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
 from asp.language import suggestion
 from testbed.config import ExperimentConfig, Finding
 from testbed.experiment.specs import Setting
-from testbed.link import in_one_line
+from testbed.protocol import in_one_line
 from testbed.registry import Registry, RegistryError, class_fault
 
 T = TypeVar("T")

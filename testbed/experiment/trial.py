@@ -17,8 +17,16 @@ from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import setup_of
 from testbed.experiment.wording import listed
-from testbed.link import NOT_UNDERSTOOD, in_one_line
-from testbed.protocol import Decision, Percept, RobotClient, RobotGone, RobotLost, RobotStopped
+from testbed.protocol import (
+    NOT_UNDERSTOOD,
+    Decision,
+    Percept,
+    RobotClient,
+    RobotGone,
+    RobotLost,
+    RobotStopped,
+    in_one_line,
+)
 
 
 @dataclass(frozen=True)

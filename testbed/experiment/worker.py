@@ -20,8 +20,7 @@ from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import SIGNALS, interrupts_later, kill
 from testbed.experiment.recorder import Result
 from testbed.experiment.specs import TrialSpec
-from testbed.link import in_one_line
-from testbed.protocol import RobotLost
+from testbed.protocol import RobotLost, in_one_line
 
 Play = Callable[[TrialSpec], Result]
 OpenPlayer = Callable[[], AbstractContextManager[Play]]

@@ -1,7 +1,6 @@
 """The link between a driver and its robots: in process, or over zenoh between processes."""
 
 from testbed.link.clients import InProcessRobot, connect
-from testbed.link.exchange import NOT_UNDERSTOOD, in_one_line
 from testbed.link.process import RobotProcess, SpawnedRobot, spawned_robot
 from testbed.link.remote import RemoteRobot
 from testbed.link.serving import serve, serve_forever
@@ -14,14 +13,12 @@ from testbed.link.session import (
 )
 
 __all__ = [
-    "NOT_UNDERSTOOD",
     "InProcessRobot",
     "RemoteRobot",
     "RobotProcess",
     "SpawnedRobot",
     "connect",
     "endpoint",
-    "in_one_line",
     "open_as_configured",
     "open_driver",
     "open_robot",

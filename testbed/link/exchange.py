@@ -22,9 +22,7 @@ from testbed.protocol import (
     encode,
     shortened,
 )
-
-NOT_UNDERSTOOD = "answer not understood"
-"""How the reason begins where a robot is lost for the form of what it said."""
+from testbed.protocol.errors import NOT_UNDERSTOOD
 
 
 class Desk:
@@ -81,19 +79,6 @@ def read_decision(payload: bytes, percept: Percept) -> Decision:
     if decision.stopped is not None:
         raise RobotStopped(decision.stopped)
     return decision
-
-
-def in_one_line(error: Exception) -> str:
-    """Return what an exception says: of a robot's, what travels to the driver."""
-    return shortened(" ".join(f"{type(error).__name__}: {_said(error)}".split()))
-
-
-def _said(error: Exception) -> str:
-    """What an exception says, as text that can be written: names of files need not be Unicode."""
-    try:
-        return str(error).encode(errors="backslashreplace").decode()
-    except Exception:  # of the exception's own making
-        return "its text cannot be had"
 
 
 def failed(text: str, details: str = "") -> RobotLost:

@@ -7,9 +7,10 @@ from contextlib import ExitStack, closing, suppress
 import zenoh
 
 from testbed.link import keys
-from testbed.link.exchange import Desk, in_one_line
+from testbed.link.exchange import Desk
 from testbed.link.session import open_robot
 from testbed.protocol import RobotFactory
+from testbed.protocol.errors import in_one_line
 
 
 def serve_forever(

@@ -2,7 +2,15 @@
 
 from testbed.protocol.bounds import MOST_BYTES, Count, shortened
 from testbed.protocol.capabilities import Capabilities, Knowledge, Resolution
-from testbed.protocol.errors import LinkError, RobotGone, RobotLost, RobotStopped, RobotStops
+from testbed.protocol.errors import (
+    NOT_UNDERSTOOD,
+    LinkError,
+    RobotGone,
+    RobotLost,
+    RobotStopped,
+    RobotStops,
+    in_one_line,
+)
 from testbed.protocol.messages import (
     PROTOCOL_VERSION,
     Contradiction,
@@ -24,6 +32,7 @@ from testbed.protocol.robot import Robot, RobotClient, RobotFactory
 
 __all__ = [
     "MOST_BYTES",
+    "NOT_UNDERSTOOD",
     "PROTOCOL_VERSION",
     "Capabilities",
     "Contradiction",
@@ -51,5 +60,6 @@ __all__ = [
     "Trace",
     "decode",
     "encode",
+    "in_one_line",
     "shortened",
 ]

@@ -1,5 +1,10 @@
 """What can go wrong between a driver and its robot."""
 
+from testbed.protocol.bounds import shortened
+
+NOT_UNDERSTOOD = "answer not understood"
+"""How the reason begins where a robot is lost for the form of what it said."""
+
 
 class LinkError(ValueError):
     """A message that cannot be understood: wrong version, wrong form, or not MessagePack at all."""
@@ -28,3 +33,16 @@ class RobotStopped(RobotLost):
 
 class RobotGone(RobotLost):
     """The robot is not there any more, or was never there: its process ended, or the link did."""
+
+
+def in_one_line(error: Exception) -> str:
+    """Return what an exception says: of a robot's, what travels to the driver."""
+    return shortened(" ".join(f"{type(error).__name__}: {_said(error)}".split()))
+
+
+def _said(error: Exception) -> str:
+    """What an exception says, as text that can be written: names of files need not be Unicode."""
+    try:
+        return str(error).encode(errors="backslashreplace").decode()
+    except Exception:  # of the exception's own making
+        return "its text cannot be had"
