@@ -14,7 +14,7 @@ from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
 from testbed.experiment.resume import RunStatus
-from testbed.experiment.runner import exit_code, run_in
+from testbed.experiment.runner import run_in
 from testbed.experiment.store import CONFIG, REPORT, choose_folder, holds_run, locked
 from testbed.experiment.wording import counted
 from testbed.protocol import shortened
@@ -58,7 +58,7 @@ def run_session(
         except KeyboardInterrupt:  # the trials are on record, the report is not made
             say(f"interrupted; for the report: testbed report {_quoted(folder)}")
             return INTERRUPTED
-    return exit_code(run)
+    return run.exit_code
 
 
 def report_again(folder: Path, config: ExperimentConfig) -> None:

@@ -19,6 +19,8 @@ from testbed.experiment.store import read_config, read_records
 from testbed.experiment.trial import play_trial
 from testbed.experiment.wording import counted, in_words, of_place, place
 from testbed.link import InProcessRobot
+from testbed.text.grid import Grid
+from testbed.text.terminal import columns
 
 
 def replay(folder: Path, trial: str, say: Say) -> bool:
@@ -55,8 +57,7 @@ def list_trials(folder: Path, say: Say) -> None:
     specs = plan_trials(read_config(folder))
     outcomes = {record.trial: record.outcome for record in read_records(folder)}
     fine = any(spec.setting.fine is not None for spec in specs)
-    rows = [("trial", "level" if fine else "scenario", "robot", "outcome")]
-    rows += [
+    rows = [
         (
             s.trial,
             place(s.scenario, s.level),
@@ -65,10 +66,9 @@ def list_trials(folder: Path, say: Say) -> None:
         )
         for s in specs
     ]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        say("  ".join(cells).rstrip())
+    heads = ("trial", "level" if fine else "scenario", "robot", "outcome")
+    for line in Grid(heads, rows, numbers=range(0)).lines(columns()):
+        say(line)
     command = f"testbed replay {shlex.quote(str(folder))} --trial"
     say(f"choose one by its id, or the beginning of it: {command} {rows[-1][0]}")
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.conformity import check_planned
+from testbed.experiment.interrupts import INTERRUPTED
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES
 from testbed.experiment.recorder import Result
@@ -38,6 +39,11 @@ class RunStatus:
     reason: str | None = None
     workers: int = 1
     interrupted: bool = False
+
+    @property
+    def exit_code(self) -> int:
+        """0 for a run that is done, 1 where trials failed, 130 where it was interrupted."""
+        return INTERRUPTED if self.interrupted else int(self.failed > 0)
 
 
 Notify = Callable[[RunStatus], None]

@@ -9,7 +9,6 @@ from pathlib import Path
 from testbed.config import ExperimentConfig
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.errors import WorkerError
-from testbed.experiment.interrupts import INTERRUPTED
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.resume import Notify, RunStatus, play_missing
 from testbed.experiment.store import (
@@ -22,8 +21,8 @@ from testbed.experiment.store import (
     write_config,
 )
 
-DONE, FAILED, BAD_INPUT = 0, 1, 2
-"""Exit codes, as the provenance has them."""
+BAD_INPUT = 2
+"""The exit code where no trial can be played."""
 
 
 def run(
@@ -76,7 +75,7 @@ def run_in(
         raise
     except KeyboardInterrupt:  # while the trials were planned: none was played
         played = _not_played(folder, config)
-    provenance.close(exit_code(played), played.workers)
+    provenance.close(played.exit_code, played.workers)
     return played
 
 
@@ -85,10 +84,3 @@ def _not_played(folder: Path, config: ExperimentConfig) -> RunStatus:
     planned = sum(covered.planned.values())
     done = planned - sum(covered.missing.values())
     return RunStatus(planned, done, failed=0, workers=0, interrupted=True)
-
-
-def exit_code(played: RunStatus) -> int:
-    """0 for a run that is done, 1 where trials failed, 130 where it was interrupted."""
-    if played.interrupted:
-        return INTERRUPTED
-    return FAILED if played.failed else DONE
