@@ -16,7 +16,7 @@ from testbed.world import World, world_of
 Say = Callable[[str], None]
 
 
-class Teller:
+class Narrator:
     """Tells a trial while it is played; what is as at the step before is not told again."""
 
     def __init__(self, world: World, say: Say) -> None:
@@ -102,7 +102,7 @@ def _told(moment: Moment) -> Iterator[str]:
         yield f"  told         {', '.join(news)}"
 
 
-class FineTeller(Teller):
+class FineNarrator(Narrator):
     """Tells a trial at both resolutions: the abstract action and why, its refined plan, each
     concrete action, what was observed, what failed, and what was inferred in the end.
     """
@@ -165,9 +165,9 @@ def _refined(fine: FineTrace, step: int) -> Iterator[str]:
         yield f"  refined to   {' '.join(fine.plan)}"
 
 
-def teller_of(setting: Setting, say: Say) -> Teller:
+def narrator_of(setting: Setting, say: Say) -> Narrator:
     """Tells the trials of a setting."""
     if setting.fine is None:
-        return Teller(load_world(setting.domain), say)
+        return Narrator(load_world(setting.domain), say)
     refinement = load_ground(setting).refinement
-    return FineTeller(world_of(refinement), refinement.description.fluents, say)
+    return FineNarrator(world_of(refinement), refinement.description.fluents, say)

@@ -9,7 +9,7 @@ from pathlib import Path
 from asp.language import suggestion
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
-from testbed.experiment.narration import Say, teller_of
+from testbed.experiment.narration import Say, narrator_of
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord, logical
 from testbed.experiment.recorder import Result
@@ -36,7 +36,7 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
     listed = of_place(spec.scenario, spec.level)
     say(f"trial {spec.trial}: {listed}, {spec.robot}, seed {spec.seed}")
     say(f"goal: {' '.join(spec.setting.goal)}")
-    result = play_trial(spec, InProcessRobot(make_robot), teller_of(spec.setting, say).tell)
+    result = play_trial(spec, InProcessRobot(make_robot), narrator_of(spec.setting, say).tell)
     _tell_end(result, say)
     return _compare(_recorded(folder, spec), result.record, say)
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.narration import teller_of
+from testbed.experiment.narration import narrator_of
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord, logical
 from testbed.experiment.trial import play_trial
@@ -167,7 +167,7 @@ def _told(steps: Sequence[tuple[str, FineTrace | None]], *overrides: str) -> lis
     (spec,) = _specs(*FIXED, *overrides)
     said: list[str] = []
     robot = InProcessRobot(lambda _: Reciter(steps))
-    play_trial(spec, robot, teller_of(spec.setting, said.append).tell)
+    play_trial(spec, robot, narrator_of(spec.setting, said.append).tell)
     return said
 
 
@@ -233,10 +233,10 @@ def test_a_replay_says_which_action_took_no_effect_and_what_others_did() -> None
 
 
 def test_the_oracle_counts_abstract_actions() -> None:
-    stage = setup_of(_specs("levels=[L1]")[0].setting)
+    setup = setup_of(_specs("levels=[L1]")[0].setting)
     state = world_of(load_ground(_specs("levels=[L1]")[0].setting).refinement).state(
         ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room2_2)"]
     )
     alone, both = ("loc(object1,room1)",), ("loc(object1,room1)", "loc(rob1,room2)")
-    assert stage.judge.minimal(state, alone, 1_000).actions == 3
-    assert stage.judge.minimal(state, both, 1_000).actions == 5
+    assert setup.judge.minimal(state, alone, 1_000).actions == 3
+    assert setup.judge.minimal(state, both, 1_000).actions == 5

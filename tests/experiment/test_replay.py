@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from testbed.experiment.domains import load_world
-from testbed.experiment.narration import Teller
+from testbed.experiment.narration import Narrator
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.replay import list_trials, replay
@@ -59,16 +59,16 @@ def test_a_robot_that_was_lost_need_not_be_lost_again(tmp_path: Path, configure:
 
 
 def _told(world: World, *traces: Trace) -> list[dict[str, str]]:
-    """The lines that a teller has for steps with these traces: by their first word."""
+    """The lines that a narrator has for steps with these traces: by their first word."""
     said: list[str] = []
-    teller = Teller(world, said.append)
+    narrator = Narrator(world, said.append)
     state = world.initial_states()[0]
     steps = []
     for step, trace in enumerate(traces, start=1):
         percept = Percept(trial="t", step=step, visible=[], attempted=None, happened=None)
         decision = Decision(trial="t", step=step, action="wait", believes_goal=False, trace=trace)
         said.clear()
-        teller.tell(Moment(percept, decision, None, None, state, state))
+        narrator.tell(Moment(percept, decision, None, None, state, state))
         lines = [line.strip().partition(" ") for line in said]
         steps.append({word: rest.strip() for word, _, rest in lines})
     return steps
