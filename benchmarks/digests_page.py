@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from benchmarks.sheets import Row, Sheet
-from testbed.text.markdown import markdown
+from papers.markdown import markdown
 
 COLUMNS = ("played", "trials", "failed", "digest")
 EARLIER = {

@@ -23,6 +23,7 @@ from agents.shared.thought import Intention
 from agents.traditional import TraditionalRobot
 from asp.language import Description
 from asp.reasoning.diagnosis import GOAL
+from papers.table1.runs import told_name
 from testbed.analysis.counting import BASELINE
 from testbed.config import ConfigError, ExperimentConfig
 from testbed.experiment.digest import digest
@@ -40,8 +41,7 @@ from testbed.experiment.store import (
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Percept, Task
-from testbed.studies.table1.analysis import RANDOM
-from testbed.studies.table1.runs import told_name
+from testbed.studies.table1.measures import RANDOM
 
 BAD_INPUT = 2
 

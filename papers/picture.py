@@ -9,28 +9,29 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from testbed.analysis.summary import summarise
 from testbed.experiment.errors import StoreError
-from testbed.experiment.store import read_config, read_records
-from testbed.report import level_panels, table1
-from testbed.report.figures import Panel
+from testbed.experiment.store import read_config
+from testbed.report.figures import Panel, drawn
 from testbed.report.rendering import environment
-from testbed.studies.levels.protocol import paper_of
-from testbed.studies.levels.results import levels_of
+from testbed.studies import Key, Section
 
 COLUMNS = 4
 CARD, GAP, HEAD, LEGEND = 292, 12, 32, 34
+MARK, LETTER = 60, 7
+"""Widths in a legend: of a mark with the space beside it, and of a letter."""
+CURVES = ("line", "line square", "dashed")
+"""Marks of curves."""
 _BOX = re.compile(r'<svg viewBox="0 0 ([\d.]+) ([\d.]+)"')
 
 
 @dataclass(frozen=True)
-class Key:
+class Entry:
     """An entry of the legend, at its place."""
 
     kind: str
     colour: str
     text: str
-    x: int = GAP
+    x: int
     y: int = GAP
 
 
@@ -46,49 +47,44 @@ class Placed:
     height: int
 
 
-TABLE1_KEYS = (
-    Key("interval", "first", "triggered, with 95% interval"),
-    Key("square", "second", "drawn at random, classified by what happened", x=240),
-    Key("published", "paper", "published", x=590),
-)
-LEVEL_KEYS = (
-    Key("line", "first", "zoom, with standard deviation"),
-    Key("line square", "second", "no zoom", x=260),
-    Key("dashed", "paper", "published", x=370),
-)
-
-
 def picture(folder: Path) -> str:
-    """The figures of a run of a published experiment, as the text of an SVG file.
+    """The figures of a run of a study, as the text of an SVG file.
 
     Raises:
         StoreError: for a folder without a run, or one without such figures.
         ConfigError: where the stored configuration is not valid any more.
     """
-    config = read_config(folder)
-    analyses = table1.analyses(folder, config)
-    if analyses:
-        label = "Table 1: accuracy and ratios by scenario"
-        return _drawn(table1.panels(analyses[0]), TABLE1_KEYS, label)
-    panels = level_panels.panels(levels_of(summarise(read_records(folder))), paper_of(config))
-    if not panels:
+    found = results_of(folder, read_config(folder))
+    sections = [own for finding in found for own in finding.sections if own.charts]
+    if not sections:
         raise StoreError(f"{folder}: has no figures; only published experiments have")
-    return _drawn(panels, LEVEL_KEYS, "Reasoning time by level, zoom and no zoom")
+    return _drawn(sections[0])
 
 
-def _drawn(panels: Sequence[Panel], keys: Sequence[Key], label: str) -> str:
-    places = list(_places(panels))
+def _drawn(section: Section) -> str:
+    """The charts of a section that are like its first, which are equally large."""
+    curves = section.charts[0].kind == "seconds"
+    charts = [own for own in section.charts if (own.kind == "seconds") == curves]
+    keys = [own for own in section.legend if (own.mark in CURVES) == curves]
+    places = list(_places(list(map(drawn, charts))))
     return (
         environment()
         .get_template("picture.svg.j2")
         .render(
-            label=label,
-            keys=keys,
+            label=section.title,
+            keys=list(_legend(keys)),
             places=places,
             width=GAP + COLUMNS * (CARD + GAP),
             height=max(place.y + place.height for place in places) + GAP,
         )
     )
+
+
+def _legend(keys: Sequence[Key]) -> Iterator[Entry]:
+    x = GAP
+    for key in keys:
+        yield Entry(key.mark, key.colour, key.text, x)
+        x += MARK + LETTER * len(key.text)
 
 
 def _places(panels: Sequence[Panel]) -> Iterator[Placed]:

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from papers.levels.document import document
+from papers.levels.runs import read_run
 from testbed.config import ConfigError
 from testbed.experiment.errors import StoreError
-from testbed.studies.levels.runs import read_run
 
 BAD_INPUT = 2
 

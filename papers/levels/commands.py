@@ -8,8 +8,8 @@ from pathlib import Path
 from papers.commands import arguments, workers_of
 from papers.commands import place as place_of
 from testbed.config import ExperimentConfig
-from testbed.studies.levels.protocol import PROTOCOL
 
+PROTOCOL = "levels"
 PAGE, PICTURE = "docs/levels-published-and-measured.md", "docs/images/levels.svg"
 
 

@@ -2,133 +2,85 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from papers.levels import evidence
-from papers.levels.commands import place
-from papers.levels.evidence import Scatter
-from papers.levels.growing import growth
-from papers.levels.prose import times
-from testbed.studies.levels import comparing
-from testbed.studies.levels.comparing import CONDITIONS
-from testbed.studies.levels.pairing import Trial
+from papers.levels.evidence import Scatter, Surprise, Work
+from papers.levels.pairing import Trial
+from papers.levels.runs import Run
+from papers.text import times
 from testbed.studies.levels.published import FIRST, NO_ZOOM, PAPER, ZOOM
-from testbed.studies.levels.runs import Run
-from testbed.studies.levels.table import seconds
-from testbed.text.markdown import markdown, paragraph
-
-PLANNING = "[Performance](performance.md#zooming)"
+from testbed.studies.levels.tables import CONDITIONS, RATIO, ratios, seconds, shares
+from testbed.studies.levels.tables import growth as grown
 
 
-def differences(run: Run) -> Iterator[str]:
-    """How many published values lie in our intervals; the wall, the ratios, and the growth."""
-    yield "## Where ours differ, and why"
-    yield markdown(("", "published values", "inside our intervals"), _inside(run))
-    yield from _wall(run)
-    yield from _ratios(run)
-    yield from growth(run)
+def differences(run: Run) -> dict[str, Any]:
+    """How many published values lie in our intervals; the wall, and the ratios."""
+    return {"inside": list(_inside(run)), **_wall(run), **_ratios(run)}
 
 
 def _inside(run: Run) -> Iterator[tuple[str, ...]]:
     tables = (
-        ("trials that achieved their goal", list(comparing.shares(run.levels, PAPER))),
-        ("no zoom / zoom", list(comparing.ratios(run.levels, PAPER))),
-        (f"growth from {FIRST}", list(comparing.growth(run.levels, PAPER))),
+        ("trials that achieved their goal", list(shares(run.beside))),
+        (RATIO, list(ratios(run.beside))),
+        (f"growth from {FIRST}", list(grown(run.beside))),
     )
-    for name, lines in tables:
-        for what in dict.fromkeys(line.what for line in lines):
-            counted = evidence.inside(line for line in lines if line.what == what)
+    for name, rows in tables:
+        for what in dict.fromkeys(row.what for row in rows):
+            counted = evidence.inside(row for row in rows if row.what == what)
             if counted.values:
                 told = name if what == name else f"{name}, {what}"
                 yield (told, str(counted.values), str(counted.inside))
 
 
-def _wall(run: Run) -> Iterator[str]:
+def _wall(run: Run) -> dict[str, Any]:
     """The levels at which the published system did not end all of its trials without zooming."""
-    walled = [
-        name
-        for name in run.levels
-        if (name, NO_ZOOM) in PAPER.conditions and PAPER.conditions[name, NO_ZOOM].completed < 1
-    ]
-    if not walled:
-        return
-    shares = [f"{_share(walled[0])} of the trials at {walled[0]}"]
-    shares += [f"{_share(name)} at {name}" for name in walled[1:]]
-    own = [pair.no_zoom for name in walled for pair in run.pairs.get(name, ())]
-    ended = sum(trial.counts.achieved for trial in own)
-    yield "### The wall without zooming"
-    yield paragraph(
-        f"Without zooming the published system achieved its goal in {', '.join(shares)}. Here "
-        f"{ended} of {len(own)} trials at these levels did. {_slowest(run)}"
-    )
-    yield paragraph(
-        "Here a refined plan is not solved from scratch, with zooming or without. Where it is, "
-        "from the literal translation of the refined description, there is such a wall: "
-        f"{PLANNING} measures both."
-    )
+    known = {name: PAPER.conditions.get((name, NO_ZOOM)) for name in run.levels}
+    walled = [(name, own.completed) for name, own in known.items() if own and own.completed < 1]
+    own = [pair.no_zoom for name, _ in walled for pair in run.pairs.get(name, ())]
+    return {
+        "walled": walled,
+        "wall": {"ended": sum(trial.counts.achieved for trial in own), "trials": len(own)},
+        "slowest": [
+            _slowest([pair.no_zoom for pair in run.all_pairs], NO_ZOOM),
+            _slowest([pair.zoom for pair in run.all_pairs], ZOOM),
+        ],
+    }
 
 
-def _share(level: str) -> str:
-    return f"{PAPER.conditions[level, NO_ZOOM].completed:.0%}"
-
-
-def _slowest(run: Run) -> str:
-    told = []
-    for trials, name in (
-        ([pair.no_zoom for pair in run.all_pairs], CONDITIONS[NO_ZOOM]),
-        ([pair.zoom for pair in run.all_pairs], CONDITIONS[ZOOM]),
-    ):
-        longest = max(trials, key=_reasoning)
-        told.append(
-            f"{seconds(_reasoning(longest))} ({name}; `testbed replay {place(run.config)} "
-            f"--trial {longest.trial}`)"
-        )
-    return f"The trials with most reasoning took {' and '.join(told)}."
+def _slowest(trials: list[Trial], robot: str) -> dict[str, str]:
+    longest = max(trials, key=_reasoning)
+    told = seconds(_reasoning(longest))
+    return {"seconds": told, "condition": CONDITIONS[robot], "trial": longest.trial}
 
 
 def _reasoning(trial: Trial) -> float:
     return trial.counts.seconds["total"]
 
 
-def _ratios(run: Run) -> Iterator[str]:
-    scatters = _scatters(run)
+def _ratios(run: Run) -> dict[str, Any]:
+    """What comparing two clocks comes to where both robots do the same; nothing where none do."""
+    found = {name: evidence.scatter(own, run.config.robots) for name, own in run.pairs.items()}
+    scatters = {name: own for name, own in found.items() if own is not None}
     if not scatters:
-        return
-    whole = evidence.met(run.all_pairs)
-    yield "### The ratios"
-    yield paragraph(
-        f"In {whole.alike} of {whole.pairs} pairs both robots did the same: the same abstract "
-        "actions at the same steps, by as many refined plans, concrete actions and tests. There a "
-        "ratio compares the time of the same work. At the coarse resolution even the reasoning is "
-        "the same, so that its ratio says how well times can be compared. Of these pairs:"
-    )
-    yield markdown(
-        (
-            "level",
-            "pairs",
-            "coarse, no zoom / zoom",
-            "zoom / no zoom",
-            "median",
-            "median, zoom first",
-            "median, no zoom first",
-        ),
-        (_scatter(name, own) for name, own in scatters.items()),
-    )
-    yield paragraph(_scattered(scatters.values()))
+        return {"scatters": []}
     refined = [(n, level.compared.ratios["refined_plan"].median) for n, level in run.levels.items()]
     known = [(name, estimate.value) for name, estimate in refined if estimate is not None]
-    least, most = min(known, key=lambda own: own[1]), max(known, key=lambda own: own[1])
-    yield paragraph(
-        f"What zooming is worth is thus seen at the fine resolution: a refined plan takes "
-        f"{times(least[1])} ({least[0]}) to {times(most[1])} ({most[0]}) times as long without "
-        "it, by the medians. What it is worth where plans are solved from scratch, and why it is "
-        f"less here, says {PLANNING}."
-    )
-
-
-def _scatters(run: Run) -> dict[str, Scatter]:
-    found = {name: evidence.scatter(own, run.config.robots) for name, own in run.pairs.items()}
-    return {name: own for name, own in found.items() if own is not None}
+    own = list(scatters.values())
+    split = [(one.zoom_first, one.no_zoom_first) for one in own]
+    return {
+        "scatters": [_scatter(name, one) for name, one in scatters.items()],
+        "scatter": {
+            "levels": len(own),
+            "both": sum(one.mean > 1 and one.inverse > 1 for one in own),
+            "least": min(one.median for one in own),
+            "most": max(one.median for one in own),
+            "gained": sum(z is not None and n is not None and z < n for z, n in split),
+        },
+        "least": min(known, key=lambda one: one[1]),
+        "most": max(known, key=lambda one: one[1]),
+    }
 
 
 def _scatter(name: str, own: Scatter) -> tuple[str, ...]:
@@ -136,18 +88,74 @@ def _scatter(name: str, own: Scatter) -> tuple[str, ...]:
     return (name, str(own.pairs), times(own.mean), times(own.inverse), *map(times, medians))
 
 
-def _scattered(scatters: Iterable[Scatter]) -> str:
-    own = list(scatters)
-    both = sum(one.mean > 1 and one.inverse > 1 for one in own)
-    medians = [one.median for one in own]
-    split = [(o.zoom_first, o.no_zoom_first) for o in own]
-    gained = sum(z is not None and n is not None and z < n for z, n in split)
-    served = 2 * gained > len(own)
+def growth(run: Run) -> dict[str, Any]:
+    """How many plans and how long each, at the fine resolution; what surprises cost at the other.
+
+    Nothing where the first level was not played, or no other.
+    """
+    if FIRST not in run.pairs or len(run.pairs) == 1:
+        return {"work": []}
+    works = {name: evidence.work(own, name, PAPER) for name, own in run.pairs.items()}
+    calm = {name: evidence.surprise(own) for name, own in run.pairs.items()}
+    first, last = works[FIRST], list(works.values())[-1]
+    return {
+        "last": list(works)[-1],
+        "work": [_work(name, own, first) for name, own in works.items()],
+        "plans_each": [_divided(own.plans, own.abstract) for own in (first, last)],
+        "grown": {
+            "ours": _larger(
+                _divided(last.plans, first.plans), _divided(last.seconds, first.seconds)
+            ),
+            "theirs": _larger(
+                _divided(last.implied, first.implied), _divided(last.published, first.published)
+            ),
+        },
+        "surprise": [_surprise(name, own, calm[FIRST]) for name, own in calm.items()],
+        "surprised": _surprised(calm),
+    }
+
+
+def _work(name: str, own: Work, first: Work) -> tuple[str, ...]:
     return (
-        f"At {both} of {len(own)} levels the mean is above 1 whichever of the two is divided by "
-        "the other: scatter alone raises a mean of ratios. The medians lie between "
-        f"{times(min(medians))} and {times(max(medians))}. At {gained} of {len(own)} levels the "
-        "robot that plays second needs less time, by these medians"
-        f"{': what the first has prepared can serve it, too' if served else ''}. Which of a pair "
-        "is first is drawn with its seed."
+        name,
+        f"{own.abstract:.1f}",
+        f"{own.plans:.1f}",
+        "-" if own.implied is None else f"{own.implied:.1f}",
+        times(_divided(own.plans, first.plans)),
+        times(_divided(own.implied, first.implied)),
+        times(_divided(own.seconds, first.seconds)),
+        times(_divided(own.published, first.published)),
     )
+
+
+def _divided(above: float | None, below: float | None) -> float | None:
+    return above / below if above is not None and below else None
+
+
+def _larger(plans: float | None, time: float | None) -> str | None:
+    """What grows more."""
+    if plans is None or time is None:
+        return None
+    return "the number of plans" if plans > time else "the time of a plan"
+
+
+def _surprise(name: str, own: Surprise, first: Surprise) -> tuple[str, ...]:
+    published = PAPER.growth(name, ZOOM, "coarse")
+    return (
+        name,
+        f"{own.events:.1f}",
+        f"{own.calm} of {own.trials}",
+        times(_divided(own.seconds, first.seconds)),
+        "-" if published is None else times(published.value),
+        times(_divided(own.others, own.seconds)),
+    )
+
+
+def _surprised(levels: Mapping[str, Surprise]) -> dict[str, Any] | None:
+    """At the last level, the trials with something to explain, and their share of the time."""
+    last = list(levels.values())[-1]
+    if last.seconds is None or last.others is None:
+        return None
+    explaining = last.trials - last.calm
+    part = last.others * explaining
+    return {"trials": explaining, "share": part / (part + last.seconds * last.calm)}

@@ -3,104 +3,99 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from papers.commands import workers_of
-from papers.levels import prose
-from papers.levels.commands import commands
-from papers.levels.differing import differences
-from papers.levels.meeting import failures, meetings
+from papers.levels import evidence
+from papers.levels.commands import commands, place
+from papers.levels.differing import differences, growth
+from papers.levels.pairing import MEETINGS
+from papers.levels.runs import Run
+from papers.text import render
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.store import read_records
-from testbed.studies.levels.published import FIRST, PAPER
-from testbed.studies.levels.runs import Run
-from testbed.studies.levels.table import (
-    GROWTH,
-    RATIOS,
-    SECONDS,
-    SHARES,
-    TESTS,
-    effect_rows,
-    growth_rows,
-    ratio_rows,
-    seconds_rows,
-    share_rows,
-)
-from testbed.text.markdown import markdown, paragraph
-
-INTRODUCTION = """\
-Generated from stored trials by the commands below; [the levels](levels.md) says what is played and
-counted. Nothing in the robots or in the levels was chosen to come near the published figures.
-
-```console
-{commands}
-```
-
-Whoever runs the first command gets the same results: their digest is
-`{digest}`. Times depend on the machine, and on
-what else it does{workers}."""
-
-READING = """\
-What can be compared across machines and solvers are shares, ratios and growth. In their tables: our
-value with its 95% interval, for times the mean and below it the median, and the published value,
-with `*` where it does not lie in the interval of ours. *Fine* is reasoning in cells and parts,
-*coarse* in rooms and objects, *all* both in a trial; *a refined plan* is the mean time of one.
-Times are process time of the robot, its solver included, without what is prepared once and reused.
-Beside the mean of ratios stands the ratio of sums (*of sums*), in which long trials weigh more."""
-
-TESTING = """\
-Effect sizes (of times rank-biserial, above 0 where zooming saves time; of trials that achieved
-their goal, and of correct ones, the difference of the shares, above 0 where zooming has more), with
-p-values after Holm's correction over the table. There is none where no pair differs."""
+from testbed.studies import Line, rows_of
+from testbed.studies.levels import tables
+from testbed.studies.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM
 
 
 def document(run: Run) -> str:
     """The page as Markdown: the tables, why ours differ, what both robots met, the tests."""
-    return prose.document(_parts(run))
+    values = {
+        "commands": commands(run.folder, run.config),
+        "digest": digest(read_records(run.folder)),
+        "workers": workers_of(run.folder),
+        "notice": coverage_of(read_records(run.folder), run.config).notice(),
+        "place": place(run.config),
+        "first": FIRST,
+        **_compared(run),
+        **differences(run),
+        **growth(run),
+        **_meetings(run),
+        **_failures(run),
+    }
+    return render("levels/page", **values)
 
 
-def _parts(run: Run) -> Iterator[str]:
-    yield "# The levels: published and measured"
-    yield INTRODUCTION.format(
-        commands=commands(run.folder, run.config),
-        digest=digest(read_records(run.folder)),
-        workers=_workers(run),
-    )
-    yield _incomplete(run)
-    yield from _compared(run)
-    yield "## Seconds"
-    yield "Means and standard deviations, and our medians."
-    yield markdown(SECONDS, seconds_rows(run.levels, PAPER))
-    yield from differences(run)
-    yield from meetings(run)
-    yield from failures(run)
-    yield "## Tests"
-    yield TESTING
-    yield markdown(TESTS, effect_rows(run.levels))
+def _compared(run: Run) -> dict[str, Any]:
+    """The tables of ours beside the published values, and that of the tests."""
+    return {
+        "headings": tables.HEADINGS,
+        "ratio_columns": tables.RATIOS,
+        "growth_columns": tables.GROWTH,
+        "test_columns": tables.TESTS,
+        "shares": [_share(row) for row in tables.shares(run.beside)],
+        "ratios": list(rows_of(row.line for row in tables.ratios(run.beside))),
+        "growth": list(rows_of(row.line for row in tables.growth(run.beside))),
+        "seconds": list(rows_of(_seconds(run))),
+        "tests": list(tables.effect_rows(run.levels)),
+    }
 
 
-def _incomplete(run: Run) -> str:
-    notice = coverage_of(read_records(run.folder), run.config).notice()
-    return "" if notice is None else paragraph(f"**Incomplete:** {notice}.")
+def _share(row: tables.Row) -> tuple[str, ...]:
+    """With the published value in a column of its own."""
+    (value,) = row.line.values
+    return (*row.line.labels, value.whole, value.marked or "-")
 
 
-def _workers(run: Run) -> str:
-    workers = workers_of(run.folder)
-    if workers is None:
-        return ""
-    return (
-        f"; these are of trials played by {workers} process{'es' if workers > 1 else ''} at a time"
-    )
+def _seconds(run: Run) -> Iterator[Line]:
+    for name, level in run.levels.items():
+        for robot, own in level.reasoning.items():
+            achieved = f"{own.achieved}/{own.trials}{tables.out_of_reach(own)}"
+            theirs = [run.beside.paper.seconds(name, robot, part) for part in PARTS]
+            times = (
+                tables.timed(getattr(own, part), paper)
+                for part, paper in zip(PARTS, theirs, strict=True)
+            )
+            yield Line((name, tables.CONDITIONS.get(robot, robot), achieved), tuple(times))
 
 
-def _compared(run: Run) -> Iterator[str]:
-    yield "## What can be compared"
-    yield READING
-    yield "**Trials that achieved their goal**, those in error or without their robot included:"
-    yield markdown(SHARES, share_rows(run.levels, PAPER))
-    yield "**No zoom / zoom**, over the pairs in which both robots achieved their goal:"
-    yield markdown(RATIOS, ratio_rows(run.levels, PAPER))
-    grown = list(growth_rows(run.levels, PAPER))
-    if grown:
-        yield f"**Growth**: how many times the mean (median) at {FIRST} in the same condition:"
-        yield markdown(GROWTH, grown)
+def _meetings(run: Run) -> dict[str, Any]:
+    """Whether the robots of a pair met the same, in all pairs and by level."""
+    whole = evidence.met(run.all_pairs)
+    levels = {name: evidence.met(own) for name, own in run.pairs.items()}
+    rows = [
+        (text, *(str(own.meetings[kind]) for own in (*levels.values(), whole)))
+        for kind, text in MEETINGS.items()
+    ]
+    return {"met": whole, "levels": tuple(levels), "meetings": rows}
+
+
+def _failures(run: Run) -> dict[str, Any]:
+    """The trials that were not correct; how many ended otherwise than by their robot."""
+    trials = [
+        (pair.level, tables.CONDITIONS[robot], trial)
+        for pair in run.all_pairs
+        for robot, trial in ((ZOOM, pair.zoom), (NO_ZOOM, pair.no_zoom))
+    ]
+    return {
+        "trials": len(trials),
+        "lost": sum(not trial.counts.played for _, _, trial in trials),
+        "out_of_reach": sum(trial.counts.out_of_reach for _, _, trial in trials),
+        "wrong": [
+            {"level": level, "condition": who, "trial": own.trial, "outcome": own.outcome}
+            for level, who, own in trials
+            if own.counts.decided and not own.counts.correct
+        ],
+    }

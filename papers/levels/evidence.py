@@ -7,10 +7,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import fmean, median
 
+from papers.levels.pairing import MEETINGS, Meeting, Pair
 from testbed.experiment.seeds import playing_order
-from testbed.studies.levels.comparing import Line
-from testbed.studies.levels.pairing import MEETINGS, Meeting, Pair
 from testbed.studies.levels.published import ZOOM, Paper
+from testbed.studies.levels.tables import Row
 
 
 @dataclass(frozen=True)
@@ -155,7 +155,7 @@ class Inside:
     values: int
 
 
-def inside(lines: Iterable[Line]) -> Inside:
+def inside(rows: Iterable[Row]) -> Inside:
     """Over the cells of some rows."""
-    known = [cell.inside for line in lines for cell in line.cells if cell.inside is not None]
+    known = [cell.inside for row in rows for cell in row.cells if cell.inside is not None]
     return Inside(sum(known), len(known))

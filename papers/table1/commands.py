@@ -6,7 +6,7 @@ import shlex
 from dataclasses import dataclass
 
 from papers.commands import arguments
-from testbed.studies.table1.runs import PROTOCOL, Run, told_order
+from papers.table1.runs import PROTOCOL, Run, told_order
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from papers.markdown import markdown, paragraph
 from papers.table1.commands import Sources, commands, played
 from papers.table1.drawing import drawing
 from papers.table1.failing import blindness, failures, meetings
@@ -14,21 +15,22 @@ from papers.table1.hypotheses import (
     hypotheses,
     weigh,
 )
+from papers.table1.measured import optimum, times
 from papers.table1.others import later, unaided
 from papers.table1.released import released
 from papers.table1.rows import row_by_row
+from papers.table1.runs import Run, released_weights, told_order
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.store import read_records
-from testbed.studies.table1 import optimum, times
-from testbed.studies.table1.analysis import RANDOM, Analysis, Table
-from testbed.studies.table1.pairing import Pair
-from testbed.studies.table1.runs import Run, released_weights, told_order
-from testbed.studies.table1.table import COLUMNS, HEADINGS, rows_of, tests_of
-from testbed.text.markdown import markdown, paragraph
+from testbed.studies import rows_of
+from testbed.studies.table1.load import Pair
+from testbed.studies.table1.measures import RANDOM, Analysis, Table
+from testbed.studies.table1.tables import HEADINGS, lines, test_rows
 
+COLUMNS = ("scenario", "pairs", *HEADINGS, "TP acc.", "ATI acc.")
 __all__ = ["Sources", "document"]
 
 INTRODUCTION = """\
@@ -74,13 +76,13 @@ def document(sources: Sources) -> str:
             incomplete=_incomplete(sources),
         ),
         *_tables(analysis),
-        times.section(analysis),
+        times(analysis),
         drawing(analysis),
         blindness(pairs),
         row_by_row(pairs, load_world(sources.main.config.domain)),
         *_hypotheses(sources, mind),
         *([] if sources.later is None else [later(sources.later, pairs)]),
-        optimum.section(analysis),
+        optimum(analysis),
         failures(sources.main, mind),
         meetings(pairs),
         *([] if sources.unaided is None else [unaided(sources.unaided)]),
@@ -145,11 +147,11 @@ def _incomplete(sources: Sources) -> str:
 def _tables(analysis: Analysis) -> Iterator[str]:
     if analysis.triggered is not None:
         yield "## Triggered scenarios\n"
-        yield markdown(COLUMNS, rows_of(analysis.triggered)) + "\n"
+        yield markdown(COLUMNS, rows_of(lines(analysis.triggered))) + "\n"
         yield _apart(analysis.triggered)
     if analysis.random is not None:
         yield "## Random exogenous actions, classified afterwards\n"
-        yield markdown(COLUMNS, rows_of(analysis.random)) + "\n"
+        yield markdown(COLUMNS, rows_of(lines(analysis.random))) + "\n"
         yield _apart(analysis.random)
 
 
@@ -157,7 +159,7 @@ def _tests(analysis: Analysis) -> str:
     """Effect sizes and corrected p-values of both tables."""
     columns = ("scenario", *HEADINGS, "accuracy")
     parts = [
-        f"**{name}**\n\n{markdown(columns, tests_of(table))}\n"
+        f"**{name}**\n\n{markdown(columns, test_rows(table))}\n"
         for name, table in (("Triggered", analysis.triggered), ("Random", analysis.random))
         if table is not None
     ]

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from papers.markdown import markdown, paragraph
 from papers.table1 import evidence
-from papers.table1.text import percent
-from testbed.studies.table1.analysis import Analysis
+from papers.text import percent
 from testbed.studies.table1.classify import UNCLASSIFIED
+from testbed.studies.table1.measures import Analysis
 from testbed.studies.table1.published import ALL, PUBLISHED, SCENARIOS
-from testbed.text.markdown import markdown, paragraph
 
 
 def drawing(analysis: Analysis) -> str:

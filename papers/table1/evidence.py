@@ -12,17 +12,17 @@ import numpy as np
 from scipy.optimize import nnls  # type: ignore[import-untyped]  # scipy ships no types
 
 from testbed.analysis.statistics import Estimate
-from testbed.studies.table1.analysis import Row, Table
-from testbed.studies.table1.pairing import Pair
+from testbed.studies.table1.load import Pair
+from testbed.studies.table1.measures import Row, Table
 from testbed.studies.table1.published import (
     ALL,
-    HALF_CENT,
     MEASURES,
     NO_FAILURES,
     PUBLISHED,
     SCENARIOS,
     Published,
 )
+from testbed.studies.tables import HALF_DIGIT
 
 WITHOUT_SECONDS = ("plans", "execution_units", "actions")
 """The measures that do not depend on how fast a machine or a solver is."""
@@ -124,7 +124,7 @@ def closeness(table: Table, rows: Iterable[str] = SCENARIOS) -> Closeness:
         for _, column, ours, theirs in known
         if column != ACCURACY and ours.value
     ]
-    inside = [bool(ours.covers(theirs, HALF_CENT)) for *_, ours, theirs in known]
+    inside = [bool(ours.covers(theirs, HALF_DIGIT)) for *_, ours, theirs in known]
     return Closeness(sum(inside), len(inside), fmean(distances) if distances else 0.0)
 
 
@@ -141,7 +141,7 @@ class Outside:
 def outside(table: Iterable[Row], rows: Iterable[str] = SCENARIOS) -> Iterator[Outside]:
     """The published values that `closeness` does not count as inside."""
     for name, column, ours, theirs in _beside(table, rows):
-        if ours.covers(theirs, HALF_CENT) is False:
+        if ours.covers(theirs, HALF_DIGIT) is False:
             yield Outside(name, column, ours.value, theirs)
 
 

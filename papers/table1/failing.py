@@ -6,14 +6,14 @@ import shlex
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+from papers.markdown import markdown, paragraph
 from papers.table1 import evidence
 from papers.table1.evidence import Blindness
-from papers.table1.text import percent
-from testbed.studies.table1.analysis import RANDOM
-from testbed.studies.table1.pairing import MEETINGS, Pair
+from papers.table1.runs import Run
+from papers.text import percent
+from testbed.studies.table1.load import MEETINGS, Pair
+from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED
-from testbed.studies.table1.runs import Run
-from testbed.text.markdown import markdown, paragraph
 
 COLUMNS = ("scenario", "goal undone", "TP right", "other pairs", "TP right")
 

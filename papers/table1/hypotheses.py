@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from papers.markdown import markdown, paragraph
 from papers.table1 import evidence
 from papers.table1.released import NAMES, PAIRS
-from papers.table1.text import percent
 from papers.table1.weighing import Weighing, weighing
+from papers.text import percent
 from testbed.analysis.statistics import Estimate
-from testbed.studies.table1.analysis import RANDOM
-from testbed.studies.table1.pairing import Pair
+from testbed.studies.table1.load import Pair
+from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS
-from testbed.studies.table1.table import number
-from testbed.text.markdown import markdown, paragraph
+from testbed.studies.table1.tables import number
 
 AS_PLAYED, PASSED_ON = "as played", "released draw"
 Weights = Callable[[Pair], float]

@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from papers.markdown import markdown, paragraph
 from papers.table1 import evidence
-from papers.table1.text import percent
+from papers.table1.runs import Run
+from papers.text import percent
 from testbed.analysis.counting import NO_EVENT, NOTHING_TO_DO, Apart, eventful
 from testbed.experiment.domains import load_world
-from testbed.studies.table1.analysis import RANDOM, Row
-from testbed.studies.table1.pairing import Pair
+from testbed.studies.table1.load import Pair
+from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
-from testbed.studies.table1.runs import Run
-from testbed.studies.table1.table import HEADINGS, interval, number
-from testbed.text.markdown import markdown, paragraph
+from testbed.studies.table1.tables import HEADINGS, number
+from testbed.studies.tables import written
 
 
 def later(run: Run, main: Sequence[Pair]) -> str:
@@ -56,7 +57,7 @@ def _first(main: Sequence[Pair], run: Run) -> str:
 
 
 def _accuracy(row: Row) -> tuple[str, ...]:
-    ours = "-" if row.baseline is None else interval(row.baseline)
+    ours = "-" if row.baseline is None else written(row.baseline, share=True)
     ratios = [row.ratios[name].mean for name in MEASURES]
     values = (number(None if ratio is None else ratio.value) for ratio in ratios)
     return (row.name, str(row.pairs), ours, percent(PUBLISHED[row.name].baseline), *values)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from papers.markdown import markdown, paragraph
 from papers.table1 import evidence
-from papers.table1.text import percent
 from papers.table1.weighing import Weighing
+from papers.text import percent
 from testbed.analysis.statistics import Estimate
+from testbed.studies.table1.measures import Row
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS, Published
-from testbed.studies.table1.results import Row
-from testbed.text.markdown import markdown, paragraph
 
 NAMES = {"plans": "plans", "execution_units": "exec. time", "actions": "actions"}
 """The measures that do not depend on how fast a machine or a solver is."""
@@ -51,7 +51,7 @@ def _why(own: Weighing, met_otherwise: int) -> str:
         "Until the event both robots know everything, and act alike under either draw. So the "
         "pairs above are pairs of the released simulator, too, only not as frequent: each is "
         "weighed by how many times more probable its event is there "
-        f"(`testbed/studies/table1/redrawing.py`). {doubt if met_otherwise else ''}What comes "
+        f"(`papers/table1/redrawing.py`). {doubt if met_otherwise else ''}What comes "
         f"of it, as certain as {own.worth:.0f} pairs of equal weight:"
     )
 

@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from statistics import fmean, median
 
 from asp.language import literals as text
+from papers.markdown import markdown, paragraph
 from papers.table1 import evidence
-from papers.table1.text import percent
-from testbed.studies.table1.analysis import RANDOM
-from testbed.studies.table1.pairing import Pair, Side
+from papers.text import percent
+from testbed.studies.table1.load import Pair, Side
+from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
-from testbed.studies.table1.table import HEADINGS, number
-from testbed.text.markdown import markdown, paragraph
+from testbed.studies.table1.tables import HEADINGS, number
 from testbed.world import World
 
 

@@ -10,9 +10,10 @@ from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
 from testbed.analysis.resampling import BATCH, CONFIDENCE, RESAMPLES, SEED, Values
 from testbed.analysis.statistics import Estimate
-from testbed.studies.table1.pairing import Pair
+from testbed.studies import Ratio
+from testbed.studies.table1.load import Pair
+from testbed.studies.table1.measures import Row, Table
 from testbed.studies.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
-from testbed.studies.table1.results import Ratio, Row, Table
 
 Weighed = tuple[Pair, float]
 

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from agents.adversary import RANDOM_RATE
 from asp.language import read_domain
-from testbed.config import (
-    ExperimentConfig,
-    Observability,
-    ScenarioSettings,
-    load_config,
-)
+from testbed.config import ExperimentConfig, Observability, ScenarioSettings
 from testbed.experiment.wording import in_words, listed
 
 NO_RESULT = {"answer_s"}
@@ -32,34 +27,24 @@ def condition(config: ExperimentConfig) -> str:
     return "; ".join(part for part in parts if part)
 
 
-def deviations(config: ExperimentConfig, study: str) -> tuple[str, ...]:
-    """In what a configuration is not that of a published study, which has the name of a package's.
+def deviations(config: ExperimentConfig, published: ExperimentConfig) -> tuple[str, ...]:
+    """In what a configuration is not the one that plays a study as it was published.
 
     How many trials are played, of which of its scenarios or levels, by which further robots and
     with which seed makes no difference.
     """
-    own, published = _rules(config), _rules(load_config(study))
-    return tuple(name for name, value in own.items() if value != published[name])
+    robots = published.robots
+    own, theirs = _rules(config, robots), _rules(published, robots)
+    return tuple(name for name, value in own.items() if value != theirs[name])
 
 
-def left_out(config: ExperimentConfig) -> str | None:
-    """Why the figures of the published experiment do not stand beside a run's; None if they do."""
-    if config.protocol is None:
-        return None
-    names = deviations(config, config.protocol)
-    if not names:
-        return None
-    return f"published figures are left out: {listed(names)} not as in the published experiment"
-
-
-def _rules(config: ExperimentConfig) -> Mapping[str, object]:
+def _rules(config: ExperimentConfig, robots: Collection[str]) -> Mapping[str, object]:
     played = [config.settings(name) for name in config.scenarios] or [config.settings("")]
-    reference = load_config(config.protocol).robots if config.protocol else ()
     return {
         "domain": (read_domain(config.domain)[1], config.refinement),
         "goal": {frozenset(own.goal or ()) for own in played},
         "initial state": {own.initial for own in played},
-        "robots": not set(reference) - set(config.robots),
+        "robots": not set(robots) - set(config.robots),
         "observability": {n: o for n, o in config.observability.items() if o != UNSEEN},
         "goal feedback": {own.goal_feedback for own in played},
         "knowledge": config.knowledge,

@@ -1,4 +1,4 @@
-"""Configurations that may be run here: with the robots and the adversaries that there are."""
+"""Configurations that may be run here: with the robots, adversaries and studies that there are."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from testbed.experiment.adversaries import adversary_findings
 from testbed.experiment.provenance import modules_of
 from testbed.experiment.robots import robot_findings
 from testbed.registry import search_as_told, search_last
+from testbed.studies import study_findings
 
-CHECKS = (robot_findings, adversary_findings)
+CHECKS = (robot_findings, adversary_findings, study_findings)
 """Of what a configuration calls by name."""
 
 

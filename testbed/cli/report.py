@@ -19,8 +19,11 @@ def command(
     from testbed.experiment.run_config import read_config
 
     with input_errors():
+        from testbed.cli.loading import search_beside
+
         configs = [read_config(folder) for folder in folders]
         from testbed.cli.session import report_again
 
         for folder, config in zip(folders, configs, strict=True):
+            search_beside(folder / "config.yaml")  # where a study of one's own lies
             report_again(folder, config)

@@ -6,7 +6,6 @@ import shlex
 import sys
 from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.conformity import check_planned
@@ -18,14 +17,9 @@ from testbed.experiment.runner import run_in
 from testbed.experiment.store import CONFIG, REPORT, choose_folder, holds_run, locked
 from testbed.experiment.wording import counted
 from testbed.protocol import shortened
-from testbed.report import Tables, write_report
-from testbed.report.tables import grid
-from testbed.studies.levels.table import level_grid
+from testbed.report import Tables, grid, write_report
 from testbed.text.grid import Grid
 from testbed.text.terminal import Printer, Say, columns
-
-if TYPE_CHECKING:
-    from testbed.studies.table1.analysis import Analysis
 
 MOST_OF_REASON = 200
 """Characters of a reason that are said on the terminal; the report has all of it."""
@@ -106,11 +100,9 @@ def _digested(tables: Tables) -> str:
 
 def _show_tables(say: Say, tables: Tables) -> None:
     _show_grid(say, grid(tables.rows))
-    for levels in tables.levels:
+    for own in tables.grids:
         say("")
-        _show_grid(say, level_grid(levels))
-    for analysis in tables.table1:
-        _show_table1(say, analysis)
+        _show_grid(say, own)
     for row in tables.rows:
         for note in row.notes():
             say(note)
@@ -118,17 +110,6 @@ def _show_tables(say: Say, tables: Tables) -> None:
         say(tables.left_out)
     for line in wrap(f"condition: {tables.condition}", columns(), subsequent_indent="    "):
         say(line)
-
-
-def _show_table1(say: Say, analysis: Analysis) -> None:
-    from testbed.studies.table1.table import table1_grid  # slow, and rare
-
-    whom = f"Table 1, {analysis.mind} against {analysis.base}"
-    both = (("triggered", analysis.triggered), ("random events, classified", analysis.random))
-    for kind, table in both:
-        if table is not None:
-            say("")
-            _show_grid(say, table1_grid(table, f"{whom}: {kind}"))
 
 
 def _show_grid(say: Say, shown: Grid) -> None:

@@ -70,8 +70,6 @@ def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
     for key in ("level_sizes", "statistics"):
         if getattr(config, key):
             yield (key,), "goes with levels, or with a refinement, and there are none"
-    if config.protocol == "levels":
-        yield ("protocol",), "levels are not played here; for scenarios it is: protocol: table1"
 
 
 def _domain_findings(config: ExperimentConfig, description: Description) -> list[Finding]:

@@ -73,8 +73,6 @@ def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:
             yield (key,), f"goes with no levels; give {key} or levels, not both"
     if config.repeats > 1:
         yield ("repeats",), "goes with scenarios; at levels `limit` says how many trials are drawn"
-    if config.protocol == "table1":
-        yield ("protocol",), "table1 is about scenarios; at levels it is: protocol: levels"
     if config.limit is None:
         yield ("limit",), "is missing; a level's trials are drawn: for example limit: 200"
     if config.refinement is not None and config.levels:

@@ -30,7 +30,6 @@ from testbed.protocol import Knowledge
 LinkKind = Literal["zenoh", "inprocess"]
 Pace = Literal["concrete", "abstract"]
 ScriptPolicy = Literal["error", "skip"]
-Protocol = Literal["table1", "levels"]
 JUDGE_STATES = 5_000
 """States that are looked at for the least that achieves a goal, unless given."""
 FINE_STEPS = 5000
@@ -151,14 +150,14 @@ class ExperimentConfig(Section):
     or is skipped. `knowledge` is what
     robots know of the initial state: all of it, or only what they see. `repeats`: so many pairs of
     trials from each initial state, in scenarios in which something is drawn. `protocol` is the
-    published experiment that the trials are made to be compared with.
+    study that the trials are for: a name, or `module:OBJECT`.
 
     With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
     resolution. They are drawn: each has its initial state and its goal unless these are given.
     """
 
     name: Annotated[Name, Field(pattern=r"^[A-Za-z0-9][\w.-]*$", examples=["name: quickstart"])]
-    protocol: Protocol | None = None
+    protocol: Name | None = None
     seed: Annotated[int, Field(strict=True, ge=0, le=LARGEST_SEED)] = 0
     domain: Name = "office"
     refinement: Name | None = None

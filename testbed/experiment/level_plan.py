@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import msgspec
+import numpy as np
 
+from asp.refinement import Refinement
 from testbed.config import ExperimentConfig, grounds, level_size
-from testbed.experiment.drawing import Drawing
+from testbed.environment import RandomGoal, RandomStart
 from testbed.experiment.seeds import generator_of
 from testbed.experiment.specs import (
     FineSetting,
@@ -17,7 +19,12 @@ from testbed.experiment.specs import (
     pair_specs,
     setting_of,
 )
-from testbed.studies.levels.protocol import PROTOCOL
+from testbed.world import world_of
+
+SCENARIO = "levels"
+"""What stands in place of a scenario in the records of trials at the fine resolution."""
+
+Drawn = tuple[tuple[str, ...], tuple[str, ...]]
 
 
 def level_specs(config: ExperimentConfig) -> Iterator[TrialSpec]:
@@ -31,7 +38,7 @@ def level_specs(config: ExperimentConfig) -> Iterator[TrialSpec]:
             initial, goal = drawing.trial(generator_of(config.seed, place))
             path = [*place, list(initial), sorted(goal)]
             setting = _fine_setting(config, level, goal)
-            yield from pair_specs(config, PROTOCOL, level, path, initial, setting, domain)
+            yield from pair_specs(config, SCENARIO, level, path, initial, setting, domain)
 
 
 def _fine_setting(config: ExperimentConfig, level: str, goal: tuple[str, ...]) -> Setting:
@@ -41,5 +48,27 @@ def _fine_setting(config: ExperimentConfig, level: str, goal: tuple[str, ...]) -
         statistics=dict(sorted(config.statistics.items())),
         pace=config.adversary.pace,
     )
-    common = setting_of(config, PROTOCOL)
+    common = setting_of(config, SCENARIO)
     return msgspec.structs.replace(common, goal=goal, fine=fine)
+
+
+class Drawing:
+    """Draws the trials of one level: what the configuration gives is not drawn."""
+
+    def __init__(self, config: ExperimentConfig, refinement: Refinement) -> None:
+        description = refinement.description
+        self._world = world_of(refinement)
+        self._start = RandomStart(self._world, description.robots[0], config.draw.holding)
+        self._initial = config.initial
+        self._goal = config.goal
+        patterns, sorts = config.draw.goal, description.sorts
+        self._draw_goal = None if config.goal else RandomGoal(self._world, patterns, sorts)
+
+    def trial(self, generator: np.random.Generator) -> Drawn:
+        """The inertial atoms true at the start, and a goal that does not hold there."""
+        given = self._initial
+        state = self._start(generator) if given is None else self._world.state(given)
+        true = frozenset(self._world.true_atoms(state))
+        inertial = true.intersection(self._world.description.inertial)
+        draw = self._draw_goal
+        return tuple(sorted(inertial)), self._goal if draw is None else draw(state, generator)

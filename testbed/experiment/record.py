@@ -231,7 +231,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
 
     def _repr_html_(self) -> str:
         """What a notebook shows: how the trial came out, and what happened step by step."""
-        from testbed.report.notebook import html_of  # noqa: PLC0415  # which is about records
+        from testbed.experiment.timeline import html_of  # noqa: PLC0415  # which is about records
 
         return html_of(self)
 

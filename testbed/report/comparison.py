@@ -1,22 +1,27 @@
-"""The summary as a table: how the two robots compare in each scenario, and in all of them."""
+"""How two robots compare in each scenario of a run: as a table, and as charts with intervals."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from testbed.analysis.counting import BASELINE, INTENTIONAL
 from testbed.analysis.optimum import COMPARED
-from testbed.analysis.outline import MEASURES
+from testbed.analysis.outline import MEASURES, Outline
 from testbed.analysis.pairwise import ACCURACY, COUNTS
-from testbed.experiment.record import COARSE
-from testbed.experiment.wording import chance, in_words
+from testbed.analysis.statistics import Estimate
+from testbed.experiment.record import COARSE, TrialRecord
+from testbed.experiment.wording import chance, in_words, place
+from testbed.studies import Chart, Colour, Sample, Series, joined, points
 
 ROBOTS = (INTENTIONAL, BASELINE)
 OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in COMPARED))
 LEAST = 2
-"""Pairs from which on a test says something."""
+"""Pairs from which on a test, or an interval, says something."""
+Pair = tuple[Outline, Outline]
+"""The trial of the first robot, and that of the second."""
 
 
 @dataclass(frozen=True)
@@ -91,3 +96,56 @@ def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
 
 def _number(value: float | None) -> str:
     return "-" if value is None else f"{value:.2f}"
+
+
+def charts(records: Iterable[TrialRecord], apart: Collection[str]) -> list[Chart]:
+    """The accuracies and each ratio by scenario or level; none without pairs to compare.
+
+    The pairs that are `apart` do not count.
+    """
+    groups: dict[str, list[Pair]] = {}
+    for first, second in joined((own for own in records if own.pair not in apart), ROBOTS):
+        name = place(first.scenario, first.level)
+        groups.setdefault(name, []).append((Outline(first), Outline(second)))
+    samples = {
+        name: Sample(pairs, cluster=lambda pair: pair[0].state)
+        for name, pairs in groups.items()
+        if len(pairs) >= LEAST
+    }
+    if not samples:
+        return []
+    shares = [
+        _series(ROBOTS[0], "first", samples, partial(_share, 0)),
+        _series(ROBOTS[1], "second", samples, partial(_share, 1), "s"),
+    ]
+    ratios = [
+        Chart(
+            f"compared-{name}",
+            f"{in_words(name)}, ratio",
+            list(samples),
+            [_series("ratio", "first", samples, partial(_mean, measure))],
+        )
+        for name, measure in MEASURES.items()
+    ]
+    return [Chart("compared-correct", "correct", list(samples), shares, "shares"), *ratios]
+
+
+def _series(
+    label: str,
+    colour: Colour,
+    samples: Mapping[str, Sample[Pair]],
+    estimate: Callable[[Sample[Pair]], Estimate | None],
+    marker: str = "o",
+) -> Series:
+    drawn = points((name, estimate(sample)) for name, sample in samples.items())
+    return Series(label, colour, drawn, marker)
+
+
+def _share(robot: int, sample: Sample[Pair]) -> Estimate | None:
+    known = sample.where(lambda pair: pair[robot].decided)
+    return known.share(lambda pair: pair[robot].correct)
+
+
+def _mean(measure: Callable[[Outline], float], sample: Sample[Pair]) -> Estimate | None:
+    known = sample.where(lambda pair: all(own.ended for own in pair) and measure(pair[0]))
+    return known.mean(lambda pair: measure(pair[1]) / measure(pair[0]))

@@ -1,4 +1,4 @@
-"""What the report draws: values with intervals by scenario, and times by level."""
+"""Charts as figures of matplotlib: values with intervals by scenario, and times by level."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import Any
 import matplotlib as mpl
 from markupsafe import Markup
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
-from testbed.analysis.statistics import Estimate
-from testbed.report.svg import CARD, LINE, SETTINGS, SOFT, blank, inline
+from testbed.report.svg import CARD, COLOURS, LINE, SETTINGS, SOFT, blank, inline
+from testbed.studies import Chart, Point, Series
 from testbed.text.terminal import plain
 
 WIDTH = 3.2
@@ -24,32 +25,6 @@ ROOM = 1.15
 
 
 @dataclass(frozen=True)
-class Point:
-    """A value in a row (or at a level), with the ends of its interval where it has one."""
-
-    place: str
-    value: float
-    low: float | None = None
-    high: float | None = None
-
-
-def estimated(place: str, own: Estimate) -> Point:
-    """The point of an estimate; one that is single has no interval."""
-    return Point(place, own.value) if own.single else Point(place, own.value, own.low, own.high)
-
-
-@dataclass(frozen=True)
-class Series:
-    """Points that belong together. Published ones are hollow, and have a colour of their own."""
-
-    label: str
-    colour: str
-    points: tuple[Point, ...]
-    marker: str = "o"
-    published: bool = False
-
-
-@dataclass(frozen=True)
 class Panel:
     """A figure of its own, with what it shows in words."""
 
@@ -58,68 +33,73 @@ class Panel:
     svg: Markup
 
 
-def forest(
-    name: str, title: str, rows: Sequence[str], series: Sequence[Series], share: bool = False
-) -> Panel:
-    """Values with intervals, a line a row: ratios on a log scale around 1, or shares."""
+def drawn(chart: Chart) -> Panel:
+    """A chart as a figure; seconds over levels, anything else a line a row."""
     with mpl.rc_context(SETTINGS):
-        figure, axes = blank(WIDTH, FRAME_HEIGHT + ROW_HEIGHT * len(rows))
-        for number, own in enumerate(series):
-            shift = APART * (number - (len(series) - 1) / 2)
-            _dots(axes, own, {row: index + shift for index, row in enumerate(rows)})
-        axes.set_yticks(range(len(rows)), list(map(plain, rows)))
-        axes.set_ylim(len(rows) - 0.4, -0.6)
-        _bands(axes, len(rows))
-        _shares(axes) if share else _ratios(axes, series)
-        return Panel(name, title, inline(figure, name, _told(title, series)))
+        own = _curves(chart) if chart.kind == "seconds" else _forest(chart)
+        return Panel(chart.name, chart.title, inline(own, chart.name, _told(chart)))
 
 
-def curves(name: str, title: str, levels: Sequence[str], series: Sequence[Series]) -> Panel:
-    """Seconds over levels, on a log scale; published curves are dashed."""
-    with mpl.rc_context(SETTINGS):
-        figure, axes = blank(WIDTH, LEVELS_HEIGHT)
-        places = {level: index for index, level in enumerate(levels)}
-        for own in series:
-            shift = -ASIDE if own.colour == series[0].colour else ASIDE
-            _curve(axes, own, {level: place + shift for level, place in places.items()})
-        axes.set_xticks(range(len(levels)), list(map(plain, levels)))
-        axes.set_xlim(-0.4, len(levels) - 0.6)
-        axes.set_yscale("log")
-        axes.yaxis.set_minor_locator(NullLocator())
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _seconds(value)))
-        axes.grid(axis="y")
-        axes.set_axisbelow(True)
-        axes.spines["left"].set_visible(False)
-        return Panel(name, title, inline(figure, name, _told(title, series)))
+def _forest(chart: Chart) -> Figure:
+    """Values with intervals: ratios on a log scale around 1, or shares."""
+    rows, series = chart.places, chart.series
+    figure, axes = blank(WIDTH, FRAME_HEIGHT + ROW_HEIGHT * len(rows))
+    for number, own in enumerate(series):
+        shift = APART * (number - (len(series) - 1) / 2)
+        _dots(axes, own, {row: index + shift for index, row in enumerate(rows)})
+    axes.set_yticks(range(len(rows)), list(map(plain, rows)))
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    _bands(axes, len(rows))
+    _shares(axes) if chart.kind == "shares" else _ratios(axes, series)
+    return figure
+
+
+def _curves(chart: Chart) -> Figure:
+    """Seconds on a log scale; published curves are dashed."""
+    levels, series = chart.places, chart.series
+    figure, axes = blank(WIDTH, LEVELS_HEIGHT)
+    places = {level: index for index, level in enumerate(levels)}
+    for own in series:
+        shift = -ASIDE if own.colour == series[0].colour else ASIDE
+        _curve(axes, own, {level: place + shift for level, place in places.items()})
+    axes.set_xticks(range(len(levels)), list(map(plain, levels)))
+    axes.set_xlim(-0.4, len(levels) - 0.6)
+    axes.set_yscale("log")
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _seconds(value)))
+    axes.grid(axis="y")
+    axes.set_axisbelow(True)
+    axes.spines["left"].set_visible(False)
+    return figure
 
 
 def _dots(axes: Axes, series: Series, heights: dict[str, float]) -> None:
     for point in series.points:
         height = heights[point.place]
         if point.low is not None and point.high is not None:
-            axes.plot([point.low, point.high], [height, height], color=series.colour)
+            axes.plot([point.low, point.high], [height, height], color=COLOURS[series.colour])
         axes.plot([point.value], [height], **_look(series))
 
 
 def _curve(axes: Axes, series: Series, places: dict[str, float]) -> None:
     x = [places[point.place] for point in series.points]
     y = [point.value for point in series.points]
-    line = (0, (3, 2)) if series.published else "-"
+    line, colour = (0, (3, 2)) if series.published else "-", COLOURS[series.colour]
     for at, point in zip(x, series.points, strict=True):
         if point.low is not None and point.high is not None:
-            axes.plot([at, at], [point.low, point.high], color=series.colour, alpha=0.35, lw=3)
-    axes.plot(x, y, color=series.colour, linestyle=line, zorder=3)
+            axes.plot([at, at], [point.low, point.high], color=colour, alpha=0.35, lw=3)
+    axes.plot(x, y, color=colour, linestyle=line, zorder=3)
     for at, value in zip(x, y, strict=True):
         axes.plot([at], [value], **_look(series), zorder=4)
 
 
 def _look(series: Series) -> dict[str, Any]:
-    filling = CARD if series.published else series.colour
+    colour = COLOURS[series.colour]
     return {
         "marker": series.marker,
-        "color": series.colour,
-        "markerfacecolor": filling,
-        "markeredgecolor": series.colour,
+        "color": colour,
+        "markerfacecolor": CARD if series.published else colour,
+        "markeredgecolor": colour,
         "linestyle": "none",
     }
 
@@ -158,6 +138,7 @@ def _seconds(value: float) -> str:
     return f"{1000 * value:g} ms" if value < 1 else f"{value:g} s"
 
 
-def _told(title: str, series: Sequence[Series]) -> str:
+def _told(chart: Chart) -> str:
     """The figure for those who do not see it: the numbers are in the tables."""
-    return plain(f"{title}: {', '.join(own.label for own in series)}. The table has the numbers.")
+    labels = ", ".join(own.label for own in chart.series)
+    return plain(f"{chart.title}: {labels}. The table has the numbers.")

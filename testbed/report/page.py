@@ -1,41 +1,33 @@
 """`report.html`: one file without network, made again from the stored records at any time."""
 
-# Figures and the statistics of a published table take a second to import, and few runs have them.
-# ruff: noqa: PLC0415
-
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from asp.language import read_domain, scenario_notes
-from testbed.analysis.condition import condition, left_out
+from testbed.analysis.condition import condition
 from testbed.analysis.counting import Apart, eventful, pairs_apart
 from testbed.analysis.summary import write_summary
 from testbed.config import ExperimentConfig
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.store import REPORT, read_records, replace_text
-from testbed.report.accounts import accounts_of
-from testbed.report.comparison import OPTIMUM, comparisons, optima
-from testbed.report.endings import command_of, failures, slowest
-from testbed.report.rendering import environment
-from testbed.report.stories import chapters
+from testbed.report.comparison import OPTIMUM, charts, comparisons, optima
+from testbed.report.rendering import environment, rendered
+from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
-from testbed.studies.levels.protocol import paper_of
-from testbed.studies.levels.results import levels_of
-from testbed.studies.levels.table import LevelTable, level_tables
+from testbed.studies import Results, Section, grid, left_out
+from testbed.text.grid import Grid
 
-if TYPE_CHECKING:
-    from testbed.studies.table1.analysis import Analysis
-
-PROTOCOL = "table1"
+COUNTED = ("achieved", "failed", "lost")
+SAID = ("digest", "notice", "condition", "left_out")
 
 
 @dataclass(frozen=True)
 class Tables:
-    """What a run comes to: a row a scenario (or level) and robot, and the published tables.
+    """What a run comes to: a row a scenario (or level) and robot, and the tables of its studies.
 
     `digest` is the one number for all of its results but those of the `late` trials, which have a
     deadline; `notice` is what is to be known of a run that is not complete; `condition` is that of
@@ -47,56 +39,54 @@ class Tables:
     late: int
     notice: str | None
     rows: list[Row]
-    levels: list[LevelTable]
-    table1: list[Analysis] = field(default_factory=list)
+    grids: list[Grid]
     condition: str = ""
     left_out: str | None = None
 
 
 def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     """Write `summary.json` and `report.html` from the records of a run; its tables."""
-    table1, sure, paper = _table1(folder, config), eventful(config), paper_of(config)
+    found, sure = results_of(folder, config), eventful(config)
     covered = coverage_of(read_records(folder), config)
-    summary = write_summary(folder, covered.numbers(), sure, _numbers(table1), paper)
+    summary = write_summary(folder, covered.numbers(), sure, [own.numbers for own in found])
     apart = pairs_apart(read_records(folder), sure)
-    rows = rows_of(read_records(folder), apart)
-    levels = level_tables(levels_of(summary), paper)
+    sections = [section for own in found for section in own.sections]
     tables = Tables(
-        str(summary["digest"]),
+        summary["digest"],
         sum(record.deadline for record in read_records(folder)),
         covered.notice(),
-        rows,
-        levels,
-        table1,
+        rows_of(read_records(folder), apart),
+        list(_grids(sections)),
         condition(config),
         left_out(config),
     )
+    _write_page(folder, config, tables, sections, _compared(folder, found, summary, apart))
+    return tables
+
+
+def _grids(sections: Sequence[Section]) -> Iterator[Grid]:
+    for section in sections:
+        for view in section.views:
+            yield grid(view, f"{section.title}: {view.title}")
+
+
+def _write_page(
+    folder: Path,
+    config: ExperimentConfig,
+    tables: Tables,
+    sections: Sequence[Section],
+    compared: Mapping[str, Any],
+) -> None:
     parts = {
         **_heading(config, tables),
-        **_tables(config, tables, summary),
-        **_compared(folder, tables, summary, apart),
+        "columns": headings(tables.rows),
+        "rows": tables.rows,
+        "sections": [(section, rendered(section)) for section in sections],
+        **compared,
         **_trials(folder, config),
         "replay": lambda trial: command_of(folder, trial),
     }
     replace_text(folder / REPORT, environment().get_template("page.html.j2").render(parts))
-    return tables
-
-
-def _table1(folder: Path, config: ExperimentConfig) -> list[Analysis]:
-    if config.protocol != PROTOCOL:
-        return []
-    from testbed.report.table1 import analyses
-
-    return analyses(folder, config)
-
-
-def _numbers(analyses: Sequence[Analysis]) -> dict[str, object]:
-    """The published table's part of the summary."""
-    if not analyses:
-        return {}
-    from testbed.studies.table1.numbers import numbers
-
-    return {PROTOCOL: numbers(analyses)}
 
 
 def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
@@ -104,73 +94,23 @@ def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
         "config": config,
         "domain": Path(config.domain).stem,
         "trials": sum(row.trials + row.lost for row in tables.rows),
-        "achieved": sum(row.achieved for row in tables.rows),
-        "failed": sum(row.failed for row in tables.rows),
-        "lost": sum(row.lost for row in tables.rows),
-        "digest": tables.digest,
-        "notice": tables.notice,
-        "condition": tables.condition,
-        "left_out": tables.left_out,
-    }
-
-
-def _tables(config: ExperimentConfig, tables: Tables, summary: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        "columns": headings(tables.rows),
-        "rows": tables.rows,
-        **(_levels(config, summary) if tables.levels else {"levels": []}),
-        "published": [_published(analysis) for analysis in tables.table1],
+        **{key: sum(getattr(row, key) for row in tables.rows) for key in COUNTED},
+        **{key: getattr(tables, key) for key in SAID},
     }
 
 
 def _compared(
-    folder: Path, tables: Tables, summary: Mapping[str, Any], apart: Mapping[str, Apart]
+    folder: Path, found: Sequence[Results], summary: Mapping[str, Any], apart: Mapping[str, Apart]
 ) -> dict[str, Any]:
-    """The published experiment has a table of its own for it."""
-    rows = [] if tables.table1 else comparisons(summary)
+    """How the robots compare, unless a study has that."""
+    own = not any(finding.study.compares for finding in found)
+    rows = comparisons(summary) if own else []
     several = any(group["pairs"] > 1 for group in summary["scenarios"].values())
-    panels = _compared_panels(folder, apart) if rows and several else []
-    distances = [] if tables.table1 else optima(summary)
     return {
         "comparisons": rows,
-        "compared_panels": panels,
-        "optimum_columns": (headings(tables.rows)[0], *OPTIMUM),
-        "optima": distances,
-    }
-
-
-def _compared_panels(folder: Path, apart: Mapping[str, Apart]) -> list[Any]:
-    from testbed.report.compared import panels
-
-    return panels(read_records(folder), apart)
-
-
-def _levels(config: ExperimentConfig, summary: Mapping[str, Any]) -> dict[str, Any]:
-    from testbed.report.level_panels import panels, ratio_panels
-    from testbed.report.levels import TESTS, effect_rows, views
-
-    levels, paper = levels_of(summary), paper_of(config)
-    return {
-        "levels": views(levels, paper),
-        "level_panels": [*panels(levels, paper), *ratio_panels(levels, paper)],
-        "level_paper": bool(paper.conditions),
-        "level_tests": (TESTS, list(effect_rows(levels))),
-    }
-
-
-def _published(analysis: Analysis) -> dict[str, Any]:
-    from testbed.report import table1
-
-    return {
-        "robot": analysis.mind,
-        "paper": bool(table1.published_in(analysis)),
-        "columns": table1.COLUMNS,
-        "tests": table1.TESTS,
-        "optimum": table1.OPTIMUM,
-        "times": table1.TIMES,
-        "views": table1.views(analysis),
-        "panels": table1.panels(analysis),
-        "became": analysis.became,
+        "compared_charts": charts(read_records(folder), apart) if rows and several else [],
+        "optimum_columns": OPTIMUM,
+        "optima": optima(summary) if own else [],
     }
 
 

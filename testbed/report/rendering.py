@@ -1,19 +1,33 @@
-"""The templates of the report, and what they may do with text."""
+"""The templates of the report and of studies, and what they may do with text."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from testbed.experiment.wording import counted, in_words
+from testbed.studies import Chart, Section
 from testbed.text.terminal import plain
+
+
+def rendered(section: Section) -> Markup:
+    """A section of a study as HTML, by its own template where it has one."""
+    made = environment()
+    if section.template is None:
+        template = made.get_template("section.html.j2")
+    else:
+        template = made.from_string(section.template.read_text(encoding="utf-8"))
+    return Markup(template.render({"section": section, **(section.values or {})}))
 
 
 def environment() -> Environment:
     """Templates in which text is escaped and a name that is not given is an error."""
     loader = PackageLoader("testbed.report", "templates")
     made = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, finalize=_visible)
-    made.filters |= {"atoms": _atoms, "counted": counted, "in_words": in_words}
+    made.filters |= {"atoms": _atoms, "counted": counted, "drawn": _drawn, "in_words": in_words}
     made.trim_blocks = made.lstrip_blocks = True
     return made
 
@@ -23,6 +37,13 @@ def _visible(value: object) -> object:
     if isinstance(value, str) and not hasattr(value, "__html__"):
         return plain(value, keep="\n\r\t")
     return value
+
+
+def _drawn(charts: Iterable[Chart]) -> list[Any]:
+    """Charts as figures."""
+    from testbed.report.figures import drawn  # noqa: PLC0415  # slow, and few runs have figures
+
+    return list(map(drawn, charts))
 
 
 def _atoms(text: str) -> Markup:

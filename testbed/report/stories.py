@@ -1,27 +1,25 @@
-"""Trials told step by step: of a large run some, those that went wrong first."""
+"""Single trials: step by step, the slowest, those that were not correct, and what was explained."""
 
 from __future__ import annotations
 
+import heapq
+import shlex
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from testbed.experiment.record import COARSE, FAILURES, TrialRecord
+from testbed.experiment.record import COARSE, FAILURES, Explained, TrialRecord
 from testbed.experiment.store import read_records
-from testbed.experiment.wording import explanation, of_place
+from testbed.experiment.timeline import Step, timeline
+from testbed.experiment.wording import exception, in_words, of_place
 
-SHOWN = 60  # trials told step by step; of a larger run those that failed come first
-
-
-@dataclass(frozen=True)
-class Step:
-    """A line of a trial's timeline; `kind` is how it is coloured."""
-
-    number: int
-    kind: str
-    robot: str
-    others: str
-    explained: str
+SHOWN = 60
+"""Trials told step by step; of a larger run those that failed come first."""
+SLOWEST = 10
+MOST = 12
+"""Explanations of a robot that are shown."""
+NOTHING = "nothing"
 
 
 @dataclass(frozen=True)
@@ -52,33 +50,6 @@ def chapters(folder: Path, notes: Mapping[str, str]) -> Iterator[Chapter]:
         yield Chapter(of_place(scenario, level), note, tuple(told))
 
 
-def timeline(record: TrialRecord) -> Iterator[Step]:
-    """The steps of a trial: what the robot did, what others did, what the robot explained.
-
-    At the fine resolution those alone at which something begins or is heard of.
-    """
-    attempts = {attempt.step: attempt for attempt in record.actions}
-    mental = {item.step: item.action for item in record.mental}
-    others = {item.step: item for item in record.exogenous}
-    explanations = {item.step: item for item in record.explanations}
-    rejected = {item.step: f"{item.action}, not possible" for item in record.rejected}
-    told = {*rejected, *attempts, *mental, *others, *explanations}
-    for number in range(1, record.steps + 1):
-        attempt, event = attempts.get(number), others.get(number)
-        if record.fine is not None and number not in told:
-            continue
-        if attempt is not None:
-            kind = "done" if attempt.happened else "failed"
-            robot = attempt.action if attempt.happened else f"{attempt.action} failed"
-        else:
-            kind = "mental"
-            robot = mental.get(number, "wait")
-        unseen = "" if event is None or event.observed else ", unseen"
-        seen = rejected.get(number, "") if event is None else f"{event.action}{unseen}"
-        adopted = explanations.get(number)
-        yield Step(number, kind, robot, seen, explanation(adopted) if adopted else "")
-
-
 def _worth_telling(folder: Path) -> list[TrialRecord]:
     """At most `SHOWN` records, in their order: what went wrong first, then the others."""
     wrong = _some(r for r in read_records(folder) if _went_wrong(r))
@@ -93,3 +64,136 @@ def _some(records: Iterable[TrialRecord]) -> list[TrialRecord]:
 
 def _went_wrong(record: TrialRecord) -> bool:
     return record.outcome in FAILURES or not record.achieved
+
+
+@dataclass(frozen=True)
+class Slow:
+    """One of the trials that took the robot most reasoning; `seconds` are those of the trial."""
+
+    place: str
+    robot: str
+    outcome: str
+    plans: int
+    steps: int
+    seconds: float
+    command: str
+
+
+@dataclass(frozen=True)
+class Failed:
+    """The trials of one robot that ended alike: of each its command, with what others did."""
+
+    place: str
+    robot: str
+    ending: str
+    lost: bool
+    lines: tuple[tuple[str, str], ...]
+
+
+def command_of(folder: Path, trial: str) -> str:
+    """The command that replays a trial."""
+    return f"testbed replay {shlex.quote(str(folder))} --trial {trial}"
+
+
+def slowest(records: Iterable[TrialRecord], folder: Path) -> list[Slow]:
+    """The trials with most reasoning, the slowest first."""
+    chosen = heapq.nlargest(SLOWEST, records, key=lambda record: record.reasoning_time_s)
+    return [
+        Slow(
+            place=of_place(record.scenario, record.level),
+            robot=record.robot,
+            outcome=in_words(record.outcome),
+            plans=record.plans,
+            steps=record.steps,
+            seconds=record.reasoning_time_s,
+            command=command_of(folder, record.trial),
+        )
+        for record in chosen
+    ]
+
+
+def failures(records: Iterable[TrialRecord], folder: Path) -> list[Failed]:
+    """Every trial that is not correct, by place, robot and ending; lost ones and errors first."""
+    groups: dict[tuple[str, str, str, bool], list[tuple[str, str]]] = {}
+    for record in records:
+        if record.correct is False or record.lost:
+            lost = record.outcome in FAILURES
+            key = (of_place(record.scenario, record.level), record.robot, _ending(record), lost)
+            line = (command_of(folder, record.trial), _events(record))
+            groups.setdefault(key, []).append(line)
+    found = [Failed(*key, tuple(lines)) for key, lines in groups.items()]
+    return sorted(found, key=lambda group: not group.lost)
+
+
+def _ending(record: TrialRecord) -> str:
+    if record.outcome == "achieved":
+        return "achieved, not with the fewest actions"
+    reach = ", out of reach" if record.in_reach is False else ""
+    reason = f": {record.reason}" if record.outcome in FAILURES and record.reason else ""
+    return f"{in_words(record.outcome)}{reach}{reason}"
+
+
+def _events(record: TrialRecord) -> str:
+    return ", ".join(f"{event.action} at step {event.step}" for event in record.exogenous)
+
+
+@dataclass(frozen=True)
+class Account:
+    """An explanation, and how often it was adopted.
+
+    `happened` is what others had done by then without telling, `right` whether the explanation
+    names just that, whatever the steps.
+    """
+
+    happened: str
+    explained: str
+    count: int
+    right: bool
+
+
+@dataclass(frozen=True)
+class Accounts:
+    """The explanations of one robot: the most frequent ones, and how many there are in all."""
+
+    robot: str
+    total: int
+    right: int
+    common: tuple[Account, ...]
+    kinds: int
+
+
+def accounts_of(records: Iterable[TrialRecord]) -> list[Accounts]:
+    """What each robot explained by what, in the order in which records name the robots."""
+    counts: dict[str, Counter[tuple[str, str]]] = {}
+    for record in records:
+        own = counts.setdefault(record.robot, Counter())
+        own.update((_happened(record, e.step), _assumed(e)) for e in record.explanations)
+    return [_accounts(robot, own) for robot, own in counts.items() if own]
+
+
+def _accounts(robot: str, counts: Counter[tuple[str, str]]) -> Accounts:
+    ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
+    told = [
+        Account(happened, explained, count, happened == explained)
+        for (happened, explained), count in ordered
+    ]
+    right = sum(account.count for account in told if account.right)
+    return Accounts(robot, counts.total(), right, tuple(told[:MOST]), len(told))
+
+
+def _happened(record: TrialRecord, step: int) -> str:
+    """What others had done before a step, and the robot was not told of."""
+    unseen = (e.action for e in record.exogenous if e.step < step and not e.observed)
+    return _said(sorted(unseen))
+
+
+def _assumed(explained: Explained) -> str:
+    """Exceptions first, then what others did, then what is distrusted, whatever they are called."""
+    exceptions = sorted(map(exception, explained.exceptions))
+    events = sorted(event.action for event in explained.unobserved)
+    distrusted = sorted(f"distrusted {report.action}" for report in explained.distrusted)
+    return _said([*exceptions, *events, *distrusted])
+
+
+def _said(names: list[str]) -> str:
+    return " ".join(names) or NOTHING

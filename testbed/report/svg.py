@@ -13,15 +13,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 INK, SOFT, LINE, CARD = "#010101", "#010102", "#010103", "#010104"
-FIRST, SECOND, PAPER = "#010105", "#010106", "#010107"
+COLOURS = {"first": "#010105", "second": "#010106", "paper": "#010107"}
+"""Those of series, by name."""
 VARIABLES: Mapping[str, str] = {
     INK: "--ink",
     SOFT: "--soft",
     LINE: "--line",
     CARD: "--card",
-    FIRST: "--first",
-    SECOND: "--second",
-    PAPER: "--paper",
+    **{colour: f"--{name}" for name, colour in COLOURS.items()},
 }
 """Colours that stand for custom properties of the page, which has them in light and in dark."""
 

@@ -1,1 +1,43 @@
-"""The published studies: how they are loaded, measured and compared."""
+"""Studies: what is counted of the runs of an experiment, beside what was published of it."""
+
+from testbed.studies.charts import Chart, Colour, Key, Point, Series, points
+from testbed.studies.pairs import Ratio, Sample, joined
+from testbed.studies.study import (
+    STUDIES,
+    Results,
+    Run,
+    Section,
+    Study,
+    left_out,
+    results_of,
+    study_findings,
+)
+from testbed.studies.tables import Cell, Line, Rounded, Sheet, Value, View, grid, rows_of
+
+__all__ = [
+    "STUDIES",
+    "Cell",
+    "Chart",
+    "Colour",
+    "Key",
+    "Line",
+    "Point",
+    "Ratio",
+    "Results",
+    "Rounded",
+    "Run",
+    "Sample",
+    "Section",
+    "Series",
+    "Sheet",
+    "Study",
+    "Value",
+    "View",
+    "grid",
+    "joined",
+    "left_out",
+    "points",
+    "results_of",
+    "rows_of",
+    "study_findings",
+]

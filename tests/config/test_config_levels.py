@@ -108,11 +108,6 @@ def test_a_goal_may_be_given_and_need_not(tmp_path: Path) -> None:
         ),
         (
             "limit: 2",
-            "limit: 2\nprotocol: table1",
-            "tiny.yaml:6: protocol: table1 is about scenarios; at levels it is: protocol: levels",
-        ),
-        (
-            "limit: 2",
             "limit: 2\ninitial: [fine_loc(rob1,room1_1)]",
             "tiny.yaml:6: initial: no such initial state: ",
         ),
@@ -147,7 +142,7 @@ def test_a_mistake_gives_one_line_with_its_place_and_what_is_right(
     assert said.startswith(line)
 
 
-@pytest.mark.parametrize("key", ["statistics={fine_move: 0.5}", "protocol=levels"])
+@pytest.mark.parametrize("key", ["statistics={fine_move: 0.5}"])
 def test_what_belongs_to_levels_is_refused_without_them(key: str) -> None:
     with pytest.raises(ConfigError, match="levels"):
         load_config("office", [key])

@@ -6,7 +6,7 @@ from papers.levels import evidence
 from testbed.analysis.statistics import Estimate
 from testbed.experiment.record import Attempt, Explained, Occurrence, TrialRecord
 from testbed.studies.levels.comparing import Cell, Line
-from testbed.studies.levels.pairing import Meeting, Pair, pairs_of
+from papers.levels.pairing import Meeting, Pair, pairs_of
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Rounded
 from tests.experiment.samples import a_level_record, a_record
 

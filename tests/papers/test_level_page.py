@@ -13,7 +13,7 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import PROVENANCE, TrialWriter, read_records, write_config
 from testbed.studies.levels.published import NO_ZOOM, ZOOM
-from testbed.text.markdown import WIDTH, paragraph
+from papers.markdown import WIDTH, paragraph
 from tests.experiment.samples import a_level_record
 
 SMALL = ["levels=[L1,L3]", "limit=3", "adversary.rate=0.2"]

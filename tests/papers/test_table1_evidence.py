@@ -8,7 +8,7 @@ from papers.table1.evidence import (
     published_weights,
 )
 from testbed.analysis.statistics import Estimate
-from testbed.studies.table1.analysis import Ratio, Row, Table
+from testbed.studies.table1.measures import Ratio, Row, Table
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED, SCENARIOS
 
 

@@ -20,9 +20,9 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import Activity, Attempt, TrialRecord, encode
 from testbed.experiment.store import read_records, write_config
-from testbed.studies.table1.pairing import Pair, Side
+from testbed.studies.table1.load import Pair, Side
 from testbed.studies.table1.published import MEASURES, PUBLISHED, SCENARIOS
-from testbed.studies.table1.runs import read_run, told_name, told_order
+from papers.table1.runs import read_run, told_name, told_order
 from tests.experiment.samples import a_record
 from tests.studies.table1.made import a_pair, a_side
 

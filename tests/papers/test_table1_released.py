@@ -13,7 +13,7 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
 from testbed.studies.table1.published import SCENARIOS
-from testbed.studies.table1.runs import Run, read_run, released_weights
+from papers.table1.runs import Run, read_run, released_weights
 
 HOLDING = "[loc(rob1,kitchen), 'in_hand(rob1,book1)', loc(book1,kitchen), loc(book2,office2)]"
 MIND = "intentional"

@@ -12,7 +12,7 @@ from testbed.report import level_panels, levels, table1
 from testbed.report.figures import Panel
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
 from testbed.studies.levels.results import levels_of
-from testbed.studies.table1.analysis import Analysis, Ratio, Row, Table
+from testbed.studies.table1.measures import Analysis, Ratio, Row, Table
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from tests.experiment.samples import a_level_record
 

@@ -1,2 +1,9 @@
-"""The levels L1 to L8 and other maps (P 4, Tables 2 and 3): how their trials are drawn and played,
-what is counted of them, and the published figures beside it."""
+"""The levels L1 to L8 and other maps (P 4, Tables 2 and 3): reasoning with zooming, and without."""
+
+from testbed.studies.levels.measures import Levels, measures
+from testbed.studies.levels.tables import numbers, sections
+from testbed.studies.study import Study
+
+__all__ = ["STUDY"]
+
+STUDY: Study[Levels] = Study(measures, numbers, sections, fine=True, published="levels", every=True)

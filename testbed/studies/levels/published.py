@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from testbed.studies.tables import HALF_DIGIT, Rounded
+
 ZOOM, NO_ZOOM = "intentional", "intentional-nozoom"
 """The robots of the two conditions, by their names here."""
 
@@ -50,17 +52,6 @@ RATIOS: Mapping[str, Mapping[str, float]] = {
     "L3": dict(zip(PARTS, (20.07, 55.23, 1.00, 83.49), strict=True)),
 }
 """No zoom / zoom, over the trials that achieved their goal; nothing is given from L4 on."""
-
-HALF_DIGIT = 0.005
-"""Published seconds and ratios have two decimals, shares whole percents."""
-
-
-@dataclass(frozen=True)
-class Rounded:
-    """A published value, and by how much at most it may differ from what was rounded to it."""
-
-    value: float
-    half_digit: float = HALF_DIGIT
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,6 @@ PLANNING = "planning_time"
 MEASURES = ("total_time", "plans", PLANNING, "execution_units", "actions")
 """What is divided in each pair, in the order of the published columns."""
 
-HALF_CENT, HALF_PERCENT = 0.005, 0.005
-"""Published ratios have two decimals, accuracies whole percents."""
 SCENARIOS = ("1", "2", "3", "4", "5")
 ALL = "all"
 NO_FAILURES = ", no failures"

@@ -16,8 +16,8 @@ from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
 from testbed.report import write_report
 from testbed.report.table1 import analyses
-from testbed.studies.table1.analysis import Analysis, Row, analyse
-from testbed.studies.table1.pairing import pairs_of
+from testbed.studies.table1.measures import Analysis, Row, analyse
+from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED
 from tests.experiment.samples import a_record
 

@@ -2,9 +2,9 @@
 
 from testbed.analysis.optimum import Optimum
 from testbed.analysis.outline import DIVIDED
-from testbed.studies.table1.analysis import analyse
+from testbed.studies.table1.measures import analyse
 from testbed.studies.table1.optimum import section
-from testbed.studies.table1.pairing import Pair, Side
+from testbed.studies.table1.load import Pair, Side
 
 
 def _side(actions: float, units: float, achieved: bool = True) -> Side:

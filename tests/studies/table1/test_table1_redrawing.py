@@ -8,7 +8,7 @@ from agents.adversary import AdversaryView, Game, Triggered
 from testbed.environment import NONE
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Attempt, Occurrence
-from testbed.studies.table1.redrawing import Chances, as_stated, passed_on, weight
+from papers.table1.redrawing import Chances, as_stated, passed_on, weight
 from tests.experiment.samples import a_record
 
 WORLD = load_world("office")

@@ -14,7 +14,7 @@ from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
-from testbed.studies.table1.pairing import pairs_of
+from testbed.studies.table1.load import pairs_of
 
 SMALL = ["limit=4", "repeats=2", "scenario_settings={}"]
 

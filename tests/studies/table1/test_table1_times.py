@@ -8,7 +8,7 @@ from testbed.analysis.outline import Outline
 from testbed.analysis.pairwise import Played, group
 from testbed.experiment.record import TrialRecord
 from testbed.studies.table1 import times
-from testbed.studies.table1.analysis import Analysis, Row, analyse
+from testbed.studies.table1.measures import Analysis, Row, analyse
 from tests.experiment.samples import a_record
 from tests.studies.table1.made import a_pair, a_side
 

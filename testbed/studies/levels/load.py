@@ -1,8 +1,8 @@
-"""What is held in memory of a trial at the fine resolution, however large its run."""
+"""The trials of a run at the fine resolution, as far as they are held in memory."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from testbed.experiment.record import FAILURES, FineCounts, TrialRecord
@@ -55,3 +55,12 @@ def _seconds(record: TrialRecord, fine: FineCounts) -> dict[str, float]:
     if fine.plans:
         seconds["refined_plan"] = fine.planning_cpu_s / fine.plans
     return seconds
+
+
+def outlines_of(records: Iterable[TrialRecord]) -> dict[str, list[FineOutline]]:
+    """The trials that count, by level."""
+    levels: dict[str, list[FineOutline]] = {}
+    for record in records:
+        if record.fine is not None and record.counts:
+            levels.setdefault(record.level, []).append(fine_outline(record, record.fine))
+    return levels

@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from papers.levels.pairing import Pair, pairs_of
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
 from testbed.experiment.store import read_config, read_records
-from testbed.studies.levels.analysis import analyse
-from testbed.studies.levels.outline import FineOutline, fine_outline
-from testbed.studies.levels.pairing import Pair, pairs_of
-from testbed.studies.levels.published import NO_ZOOM, ZOOM
-from testbed.studies.levels.results import Level
+from testbed.studies.levels.load import outlines_of
+from testbed.studies.levels.measures import Level, Levels, analyse
+from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM
 
 
 @dataclass(frozen=True)
@@ -24,6 +23,11 @@ class Run:
     config: ExperimentConfig
     levels: Mapping[str, Level]
     pairs: Mapping[str, list[Pair]]
+
+    @property
+    def beside(self) -> Levels:
+        """The columns, to be compared with the published ones."""
+        return Levels(self.levels, PAPER)
 
     @property
     def all_pairs(self) -> list[Pair]:
@@ -44,12 +48,4 @@ def read_run(folder: Path) -> Run:
         pairs.setdefault(pair.level, []).append(pair)
     if not pairs:
         raise StoreError(f"{folder}: has no pairs of {ZOOM} and {NO_ZOOM} at levels on record")
-    return Run(folder, config, analyse(_outlines(folder)), pairs)
-
-
-def _outlines(folder: Path) -> dict[str, list[FineOutline]]:
-    levels: dict[str, list[FineOutline]] = {}
-    for record in read_records(folder):
-        if record.fine is not None and record.counts:
-            levels.setdefault(record.level, []).append(fine_outline(record, record.fine))
-    return levels
+    return Run(folder, config, analyse(outlines_of(read_records(folder))), pairs)

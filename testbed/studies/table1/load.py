@@ -1,4 +1,4 @@
-"""Pairs of trials: what is kept of each, and whether both robots met the same event."""
+"""The pairs of a run: what is kept of each, and whether both robots met the same event."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from testbed.analysis.counting import (
 )
 from testbed.analysis.outline import DIVIDED, Outline, state_of
 from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
+from testbed.studies.pairs import joined
 from testbed.studies.table1.classify import classify, state_at
 from testbed.world import World
 
@@ -119,25 +120,15 @@ class Pair:
 
 def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str) -> Iterator[Pair]:
     """The pairs of two robots, as they become complete; others' records are passed over."""
-    waiting: dict[str, tuple[str, str, Side]] = {}
-    for record in records:
-        if record.robot not in (mind, base):
-            continue
-        side = _side(record, world)
-        happened = classify(record, world) if record.robot == mind else ""
-        if record.pair not in waiting:
-            waiting[record.pair] = (record.robot, happened, side)
-            continue
-        robot, earlier, other = waiting.pop(record.pair)
-        minds, bases = (other, side) if robot == mind else (side, other)
+    for minds, bases in joined(records, (mind, base)):
         yield Pair(
-            intended=record.scenario,
-            happened=happened or earlier,
-            solvable=is_solvable(record),
-            mind=minds,
-            base=bases,
-            state=state_of(record),
-            minimal=Outline(record).minimal,
+            intended=minds.scenario,
+            happened=classify(minds, world),
+            solvable=is_solvable(minds),
+            mind=_side(minds, world),
+            base=_side(bases, world),
+            state=state_of(minds),
+            minimal=Outline(minds).minimal,
         )
 
 

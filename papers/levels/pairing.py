@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from testbed.experiment.record import TrialRecord
-from testbed.studies.levels.outline import FineOutline, fine_outline
+from testbed.studies import joined
+from testbed.studies.levels.load import FineOutline, fine_outline
 from testbed.studies.levels.published import NO_ZOOM, ZOOM
 
 Meeting = Literal["nothing", "same", "longer", "other"]
@@ -76,20 +77,12 @@ def _work(trial: Trial) -> tuple[object, ...]:
 
 def pairs_of(records: Iterable[TrialRecord]) -> Iterator[Pair]:
     """The pairs of the two conditions, as they become complete; others' records are passed over."""
-    waiting: dict[str, tuple[str, Trial]] = {}
-    for record in records:
-        if record.robot not in (ZOOM, NO_ZOOM) or record.fine is None:
-            continue
-        trial = _trial(record, fine_outline(record, record.fine))
-        if record.pair not in waiting:
-            waiting[record.pair] = record.robot, trial
-            continue
-        robot, other = waiting.pop(record.pair)
-        zoom, no_zoom = (other, trial) if robot == ZOOM else (trial, other)
-        yield Pair(record.level, record.seed, zoom, no_zoom)
+    for zoom, no_zoom in joined((own for own in records if own.fine), (ZOOM, NO_ZOOM)):
+        yield Pair(zoom.level, zoom.seed, _trial(zoom), _trial(no_zoom))
 
 
-def _trial(record: TrialRecord, counts: FineOutline) -> Trial:
+def _trial(record: TrialRecord) -> Trial:
+    assert record.fine is not None
     return Trial(
         trial=record.trial,
         outcome=record.outcome,
@@ -99,5 +92,5 @@ def _trial(record: TrialRecord, counts: FineOutline) -> Trial:
         events=tuple((event.step, event.action) for event in record.exogenous),
         did=tuple((attempt.step, attempt.action) for attempt in record.actions),
         explained=len(record.explanations),
-        counts=counts,
+        counts=fine_outline(record, record.fine),
     )

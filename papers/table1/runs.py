@@ -1,4 +1,4 @@
-"""The pairs of a run folder, by what its configuration says of it."""
+"""Run folders of Table 1 as the page reads them: their pairs, whatever was published beside."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from papers.table1.redrawing import as_stated, passed_on, weight
 from testbed.analysis.counting import BASELINE, INTENTIONAL, eventful
 from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import read_config, read_records
-from testbed.studies.table1.analysis import RANDOM, Analysis, analyse
-from testbed.studies.table1.pairing import Pair, pairs_of
-from testbed.studies.table1.redrawing import as_stated, passed_on, weight
+from testbed.studies.table1.load import Pair, pairs_of
+from testbed.studies.table1.measures import RANDOM, Analysis, analyse, minds_of
 
 PROTOCOL = "table1"
 TOLD = "told"
@@ -52,13 +52,6 @@ def read_run(folder: Path) -> Run:
     sure = eventful(config)
     analyses = {mind: analyse(own, mind, BASELINE, sure) for mind, own in pairs.items()}
     return Run(folder, config, pairs, analyses)
-
-
-def minds_of(config: ExperimentConfig) -> tuple[str, ...]:
-    """The robots of a configuration with activities, where the baseline is there, too."""
-    if BASELINE not in config.robots:
-        return ()
-    return tuple(name for name in config.robots if name.startswith(INTENTIONAL))
 
 
 def _pairs(records: Iterable[TrialRecord], config: ExperimentConfig, mind: str) -> list[Pair]:

@@ -1,0 +1,40 @@
+"""The text of pages: templates in Markdown, and what they may do with values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from papers.markdown import markdown, paragraph
+
+TEMPLATES = Path(__file__).with_name("templates")
+
+
+def render(name: str, **values: object) -> str:
+    """A template of Markdown with its values."""
+    made = Environment(
+        loader=FileSystemLoader(TEMPLATES),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    made.filters |= {"paragraph": paragraph, "percent": percent, "table": table, "times": times}
+    return made.get_template(f"{name}.md.j2").render(values)
+
+
+def table(rows: Iterable[Sequence[str]], columns: Sequence[str]) -> str:
+    """Rows under the names of columns."""
+    return markdown(columns, rows)
+
+
+def percent(share: float) -> str:
+    """A share in whole percents."""
+    return f"{100 * share:.0f}%"
+
+
+def times(value: float | None) -> str:
+    """A ratio."""
+    return "-" if value is None else f"{value:.2f}"

@@ -1,0 +1,66 @@
+"""What a study has drawn: values with intervals by row, or seconds over levels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+from testbed.analysis.statistics import Estimate
+
+Colour = Literal["first", "second", "paper"]
+
+
+class Key(NamedTuple):
+    """An entry of a legend: the kind of a mark, its colour, and what it stands for."""
+
+    mark: Literal["interval", "square", "published", "line", "line square", "dashed"]
+    colour: Colour
+    text: str
+
+
+@dataclass(frozen=True)
+class Point:
+    """A value in a row (or at a level), with the ends of its interval where it has one."""
+
+    place: str
+    value: float
+    low: float | None = None
+    high: float | None = None
+
+
+@dataclass(frozen=True)
+class Series:
+    """Points that belong together. Published ones are hollow."""
+
+    label: str
+    colour: Colour
+    points: tuple[Point, ...]
+    marker: str = "o"
+    published: bool = False
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A figure of its own: `ratios` around 1, `shares`, or `seconds` over levels."""
+
+    name: str
+    title: str
+    places: Sequence[str]
+    series: Sequence[Series]
+    kind: Literal["ratios", "shares", "seconds"] = "ratios"
+
+
+def points(estimates: Iterable[tuple[str, Estimate | None]]) -> tuple[Point, ...]:
+    """A point for each estimate that there is; one that is single has no interval."""
+    return tuple(
+        Point(place, own.value) if own.single else Point(place, own.value, own.low, own.high)
+        for place, own in estimates
+        if own is not None
+    )
+
+
+def published(values: Iterable[tuple[str, float]]) -> list[Series]:
+    """The series of published values; none without any."""
+    own = tuple(Point(place, value) for place, value in values)
+    return [Series("published", "paper", own, "D", published=True)] if own else []

@@ -1,0 +1,290 @@
+"""Tables 2 and 3 of a run beside the published figures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from testbed.studies.charts import Chart, Colour, Key, Point, Series, points, published
+from testbed.studies.levels.measures import Level, Levels, Reasoning, Spread
+from testbed.studies.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM, Paper
+from testbed.studies.study import Numbers, Section
+from testbed.studies.tables import Cell, Cells, Line, Sheet, Value, View, effect
+
+CONDITIONS = {ZOOM: "zoom", NO_ZOOM: "no zoom"}
+RATIO = "no zoom / zoom"
+HEADINGS = ("all", "fine", "coarse", "a refined plan")
+"""What PARTS are called."""
+REASONING = ("level", "reasoning", "trials", "achieved", *HEADINGS)
+RATIOS = ("level", "reasoning", "pairs", *HEADINGS)
+GROWTH = ("level", "reasoning", "trials", *HEADINGS)
+TESTS = ("level", "pairs", *HEADINGS, "achieved", "correct")
+TITLES = (
+    "all reasoning of a trial",
+    "at the fine resolution",
+    "at the coarse resolution",
+    "one refined plan",
+)
+LEGEND = (
+    Key("line", "first", "zoom"),
+    Key("line square", "second", "no zoom"),
+    Key("dashed", "paper", "published"),
+    Key("square", "second", "no zoom / zoom, with its 95% interval"),
+    Key("published", "paper", "published"),
+)
+LOOKS: Mapping[str, tuple[Colour, str]] = {ZOOM: ("first", "o"), NO_ZOOM: ("second", "s")}
+LEAST = 0.1
+FEW = 20
+"""Pairs of a level below which the start of a process is much of its times."""
+FEW_PAIRS = "few pairs: the first trials also prepare what later ones use"
+ABOUT_TESTS = (
+    "Of the pairs of a level: Wilcoxon's test of the times (effect: rank-biserial correlation, "
+    "above 0 where zooming saves time), McNemar's of the trials that achieved their goal, and of "
+    "the correct ones (effect: difference of the shares, above 0 where zooming has more), with "
+    "p-values after Holm's correction over the table. There is none where no pair differs."
+)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A level, the condition whose figures these are ("" where both are compared), their number."""
+
+    level: str
+    robot: str
+    number: int
+    cells: tuple[Cell, ...]
+
+    @property
+    def what(self) -> str:
+        """What the row is about."""
+        return CONDITIONS.get(self.robot, self.robot) or RATIO
+
+    @property
+    def line(self) -> Line:
+        """The row as text."""
+        labels = (self.level, self.what, str(self.number))
+        return Line(labels, tuple(cell.value for cell in self.cells))
+
+
+def shares(found: Levels) -> Iterator[Row]:
+    """The shares of the trials that achieved their goal, a row a level and condition."""
+    for name, level in found.levels.items():
+        for robot, own in level.compared.completed.items():
+            cell = Cell(own, published=found.paper.completed(name, robot), share=True)
+            yield Row(name, robot, level.reasoning[robot].trials, (cell,))
+
+
+def ratios(found: Levels) -> Iterator[Row]:
+    """No zoom / zoom by part of the time, a row a level that has pairs."""
+    for name, level in found.levels.items():
+        own = [level.compared.ratios[part] for part in PARTS]
+        theirs = [found.paper.ratio(name, part) for part in PARTS]
+        both = zip(own, theirs, strict=True)
+        if pairs := max(ratio.pairs for ratio in own):
+            cells = (Cell(ratio.mean, ratio.median, p, ratio.of_sums) for ratio, p in both)
+            yield Row(name, "", pairs, tuple(cells))
+
+
+def growth(found: Levels) -> Iterator[Row]:
+    """How many times a time is that at the first level, a row a level and condition."""
+    for name, level in found.levels.items():
+        for robot, own in level.compared.growth.items():
+            theirs = [found.paper.growth(name, robot, part) for part in PARTS]
+            both = zip((own[part] for part in PARTS), theirs, strict=True)
+            cells = (Cell(grown.mean, grown.median, paper) for grown, paper in both)
+            yield Row(name, robot, level.reasoning[robot].trials, tuple(cells))
+
+
+def sections(found: Levels) -> list[Section]:
+    """The section of the levels."""
+    few = any(row.number < FEW for row in ratios(found))
+    about = "Means over the pairs in which both achieved the goal; above 1 zooming saved time."
+    views = [
+        View(
+            "levels-seconds",
+            "Trials that achieved their goal, and seconds",
+            REASONING,
+            list(_reasoning(found)),
+            (
+                "Shares with their intervals, exact ones where all trials ended alike; means and "
+                "standard deviations of times",
+            ),
+        ),
+        View(
+            "levels-ratios",
+            "No zoom / zoom" + f"; {FEW_PAIRS}" * few,
+            RATIOS,
+            [row.line for row in ratios(found)],
+            (about.rstrip("."),),
+        ),
+        View(
+            "levels-growth",
+            f"Growth from {FIRST}",
+            GROWTH,
+            [row.line for row in growth(found)],
+            (f"How many times the mean at {FIRST} in the same condition the mean at a level is",),
+        ),
+    ]
+    tests = Sheet("Effect sizes and tests", TESTS, list(effect_rows(found.levels)), 1, ABOUT_TESTS)
+    paper = bool(found.paper.conditions)
+    return [
+        Section(
+            name="levels",
+            title="Reasoning at each level",
+            views=[view for view in views if view.lines],
+            charts=[*time_charts(found), *ratio_charts(found)],
+            legend=[key for key in LEGEND if paper or key.text != "published"],
+            sheets=[tests] if tests.rows else [],
+            template=Path(__file__).with_name("section.html.j2"),
+            values={"paper": paper},
+        )
+    ]
+
+
+def _reasoning(found: Levels) -> Iterator[Line]:
+    for row in shares(found):
+        own = found.levels[row.level].reasoning[row.robot]
+        times = (
+            timed(getattr(own, part), found.paper.seconds(row.level, row.robot, part))
+            for part in PARTS
+        )
+        labels = (row.level, row.what, f"{own.trials}{out_of_reach(own)}")
+        yield Line(labels, (*row.line.values, *times))
+
+
+def out_of_reach(own: Reasoning) -> str:
+    """How many trials ended with their goal out of reach, after their number, where there are."""
+    return f", {own.out_of_reach} out of reach" if own.out_of_reach else ""
+
+
+def timed(own: Spread | None, theirs: tuple[float, float] | None) -> Value:
+    """Mean and deviation of a time, and its median."""
+    published = "" if theirs is None else spread(*theirs)
+    if own is None:
+        return Value("-", published=published)
+    return Value(spread(own.mean, own.sd), median=seconds(own.median), published=published)
+
+
+def seconds(value: float) -> str:
+    """Seconds as text: in ms where they are few."""
+    return f"{1000 * value:.1f} ms" if value < 1.0 else f"{value:.2f} s"
+
+
+def spread(mean: float, deviation: float) -> str:
+    """Mean and deviation in seconds, both in ms where the mean is short."""
+    if mean < 1.0:
+        return f"{1000 * mean:.1f} ± {1000 * deviation:.1f} ms"
+    return f"{mean:.2f} ± {deviation:.2f} s"
+
+
+def effect_rows(levels: Mapping[str, Level]) -> Iterator[Cells]:
+    """For each level the effect sizes, with the p-values after Holm's correction."""
+    for name, level in levels.items():
+        own = level.compared
+        if own.pairs:
+            tests = [*(own.ratios[part].test for part in PARTS), own.completed_test]
+            yield (name, str(own.pairs), *map(effect, [*tests, own.correct_test]))
+
+
+def time_charts(found: Levels) -> list[Chart]:
+    """A figure for each part of the time."""
+    return [
+        Chart(f"levels-{part}", title, list(found.levels), list(_times(found, part)), "seconds")
+        for part, title in zip(PARTS, TITLES, strict=True)
+    ]
+
+
+def _times(found: Levels, part: str) -> Iterator[Series]:
+    for robot, (colour, marker) in LOOKS.items():
+        theirs = ((name, found.paper.seconds(name, robot, part)) for name in found.levels)
+        for label, times, paper in (
+            (CONDITIONS[robot], _ours(found, robot, part), False),
+            (f"{CONDITIONS[robot]}, published", theirs, True),
+        ):
+            drawn = tuple(_point(level, *time) for level, time in times if time is not None)
+            if drawn:
+                yield Series(label, colour, drawn, marker, paper)
+
+
+def _ours(found: Levels, robot: str, part: str) -> Iterator[tuple[str, tuple[float, float] | None]]:
+    for name, level in found.levels.items():
+        own = level.reasoning.get(robot)
+        time: Spread | None = None if own is None else getattr(own, part)
+        yield name, (time.mean, time.sd) if time is not None and time.mean > 0 else None
+
+
+def _point(level: str, mean: float, deviation: float) -> Point:
+    """A deviation beyond zero ends at a tenth of the mean: the scale is logarithmic."""
+    return Point(level, mean, max(mean - deviation, LEAST * mean), mean + deviation)
+
+
+def ratio_charts(found: Levels) -> list[Chart]:
+    """A figure for each of the ratios that zooming is about; none where no pair was played."""
+    rows = list(ratios(found))
+    return [
+        Chart(f"levels-ratio-{part}", f"{RATIO}, {title}", [row.level for row in rows], both)
+        for index, (part, title) in enumerate(zip(PARTS, TITLES, strict=True))
+        if rows and part in ("total", "refined_plan")
+        for both in [_beside([(row.level, row.cells[index]) for row in rows])]
+    ]
+
+
+def _beside(cells: list[tuple[str, Cell]]) -> list[Series]:
+    ours = points((level, cell.ours) for level, cell in cells)
+    theirs = ((level, cell.published.value) for level, cell in cells if cell.published)
+    return [Series(RATIO, "second", ours, "s"), *published(theirs)]
+
+
+def numbers(found: Levels) -> Numbers:
+    """The columns of each level; `published` values, and whether they lie in our intervals.
+
+    These are `completed` by robot, `ratios` by part of the time, and `growth` by both: `published`
+    and `inside`; `seconds` by both: `mean` and `sd`. What was not published is absent.
+    """
+    beside = {name: _published(name, found) for name in found.levels}
+    return {
+        "levels": {
+            name: msgspec.to_builtins(level) | ({"published": beside[name]} if beside[name] else {})
+            for name, level in found.levels.items()
+        }
+    }
+
+
+def _published(level: str, found: Levels) -> dict[str, Any]:
+    def own(rows: Iterable[Row]) -> dict[str, Row]:
+        return {row.robot: row for row in rows if row.level == level}
+
+    robots = found.levels[level].reasoning
+    return _without_nothing(
+        {
+            "completed": {r: _number(row.cells[0]) for r, row in own(shares(found)).items()},
+            "ratios": {p: n for row in own(ratios(found)).values() for p, n in _parts(row).items()},
+            "growth": {robot: _parts(row) for robot, row in own(growth(found)).items()},
+            "seconds": {robot: _seconds(level, robot, found.paper) for robot in robots},
+        }
+    )
+
+
+def _parts(row: Row) -> dict[str, Any]:
+    return {part: _number(cell) for part, cell in zip(PARTS, row.cells, strict=True)}
+
+
+def _number(cell: Cell) -> dict[str, Any]:
+    if cell.published is None:
+        return {}
+    return {"published": cell.published.value, "inside": cell.inside}
+
+
+def _seconds(level: str, robot: str, paper: Paper) -> dict[str, Any]:
+    known = {part: paper.seconds(level, robot, part) for part in PARTS}
+    return {p: {"mean": own[0], "sd": own[1]} for p, own in known.items() if own is not None}
+
+
+def _without_nothing(values: dict[str, Any]) -> dict[str, Any]:
+    """The same without empty parts, also inside of parts."""
+    inner = {k: _without_nothing(v) if isinstance(v, dict) else v for k, v in values.items()}
+    return {key: value for key, value in inner.items() if value != {}}

@@ -1,0 +1,300 @@
+"""Table 1 beside the published one, for the terminal, the report, and other programs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from testbed.analysis.statistics import Estimate, Test
+from testbed.experiment.wording import counted, in_words
+from testbed.studies.charts import Chart, Key, Series, points, published
+from testbed.studies.pairs import Ratio
+from testbed.studies.study import Numbers, Section
+from testbed.studies.table1.load import MEETINGS
+from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
+from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
+from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
+
+HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
+"""The published names of the measures."""
+ROBOTS = {"baseline": "TP correct", "intentional": "ATI correct"}
+COLUMNS = ("scenario", "pairs", *HEADINGS, *ROBOTS.values())
+TIMES = ("scenario", "time", "TP", "ATI", "mean of ratios", "ratio of sums", "published")
+OPTIMUM = (
+    "scenario",
+    "TP trials",
+    "TP units",
+    "TP actions",
+    "ATI trials",
+    "ATI units",
+    "ATI actions",
+)
+READINGS = (PLANNING, "reasoning_time")
+"""What the published planning time can mean: planning alone, or all reasoning."""
+WAYS = {"triggered": "triggered", "random": "drawn at random, classified"}
+"""How scenarios are drawn."""
+LEGEND = (
+    Key("interval", "first", "triggered, with its 95% interval"),
+    Key("square", "second", "drawn at random, classified by what happened"),
+)
+
+
+def sections(analyses: Iterable[Analysis]) -> list[Section]:
+    """A section for each robot that is compared with the traditional one."""
+    return [_section(own) for own in analyses if own.tables]
+
+
+def _section(own: Analysis) -> Section:
+    paper = any(table.published for table in own.tables.values())
+    return Section(
+        name=f"table1-{own.mind}",
+        title=f"Table 1: {own.mind} against {own.base}",
+        views=[_view(own, name, table) for name, table in own.tables.items()],
+        charts=charts(own),
+        legend=(*LEGEND, *[Key("published", "paper", "published")] * paper),
+        sheets=[_became(own)],
+        template=Path(__file__).with_name("section.html.j2"),
+        values={"robot": own.mind, "paper": paper},
+    )
+
+
+def _view(own: Analysis, name: str, table: Table) -> View:
+    tests = ("scenario", *HEADINGS, "correct")
+    distances = optimum_rows(table, own.mind, own.base)
+    return View(
+        name=f"table1-{own.mind}-{name}",
+        title=f"Scenarios {WAYS[name]}",
+        columns=COLUMNS,
+        lines=lines(table),
+        notes=tuple(_notes(table)),
+        sheets=(
+            Sheet("Effect sizes and tests", tests, list(test_rows(table))),
+            _without_empty(Sheet("Planning, diagnosis and both", TIMES, times_rows(table), 2)),
+            Sheet("How far from the optimum", OPTIMUM, list(distances)),
+        ),
+    )
+
+
+def _without_empty(sheet: Sheet) -> Sheet:
+    """Without the last column, of published values, where there are none."""
+    if any(row[-1] for row in sheet.rows):
+        return sheet
+    return Sheet(sheet.title, sheet.columns[:-1], [row[:-1] for row in sheet.rows], sheet.names)
+
+
+def _became(own: Analysis) -> Sheet:
+    kinds = sorted({kind for counts in own.became.values() for kind in counts})
+    rows = [
+        (name, *(str(counts.get(kind, "")) for kind in kinds))
+        for name, counts in own.became.items()
+    ]
+    return Sheet("What the scenarios that were played came to be", ("played", *kinds), rows)
+
+
+def lines(table: Table) -> list[Line]:
+    """The rows with pairs, each with its ratios and accuracies."""
+    return [
+        Line((row.name, str(row.pairs)), tuple(cell.value for cell in cells(table, row).values()))
+        for row in table.rows
+        if row.pairs
+    ]
+
+
+def cells(table: Table, row: Row) -> dict[str, Cell]:
+    """By measure, then by robot, ours beside the published values."""
+    paper = table.published.get(row.name)
+    shares = {"baseline": row.baseline, "intentional": row.intentional}
+    return {
+        name: Cell(own.mean, own.median, Rounded(paper.ratios[name]) if paper else None)
+        for name, own in row.ratios.items()
+    } | {
+        who: Cell(own, None, Rounded(getattr(paper, who)) if paper else None, share=True)
+        for who, own in shares.items()
+    }
+
+
+def test_rows(table: Table) -> Iterator[Cells]:
+    """For each row the effect sizes, with the p-values after Holm's correction."""
+    for row in table.rows:
+        if row.pairs:
+            yield (row.name, *(effect(row.ratios[name].test) for name in MEASURES), _right(row))
+
+
+def _right(row: Row) -> str:
+    """The difference of the accuracies, with its interval."""
+    own, test = row.advantage, row.accuracy
+    if test is None or own is None:
+        return "-"
+    interval = "" if own.single else f" [{own.low:+.2f}, {own.high:+.2f}]"
+    return effect(test).replace(" (", f"{interval} (")
+
+
+def times_rows(table: Table) -> list[Cells]:
+    """Under TIMES: for each row with pairs a line per time."""
+    return [
+        _times(row, name, own, table.published.get(row.name))
+        for row in table.rows
+        if row.pairs
+        for name, own in row.times.items()
+    ]
+
+
+def _times(row: Row, name: str, own: Seconds, paper: Published | None) -> Cells:
+    theirs = Rounded(paper.ratios[PLANNING]) if paper is not None and name in READINGS else None
+    value = Cell(own.ratio.mean, published=theirs, of_sums=own.ratio.of_sums).value
+    seconds = map(_milliseconds, (own.baseline, own.intentional))
+    return (row.name, in_words(name), *seconds, value.whole, value.of_sums or "-", value.marked)
+
+
+def _milliseconds(value: float | None) -> str:
+    return "-" if value is None else f"{1000 * value:.1f} ms"
+
+
+def optimum_rows(table: Table, mind: str, base: str) -> Iterator[Cells]:
+    """Under OPTIMUM: for each row with pairs how far its robots are from the optimum."""
+    for row in table.rows:
+        if row.pairs and {mind, base} <= set(row.optimum):
+            both = (row.optimum[robot] for robot in (base, mind))
+            yield (row.name, *(text for own in both for text in _optimum(own.values())))
+
+
+def _optimum(own: Mapping[str, float | None]) -> Iterator[str]:
+    yield str(own["trials"])
+    for name in ("execution_units", "actions"):
+        yield number(own[name])
+
+
+def number(value: float | None) -> str:
+    """A ratio with two decimals."""
+    return "-" if value is None else f"{value:.2f}"
+
+
+def _notes(table: Table) -> Iterator[str]:
+    """What is in no row, and whether the robots of the pairs met the same."""
+    rows = [row for row in table.rows if row.name.isdigit()]
+    apart = [f"{counted(count, 'pair')} of {name}" for name, count in table.apart.items()]
+    for key, words in (
+        ("lost", "with a lost trial"),
+        ("late", "with a decision cut off by the clock"),
+        ("unsolvable", "whose goal no plan achieves"),
+    ):
+        count = sum(getattr(row, key) for row in rows)
+        apart += [f"{counted(count, 'pair')} {words}"] * (count > 0)
+    undecided = sum(row.undecided for row in rows)
+    if undecided:
+        yield f"In no accuracy: {counted(undecided, 'pair')} whose fewest actions are not known"
+    if apart:
+        yield f"In no row: {', '.join(apart)}"
+    for meeting, words in MEETINGS.items():
+        count = sum(row.meetings.get(meeting, 0) for row in rows)
+        if count:
+            yield f"{counted(count, 'pair')}: {words}"
+
+
+def charts(own: Analysis) -> list[Chart]:
+    """Accuracies and ratios with intervals by scenario, both tables and the published one."""
+    beside = {
+        way: {row.name: cells(table, row) for row in table.rows if row.pairs}
+        for way, table in own.tables.items()
+    }
+    rows = [name for name in PUBLISHED if any(name in known for known in beside.values())]
+    ratios = {name: f"{title}, TP / ATI" for name, title in zip(MEASURES, HEADINGS, strict=True)}
+    return [
+        Chart(
+            f"{own.mind}-{name}",
+            title,
+            rows,
+            _series({w: {r: c[r][name] for r in rows if r in c} for w, c in beside.items()}),
+            "ratios" if name in ratios else "shares",
+        )
+        for name, title in {**ROBOTS, **ratios}.items()
+    ]
+
+
+def _series(ways: Mapping[str, Mapping[str, Cell]]) -> list[Series]:
+    """Ours in both ways of drawing, and the published values, by row."""
+    ours = {w: points((r, c.ours) for r, c in ways.get(w, {}).items()) for w in WAYS}
+    theirs = {r: c.published.value for own in ways.values() for r, c in own.items() if c.published}
+    return [
+        Series(WAYS["triggered"], "first", ours["triggered"]),
+        Series(WAYS["random"], "second", ours["random"], "s"),
+        *published(theirs.items()),
+    ]
+
+
+def numbers(analyses: Iterable[Analysis]) -> Numbers:
+    """By the robot that is compared with the traditional one: both tables, and what became what."""
+    return {
+        "table1": {
+            own.mind: {
+                **dict.fromkeys(WAYS),
+                **{way: _table(table, own) for way, table in own.tables.items()},
+                "became": {name: dict(counts) for name, counts in own.became.items()},
+            }
+            for own in analyses
+        }
+    }
+
+
+def _table(table: Table, of: Analysis) -> Numbers:
+    rows = {row.name: _row(row, cells(table, row), of) for row in table.rows}
+    return {"rows": rows, "apart": dict(table.apart)}
+
+
+def _row(row: Row, beside: Mapping[str, Cell], of: Analysis) -> Numbers:
+    robots = {"baseline": of.base, "intentional": of.mind}
+    return {
+        "pairs": row.pairs,
+        "failed": row.lost,
+        "deadline": row.late,
+        "unsolvable": row.unsolvable,
+        "undecided": row.undecided,
+        "out_of_reach": row.out_of_reach,
+        "meetings": dict(row.meetings),
+        "accuracy": {
+            robot: _interval(beside[key].ours, "value") | _published(beside[key])
+            for key, robot in robots.items()
+        },
+        "difference": _interval(row.advantage, "value") | _test(row.accuracy),
+        "ratios": {
+            name: _ratio(own) | _test(own.test) | _published(beside[name])
+            for name, own in row.ratios.items()
+        },
+        "optimum": {robot: own.values() for robot, own in row.optimum.items()},
+        "times": {
+            name: {
+                "seconds": {of.base: own.baseline, of.mind: own.intentional},
+                **_ratio(own.ratio),
+            }
+            for name, own in row.times.items()
+        },
+    }
+
+
+def _ratio(own: Ratio) -> dict[str, Any]:
+    return {
+        "pairs": own.pairs,
+        **_interval(own.mean, "mean"),
+        **_interval(own.median, "median", "median_"),
+        "of_sums": own.of_sums,
+    }
+
+
+def _interval(own: Estimate | None, name: str, prefix: str = "") -> dict[str, Any]:
+    """A value under its name, and the ends of its interval."""
+    ends = (None, None) if own is None or own.single else (own.low, own.high)
+    value = None if own is None else own.value
+    return {name: value, f"{prefix}low": ends[0], f"{prefix}high": ends[1]}
+
+
+def _test(test: Test | None) -> dict[str, Any]:
+    return {key: None if test is None else getattr(test, key) for key in ("p", "holm", "effect")}
+
+
+def _published(cell: Cell) -> dict[str, Any]:
+    """The published value, and whether it lies in our interval as far as it was rounded."""
+    return {
+        "published": None if cell.published is None else cell.published.value,
+        "inside": cell.inside,
+    }
