@@ -13,7 +13,7 @@ from testbed.experiment.errors import StoreError
 from testbed.experiment.store import read_config
 from testbed.report.figures import Panel, drawn
 from testbed.report.rendering import environment
-from testbed.studies import Key, Section
+from testbed.studies import Key, Section, results_of
 
 COLUMNS = 4
 CARD, GAP, HEAD, LEGEND = 292, 12, 32, 34

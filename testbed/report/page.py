@@ -18,7 +18,7 @@ from testbed.report.comparison import OPTIMUM, charts, comparisons, optima
 from testbed.report.rendering import environment, rendered
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
-from testbed.studies import Results, Section, grid, left_out
+from testbed.studies import Results, Section, grid, left_out, results_of
 from testbed.text.grid import Grid
 
 COUNTED = ("achieved", "failed", "lost")

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from testbed.analysis.condition import condition, deviations, left_out
+from testbed.analysis.condition import condition, deviations
 from testbed.cli import app
 from testbed.config import load_config
+from testbed.studies import left_out
 from tests.greenhouse import WINDY
 
 SAME = ("seed=7", "limit=2", "scenarios=[1]", "repeats=2", "limits.answer_s=5", "link=zenoh")
@@ -41,7 +42,7 @@ def test_a_run_is_as_published_unless_its_rules_are_others(
     study: str, overrides: list[str], named: tuple[str, ...]
 ) -> None:
     config = load_config(study, overrides)
-    assert deviations(config, study) == named
+    assert deviations(config, load_config(study)) == named
     assert (left_out(config) is None) == (not named)
 
 

@@ -19,8 +19,8 @@ from testbed.experiment.store import TrialWriter, read_records, write_config
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, RobotGone, RobotStops, Task
-from testbed.studies.table1.measures import analyse
 from testbed.studies.table1.load import pairs_of
+from testbed.studies.table1.measures import analyse
 from tests.experiment.samples import Configure, a_level_record
 
 PAIRS = 4

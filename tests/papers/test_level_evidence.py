@@ -3,11 +3,12 @@
 import pytest
 
 from papers.levels import evidence
+from papers.levels.pairing import Meeting, Pair, pairs_of
 from testbed.analysis.statistics import Estimate
 from testbed.experiment.record import Attempt, Explained, Occurrence, TrialRecord
-from testbed.studies.levels.comparing import Cell, Line
-from papers.levels.pairing import Meeting, Pair, pairs_of
-from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Rounded
+from testbed.studies import Cell, Rounded
+from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM
+from testbed.studies.levels.tables import Row
 from tests.experiment.samples import a_level_record, a_record
 
 ROBOTS = (ZOOM, NO_ZOOM)
@@ -139,7 +140,5 @@ def test_only_cells_with_both_values_are_counted() -> None:
         Cell(ours),
         Cell(None, published=Rounded(2.0)),
     )
-    counted = evidence.inside(
-        [Line("L1", "zoom", ZOOM, 1, cells), Line("L2", "zoom", ZOOM, 1, cells[:1])]
-    )
+    counted = evidence.inside([Row("L1", ZOOM, 1, cells), Row("L2", ZOOM, 1, cells[:1])])
     assert (counted.inside, counted.values) == (2, 3)

@@ -7,13 +7,13 @@ import pytest
 
 from papers.levels.__main__ import main
 from papers.levels.commands import PAGE, commands
+from papers.markdown import WIDTH, paragraph
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import PROVENANCE, TrialWriter, read_records, write_config
 from testbed.studies.levels.published import NO_ZOOM, ZOOM
-from papers.markdown import WIDTH, paragraph
 from tests.experiment.samples import a_level_record
 
 SMALL = ["levels=[L1,L3]", "limit=3", "adversary.rate=0.2"]

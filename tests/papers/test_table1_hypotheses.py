@@ -14,6 +14,7 @@ from papers.table1.hypotheses import (
     weigh,
 )
 from papers.table1.released import released
+from papers.table1.runs import read_run, told_name, told_order
 from testbed.config import load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
@@ -22,7 +23,6 @@ from testbed.experiment.record import Activity, Attempt, TrialRecord, encode
 from testbed.experiment.store import read_records, write_config
 from testbed.studies.table1.load import Pair, Side
 from testbed.studies.table1.published import MEASURES, PUBLISHED, SCENARIOS
-from papers.table1.runs import read_run, told_name, told_order
 from tests.experiment.samples import a_record
 from tests.studies.table1.made import a_pair, a_side
 

@@ -7,13 +7,13 @@ import pytest
 from papers.table1.__main__ import main
 from papers.table1.document import Sources, document
 from papers.table1.hypotheses import weigh
+from papers.table1.runs import Run, read_run, released_weights
 from papers.table1.weighing import Weighing
 from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
 from testbed.studies.table1.published import SCENARIOS
-from papers.table1.runs import Run, read_run, released_weights
 
 HOLDING = "[loc(rob1,kitchen), 'in_hand(rob1,book1)', loc(book1,kitchen), loc(book2,office2)]"
 MIND = "intentional"

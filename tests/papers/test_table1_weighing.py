@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from papers.table1.weighing import Weighing, weighing, weighted_mean
-from testbed.studies.table1.measures import analyse
+from testbed.studies.table1.measures import Row, analyse
 from testbed.studies.table1.published import MEASURES
-from testbed.studies.table1.measures import Row
 from tests.studies.table1.made import a_pair, a_side
 
 PAIRS = [

@@ -13,7 +13,8 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.record import At, Attempt, Explained, Occurrence
 from testbed.experiment.store import TrialWriter
-from testbed.report import SHOWN, timeline, write_report
+from testbed.experiment.timeline import timeline
+from testbed.report import SHOWN, write_report
 from tests.experiment.samples import a_record
 
 pytestmark = pytest.mark.versions

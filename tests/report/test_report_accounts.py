@@ -1,7 +1,7 @@
 """What was explained by what."""
 
 from testbed.experiment.record import At, Explained, Occurrence
-from testbed.report.accounts import MOST, accounts_of
+from testbed.report.stories import MOST, accounts_of
 from tests.experiment.samples import a_record
 
 MOVED, LOCKED = "exo_move(book1,kitchen)", "exo_lock(library)"

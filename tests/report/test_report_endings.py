@@ -4,7 +4,7 @@ import shlex
 from pathlib import Path
 
 from testbed.experiment.record import Occurrence
-from testbed.report.endings import SLOWEST, failures, slowest
+from testbed.report.stories import SLOWEST, failures, slowest
 from tests.experiment.samples import a_record
 
 RUN = Path("runs/o'clock")

@@ -3,15 +3,16 @@
 import re
 from xml.etree import ElementTree
 
-from testbed.report.figures import Panel, Point, Series, curves, forest
-from testbed.report.svg import FIRST, PAPER, SECOND, VARIABLES
+from testbed.report.figures import Panel, drawn
+from testbed.report.svg import VARIABLES
+from testbed.studies import Chart, Point, Series
 
-OURS = Series("ours", FIRST, (Point("a", 2.0, 1.5, 2.5), Point("b", 0.5, 0.4, 0.6)))
-THEIRS = Series("theirs", PAPER, (Point("a", 1.0),), marker="D", published=True)
+OURS = Series("ours", "first", (Point("a", 2.0, 1.5, 2.5), Point("b", 0.5, 0.4, 0.6)))
+THEIRS = Series("theirs", "paper", (Point("a", 1.0),), marker="D", published=True)
 
 
 def _ratios(name: str = "ratios", *series: Series) -> Panel:
-    return forest(name, "actions", ["a", "b"], series or (OURS, THEIRS))
+    return drawn(Chart(name, "actions", ["a", "b"], series or (OURS, THEIRS)))
 
 
 def _texts(panel: Panel) -> list[str]:
@@ -41,17 +42,17 @@ def test_rows_are_named_and_ratios_have_a_scale() -> None:
 
 
 def test_a_share_goes_from_none_to_all() -> None:
-    shares = Series("ours", FIRST, (Point("a", 0.7, 0.6, 0.8),))
-    assert "100 %" in _texts(forest("shares", "correct", ["a"], [shares], share=True))
+    shares = Series("ours", "first", (Point("a", 0.7, 0.6, 0.8),))
+    assert "100 %" in _texts(drawn(Chart("shares", "correct", ["a"], [shares], "shares")))
 
 
 def test_what_is_larger_lies_further_right_and_an_interval_around_its_value() -> None:
     values = (Point("a", 2.0, 1.0, 4.0),)
-    drawn = _ratios("one", Series("x", SECOND, values))
-    smaller = _ratios("one", Series("x", SECOND, (Point("a", 1.0, 0.5, 4.0),)))
-    (low, high), (least, _) = _interval(drawn), _interval(smaller)
-    assert low < _marker(drawn) < high
-    assert abs((low + high) / 2 - _marker(drawn)) < 0.5
+    larger = _ratios("one", Series("x", "second", values))
+    smaller = _ratios("one", Series("x", "second", (Point("a", 1.0, 0.5, 4.0),)))
+    (low, high), (least, _) = _interval(larger), _interval(smaller)
+    assert low < _marker(larger) < high
+    assert abs((low + high) / 2 - _marker(larger)) < 0.5
     assert least < low
 
 
@@ -84,22 +85,23 @@ def test_the_same_values_give_the_same_figure() -> None:
 
 
 def test_times_are_in_seconds_or_less_on_a_log_scale() -> None:
-    ours = Series("zoom", FIRST, (Point("L1", 0.02, 0.01, 0.03), Point("L2", 2.0, 1.0, 3.0)))
-    panel = curves("levels", "all", ["L1", "L2"], [ours])
+    ours = Series("zoom", "first", (Point("L1", 0.02, 0.01, 0.03), Point("L2", 2.0, 1.0, 3.0)))
+    panel = drawn(Chart("levels", "all", ["L1", "L2"], [ours], "seconds"))
     assert {"L1", "L2", "100 ms", "1 s"} <= set(_texts(panel))
     assert "zoom" in str(panel.svg).partition(">")[0]
 
 
 def test_a_published_curve_is_dashed() -> None:
-    published = Series("paper", SECOND, (Point("L1", 1.0), Point("L2", 2.0)), published=True)
-    measured = Series("ours", SECOND, published.points)
+    published = Series("paper", "second", (Point("L1", 1.0), Point("L2", 2.0)), published=True)
+    measured = Series("ours", "second", published.points)
     dashed = [
-        "stroke-dasharray" in str(curves("levels", "all", ["L1", "L2"], [series]).svg)
+        "stroke-dasharray" in str(drawn(Chart("x", "all", ["L1", "L2"], [series], "seconds")).svg)
         for series in (published, measured)
     ]
     assert dashed == [True, False]
 
 
 def test_what_a_figure_says_of_itself_is_escaped() -> None:
-    panel = forest("x", 'a "<b>"', ["a"], [Series("o", FIRST, (Point("a", 1.0),))])
+    series = Series("o", "first", (Point("a", 1.0),))
+    panel = drawn(Chart("x", 'a "<b>"', ["a"], [series]))
     assert "a &#34;&lt;b&gt;&#34;" in str(panel.svg).partition("\n")[0]

@@ -1,20 +1,20 @@
-"""Published values beside ours, as the report shows them."""
+"""Published values beside ours, as the studies show them."""
 
 from pathlib import Path
 
 import pytest
 
 from testbed.analysis.statistics import Estimate, Test
-from testbed.analysis.summary import summarise
 from testbed.config import load_config
 from testbed.experiment.resume import RunStatus, play_missing
-from testbed.report import level_panels, levels, table1
-from testbed.report.figures import Panel
+from testbed.studies import Ratio, Value, View, results_of
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
-from testbed.studies.levels.results import levels_of
-from testbed.studies.table1.measures import Analysis, Ratio, Row, Table
+from testbed.studies.levels.tables import ratio_charts
+from testbed.studies.table1.measures import Analysis, Row, Table
 from testbed.studies.table1.published import MEASURES, PUBLISHED
+from testbed.studies.table1.tables import COLUMNS, charts, sections
 from tests.experiment.samples import a_level_record
+from tests.studies.levels.found import found, views
 
 ALWAYS = Estimate(1.0, 0.98, 1.0)
 
@@ -28,15 +28,21 @@ def _analysis(*rows: Row, apart: dict[str, int] | None = None) -> Analysis:
     return Analysis("intentional", "traditional", Table(rows, apart or {}), None, {})
 
 
-def _values(row: Row) -> dict[str, table1.Value]:
-    (view,) = table1.views(_analysis(row))
-    (line,) = view.lines
-    return dict(zip(table1.COLUMNS[2:], line.values, strict=True))
+def _view(analysis: Analysis) -> View:
+    (section,) = sections([analysis])
+    (view,) = section.views
+    return view
+
+
+def _values(row: Row) -> dict[str, Value]:
+    (line,) = _view(_analysis(row)).lines
+    return dict(zip(COLUMNS[2:], line.values, strict=True))
 
 
 def test_ours_stands_with_its_interval_above_what_was_published() -> None:
     value = _values(_row("3", Estimate(1.234, 1.006, 1.999)))["actions"]
-    assert value == table1.Value("1.23", "1.01 to 2.00", "1.12", inside=True)
+    assert (value.ours, value.ends, value.published) == ("1.23", ("1.01", "2.00"), "1.12")
+    assert value.inside
 
 
 def test_a_published_value_outside_of_our_interval_is_told_apart() -> None:
@@ -48,7 +54,7 @@ def test_a_published_value_outside_of_our_interval_is_told_apart() -> None:
 def test_shares_are_percents_with_a_decimal_of_ours() -> None:
     row = _row("3", Estimate(1.0, 1.0, 1.0), Estimate(0.663, 0.624, 0.701))
     value = _values(row)["TP correct"]
-    assert value == table1.Value("66.3%", "62.4% to 70.1%", "72%", inside=False)
+    assert value == Value("66.3%", ("62.4", "70.1"), published="72%", inside=False)
 
 
 def test_without_a_published_row_there_is_nothing_to_be_inside_of() -> None:
@@ -62,18 +68,18 @@ def test_without_a_ratio_there_is_none() -> None:
 
 
 def test_what_is_in_no_row_is_counted() -> None:
-    (view,) = table1.views(_analysis(_row("3", None), apart={"no event": 7}))
-    assert view.notes[0] == "In no row: 7 pairs of no event"
-    assert view.notes[1].startswith("10 pairs: same event beside the same action")
+    apart, met = _view(_analysis(_row("3", None), apart={"no event": 7})).notes
+    assert "7 pairs of no event" in apart
+    assert met.startswith("10 pairs: ")
 
 
 def test_every_measure_and_both_accuracies_are_drawn_and_published_values_with_them() -> None:
-    panels = table1.panels(_analysis(_row("3", Estimate(1.2, 1.1, 1.3))))
-    assert len(panels) == len(MEASURES) + 2
-    assert len({panel.name for panel in panels}) == len(panels)
-    for panel in panels:
-        assert "var(--paper)" in panel.svg
-        assert "var(--first)" in panel.svg
+    drawn = charts(_analysis(_row("3", Estimate(1.2, 1.1, 1.3))))
+    assert len({chart.name for chart in drawn}) == len(drawn) == len(MEASURES) + 2
+    for chart in drawn:
+        known = {own.colour: own.points for own in chart.series}
+        assert known["first"]
+        assert known["paper"]
 
 
 @pytest.fixture(scope="module")
@@ -89,35 +95,35 @@ def _ignore(tally: RunStatus) -> None:
 
 
 def test_only_the_protocol_has_the_table(small: Path) -> None:
-    (analysis,) = table1.analyses(small, load_config("table1"))
-    assert analysis.triggered is not None
-    assert table1.analyses(small, load_config("office")) == []
+    (own,) = results_of(small, load_config("table1"))
+    assert own.numbers["table1"]["intentional"]["triggered"] is not None
+    assert results_of(small, load_config("office")) == []
 
 
-def _views(*times: tuple[str, float]) -> dict[str, levels.View]:
+def _views(*times: tuple[str, float]) -> dict[str, View]:
     records = [
         a_level_record(pair, robot, fine=seconds, infer=0.0, planning=0.0, diagnosis=0.0)
         for robot, seconds in times
         for pair in "pq"
     ]
-    return {view.name: view for view in levels.views(levels_of(summarise(records)), PAPER)}
+    return views(records, PAPER)
 
 
 def test_a_level_has_both_conditions_and_their_ratio_above_the_published() -> None:
-    views = _views((ZOOM, 0.05), (NO_ZOOM, 1.0))
-    zoom, without = views["levels-seconds"].lines
-    assert (zoom.level, zoom.reasoning, zoom.number, zoom.first) == ("L3", "zoom", "2", True)
-    assert zoom.values[0] == levels.Value("100.0%", "15.8% to 100.0%", "", "100%", True)
-    assert zoom.values[2] == levels.Value(
-        "50.0 ± 0.0 ms", median="50.0 ms", published="4.19 ± 1.48 s"
-    )
-    assert (without.reasoning, without.first) == ("no zoom", False)
+    known = _views((ZOOM, 0.05), (NO_ZOOM, 1.0))
+    zoom, without = known["levels-seconds"].lines
+    assert zoom.labels == ("L3", "zoom", "2")
+    assert zoom.values[0] == Value("100.0%", ("15.8", "100.0"), published="100%", inside=True)
+    assert zoom.values[2] == Value("50.0 ± 0.0 ms", median="50.0 ms", published="4.19 ± 1.48 s")
+    assert without.labels == ("L3", "no zoom", "2")
     assert (without.values[0].published, without.values[0].inside) == ("65%", True)
     assert without.values[4].published == "45.98 ± 43.05 s"
-    (ratio,) = views["levels-ratios"].lines
-    assert (ratio.reasoning, ratio.number) == ("no zoom / zoom", "2")
-    assert ratio.values[1] == levels.Value("20.00", "20.00 to 20.00", "20.00", "55.23", False)
-    for view in views.values():
+    (ratio,) = known["levels-ratios"].lines
+    assert ratio.labels == ("L3", "no zoom / zoom", "2")
+    value = ratio.values[1]
+    assert (value.whole, value.of_sums) == ("20.00 [20.00, 20.00]", "20.00")
+    assert (value.published, value.inside) == ("55.23", False)
+    for view in known.values():
         assert {len(line.values) for line in view.lines} == {len(view.columns) - 3}
 
 
@@ -125,14 +131,14 @@ def test_one_condition_has_no_ratio_and_one_level_no_growth() -> None:
     assert set(_views((ZOOM, 0.05))) == {"levels-seconds"}
 
 
-def _ratio_figures(paper: Paper, *robots: str) -> list[Panel]:
+def _ratio_colours(paper: Paper, *robots: str) -> list[set[str]]:
     records = [a_level_record("p", robot) for robot in robots]
-    return level_panels.ratio_panels(levels_of(summarise(records)), paper)
+    drawn = ratio_charts(found(records, paper))
+    assert len({chart.name for chart in drawn}) == len(drawn)
+    return [{own.colour for own in chart.series} for chart in drawn]
 
 
 def test_ratios_are_drawn_beside_the_published_ones_where_there_are() -> None:
-    for paper, drawn in ((PAPER, True), (OWN, False)):
-        panels = _ratio_figures(paper, ZOOM, NO_ZOOM)
-        assert len({panel.name for panel in panels}) == len(panels) == 2
-        assert all(("var(--paper)" in panel.svg) is drawn for panel in panels)
-    assert _ratio_figures(PAPER, ZOOM) == []
+    assert _ratio_colours(PAPER, ZOOM, NO_ZOOM) == [{"second", "paper"}] * 2
+    assert _ratio_colours(OWN, ZOOM, NO_ZOOM) == [{"second"}] * 2
+    assert _ratio_colours(PAPER, ZOOM) == []

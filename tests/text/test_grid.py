@@ -9,16 +9,15 @@ from pathlib import Path
 import pytest
 from rich.cells import cell_len
 
-from testbed.analysis.summary import summarise
+from testbed import studies
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import At, Explained
 from testbed.experiment.store import TrialWriter, write_config
 from testbed.report.tables import grid, rows_of
 from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM
-from testbed.studies.levels.results import levels_of
-from testbed.studies.levels.table import level_grid, level_tables
 from testbed.text.grid import Grid
 from tests.experiment.samples import Configure, a_level_record, a_record
+from tests.studies.levels.found import views
 
 WIDTHS = (60, 80, 120, 200)
 ROBOTS = ("intentional", "intentional-nozoom", "traditional")
@@ -53,8 +52,7 @@ def _levels() -> list[Grid]:
         for robot in (ZOOM, NO_ZOOM)
         for n in range(30)
     ]
-    tables = level_tables(levels_of(summarise(records, paper=PAPER)), PAPER)
-    return [level_grid(table) for table in tables]
+    return [studies.grid(view, view.title) for view in views(records, PAPER).values()]
 
 
 GRIDS = [grid(rows_of(_records(1))), grid(rows_of(_records(184))), *_levels()]

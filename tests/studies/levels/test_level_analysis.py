@@ -4,14 +4,14 @@ from typing import Any
 
 import pytest
 
-from testbed.analysis.summary import summarise
 from testbed.experiment.record import TrialRecord
 from testbed.studies.levels.published import NO_ZOOM, PAPER, PARTS, ZOOM
 from tests.experiment.samples import a_level_record
+from tests.studies.levels.found import columns
 
 
 def _summary(*records: TrialRecord) -> Any:
-    return summarise(records)["levels"]
+    return columns(records)
 
 
 def _columns(*records: TrialRecord) -> Any:
@@ -154,8 +154,8 @@ def test_published_values_stand_beside_ours_where_there_are() -> None:
         for number in range(20)
         for robot in (ZOOM, NO_ZOOM)
     ]
-    summary: Any = summarise(records, paper=PAPER)
-    published = summary["levels"]["L3"]["published"]
+    summary = columns(records, PAPER)
+    published = summary["L3"]["published"]
     # All of 20 alike: the exact interval ends at 0.025 ** (1 / 20) = 0.83.
     assert published["completed"] == {
         ZOOM: {"published": 1.0, "inside": True},
@@ -165,7 +165,6 @@ def test_published_values_stand_beside_ours_where_there_are() -> None:
     assert published["ratios"]["total"] == {"published": 20.07, "inside": False}
     assert published["growth"][ZOOM]["coarse"]["published"] == pytest.approx(7.40 / 4.67)
     assert published["seconds"][NO_ZOOM]["refined_plan"] == {"mean": 45.98, "sd": 43.05}
-    assert "growth" not in summary["levels"]["L1"]["published"]
-    assert "published" not in summary["levels"]["mine"]
-    own: Any = summarise(records)
-    assert not any("published" in level for level in own["levels"].values())
+    assert "growth" not in summary["L1"]["published"]
+    assert "published" not in summary["mine"]
+    assert not any("published" in level for level in columns(records).values())

@@ -3,12 +3,10 @@
 import pytest
 
 from testbed.analysis.statistics import Estimate
-from testbed.analysis.summary import summarise
-from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
-from testbed.report.tables import headings, rows_of
-from testbed.studies.levels import comparing
-from testbed.studies.levels.protocol import paper_of
+from testbed.report.tables import headings
+from testbed.report.tables import rows_of as trials_of
+from testbed.studies import Cell, Rounded, grid, rows_of
 from testbed.studies.levels.published import (
     NO_ZOOM,
     OWN,
@@ -17,26 +15,17 @@ from testbed.studies.levels.published import (
     PUBLISHED,
     RATIOS,
     ZOOM,
-    Rounded,
+    Paper,
 )
-from testbed.studies.levels.results import levels_of
-from testbed.studies.levels.table import (
-    GROWTH,
-    SECONDS,
-    SHARES,
-    effect_rows,
-    growth_rows,
-    level_grid,
-    level_tables,
-    ratio_rows,
-    seconds_rows,
-    share_rows,
-)
+from testbed.studies.levels.tables import FEW, FEW_PAIRS, effect_rows
 from tests.experiment.samples import a_level_record, a_record
+from tests.studies.levels.found import found, views
+
+Cells = tuple[str, ...]
 
 
-def _levels(*records: TrialRecord) -> comparing.Levels:
-    return levels_of(summarise(records))
+def _rows(view: str, records: list[TrialRecord], paper: Paper = PAPER) -> list[Cells]:
+    return list(rows_of(views(records, paper)[f"levels-{view}"].lines))
 
 
 def _both(level: str, number: int = 1, slower: float = 1.0) -> list[TrialRecord]:
@@ -51,58 +40,52 @@ def _both(level: str, number: int = 1, slower: float = 1.0) -> list[TrialRecord]
 
 
 def test_each_condition_has_means_medians_and_the_published_figures() -> None:
-    rows = list(seconds_rows(_levels(*_both("L3")), PAPER))
+    rows = _rows("seconds", _both("L3"))
     assert [row[:3] for row in rows] == [
-        ("L3", "zoom", "1/1"),
+        ("L3", "zoom", "1"),
         ("L3", "  median", ""),
         ("L3", "  published", ""),
-        ("L3", "no zoom", "1/1"),
+        ("L3", "no zoom", "1"),
         ("L3", "  median", ""),
         ("L3", "  published", ""),
     ]
-    assert all(len(row) == len(SECONDS) for row in rows)
-    assert rows[0][3] == "1.00 ± 0.00 s"
-    assert rows[1][3] == "1.00 s"
-    assert rows[2][3:] == ("11.59 ± 3.88 s", "4.19 ± 1.48 s", "7.40 ± 2.57 s", "560.0 ± 50.0 ms")
+    assert rows[0][4] == "1.00 ± 0.00 s"
+    assert rows[1][4] == "1.00 s"
+    assert rows[2][4:] == ("11.59 ± 3.88 s", "4.19 ± 1.48 s", "7.40 ± 2.57 s", "560.0 ± 50.0 ms")
 
 
-def test_a_goal_out_of_reach_is_told_beside_what_was_achieved() -> None:
+def test_a_goal_out_of_reach_is_told_beside_the_number_of_trials() -> None:
     records = [
         a_level_record("a", ZOOM),
         a_level_record("b", ZOOM, achieved=False, in_reach=False),
         a_level_record("c", ZOOM, achieved=False, in_reach=True),
     ]
-    assert next(seconds_rows(_levels(*records), PAPER))[2] == "1/3, 1 out of reach"
+    assert _rows("seconds", records)[0][2] == "3, 1 out of reach"
 
 
 def test_a_share_of_trials_that_ended_alike_has_the_exact_interval() -> None:
-    rows = list(share_rows(_levels(*_both("L3", 10)), PAPER))
+    rows = _rows("seconds", _both("L3", 10))
     # Clopper and Pearson: 0.025 ** (1 / 10) = 0.692.
-    assert rows == [
-        ("L3", "zoom", "10", "100.0% [69.2, 100.0]", "100%"),
-        ("L3", "no zoom", "10", "100.0% [69.2, 100.0]", "65% *"),
-    ]
-    assert all(len(row) == len(SHARES) for row in rows)
+    assert [row[3] for row in rows] == [*["100.0% [69.2, 100.0]", "", "100%"],
+                                        *["100.0% [69.2, 100.0]", "", "65% *"]]  # fmt: skip
 
 
 def test_a_published_ratio_that_our_interval_does_not_hold_is_marked() -> None:
-    mean, median, of_sums, published = ratio_rows(_levels(*_both("L1", 3)), PAPER)
+    mean, median, of_sums, published = _rows("ratios", _both("L1", 3))
     assert mean == ("L1", "no zoom / zoom", "3", *["1.00 [1.00, 1.00]"] * 4)
     assert median == ("L1", "  median", "", *["1.00 [1.00, 1.00]"] * 4)
     assert of_sums == ("L1", "  of sums", "", *["1.00"] * 4)
     assert published == ("L1", "  published", "", "1.01 *", "1.02 *", "1.00", "1.03 *")
 
 
-@pytest.mark.parametrize(("pairs", "few"), [(19, True), (20, False)])
+@pytest.mark.parametrize(("pairs", "few"), [(FEW - 1, True), (FEW, False)])
 def test_ratios_of_few_pairs_say_so(pairs: int, few: bool) -> None:
-    titles = [table.title for table in level_tables(_levels(*_both("L1", pairs)), PAPER)]
-    assert any(comparing.FEW_PAIRS in title for title in titles) == few
+    assert (FEW_PAIRS in views(_both("L1", pairs))["levels-ratios"].title) == few
 
 
 def test_growth_is_told_of_each_level_but_the_first() -> None:
-    rows = list(growth_rows(_levels(*_both("L1", 2), *_both("L2", 2, slower=2.0)), PAPER))
+    rows = _rows("growth", [*_both("L1", 2), *_both("L2", 2, slower=2.0)])
     assert [row[:3] for row in rows[::3]] == [("L2", "zoom", "2"), ("L2", "no zoom", "2")]
-    assert all(len(row) == len(GROWTH) for row in rows)
     assert rows[3][6] == "2.00 [2.00, 2.00]"
     assert rows[5][3:] == ("1.71 *", "2.77 *", "1.34 *", "2.38 *")
 
@@ -120,29 +103,24 @@ def test_a_published_growth_is_as_exact_as_what_was_rounded_for_it() -> None:
     ("published", "inside"), [(1.29, False), (1.296, True), (1.5, True), (1.71, False)]
 )
 def test_a_published_value_lies_inside_up_to_its_rounding(published: float, inside: bool) -> None:
-    cell = comparing.Cell(Estimate(1.5, 1.3, 1.7), published=Rounded(published))
+    cell = Cell(Estimate(1.5, 1.3, 1.7), published=Rounded(published))
     assert cell.inside is inside
-    assert comparing.Cell(Estimate(1.5, 1.3, 1.7)).inside is None
+    assert Cell(Estimate(1.5, 1.3, 1.7)).inside is None
 
 
 def test_a_run_of_ones_own_has_the_same_tables_without_published_figures() -> None:
-    levels = _levels(*_both("L1", 2), *_both("L3", 2))
-    compared, own = level_tables(levels, PAPER), level_tables(levels, OWN)
-    assert [table.title for table in own] == [table.title for table in compared]
-    assert any("published" in row[1] for table in compared for row in table.rows)
-    assert not any("published" in row[1] for table in own for row in table.rows)
-    assert {row[-1] for row in own[1].rows} == {"-"}
-
-
-def test_the_protocol_is_what_the_published_figures_stand_beside() -> None:
-    assert paper_of(load_config("levels")) is PAPER
-    assert paper_of(load_config("levels", ["protocol=null"])) is OWN
+    records = [*_both("L1", 2), *_both("L3", 2)]
+    compared, own = views(records, PAPER), views(records, OWN)
+    assert list(own) == list(compared)
+    for name, view in own.items():
+        assert "  published" in {row[1] for row in rows_of(compared[name].lines)}
+        assert "  published" not in {row[1] for row in rows_of(view.lines)}
+        assert "published" not in view.columns
 
 
 def test_the_terminal_has_each_interval_below_its_value() -> None:
-    (_, _, ratios) = level_tables(_levels(*_both("L1", comparing.FEW)), PAPER)
-    shown = level_grid(ratios)
-    assert shown.title == "No zoom / zoom, over pairs (*: outside of our interval)"
+    shown = grid(views(_both("L1", FEW), PAPER)["levels-ratios"], "ratios")
+    assert shown.title.startswith("ratios (*")
     assert [row[3] for row in shown.rows if row] == ["1.00", "[1.00, 1.00]", "1.00", "1.01 *"]
 
 
@@ -150,7 +128,7 @@ def test_tests_are_told_where_times_differ() -> None:
     slower = [record for n in range(8) for record in _both("L1", 1, 2.0 + n)]
     for index, record in enumerate(slower):
         record.pair = f"p{index // 2}"
-    ((level, pairs, *cells),) = effect_rows(_levels(*slower))
+    ((level, pairs, *cells),) = effect_rows(found(slower).levels)
     assert (level, pairs) == ("L1", "8")
     # All eight differences have one sign: 2 / 2 ** 8, of three tests.
     assert cells == ["+1.00 (p = 0.023)", "+1.00 (p = 0.023)", "-", "+1.00 (p = 0.023)", "-", "-"]
@@ -167,12 +145,12 @@ def test_totals_of_the_published_figures_are_the_sums_of_their_parts() -> None:
     assert set(RATIOS) == {"L1", "L2", "L3"}
 
 
-def test_rows_are_by_level_and_a_run_without_levels_has_no_such_table() -> None:
-    rows = rows_of([a_level_record("a", ZOOM)])
+def test_rows_are_by_level() -> None:
+    rows = trials_of([a_level_record("a", ZOOM)])
     assert headings(rows)[0] == "level"
     assert headings(rows)[-2] == "coarse planning"
     assert rows[0].cells()[:2] == ("L3", ZOOM)
     coarse = [a_record("a")]
-    assert headings(rows_of(coarse))[0] == "scenario"
-    assert headings(rows_of(coarse))[-2] == "planning"
-    assert level_tables(_levels(*coarse), PAPER) == []
+    assert headings(trials_of(coarse))[0] == "scenario"
+    assert headings(trials_of(coarse))[-2] == "planning"
+    assert found(coarse).levels == {}

@@ -10,8 +10,8 @@ from testbed.analysis.outline import MEASURES as COMPUTED
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.studies.table1 import table as text
-from testbed.studies.table1.measures import Analysis, Row, Table, analyse
 from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of, undone
+from testbed.studies.table1.measures import Analysis, Row, Table, analyse
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from tests.experiment.samples import a_record
 

@@ -2,9 +2,9 @@
 
 from testbed.analysis.optimum import Optimum
 from testbed.analysis.outline import DIVIDED
-from testbed.studies.table1.measures import analyse
-from testbed.studies.table1.optimum import section
 from testbed.studies.table1.load import Pair, Side
+from testbed.studies.table1.measures import analyse
+from testbed.studies.table1.tables import optimum_rows
 
 
 def _side(actions: float, units: float, achieved: bool = True) -> Side:
@@ -58,10 +58,11 @@ def test_in_the_row_of_all_scenarios_weigh_the_same() -> None:
     assert found == Optimum(5, (4 * 1.0 + 4 * 4.0) / 8, (4 * 1.0 + 4 * 2.0) / 8)
 
 
-def test_the_section_has_a_row_for_each_of_both_tables() -> None:
+def test_both_tables_have_their_rows() -> None:
     pairs = [_pair("3", _side(4.0, 10.0), GAVE_UP), _pair("random", _side(5.0, 25.0), GAVE_UP)]
     pairs[1] = Pair("random", "4", True, *(pairs[1].mind, pairs[1].base), "s", pairs[1].minimal)
-    text = section(analyse(pairs, "mind", "base", {"3"}))
-    assert "| triggered, 3 | 0 | - | - | 1 | 1.00 | 1.00 |" in text
-    assert "| random, 4 | 0 | - | - | 1 | 2.50 | 1.25 |" in text
-    assert "random, 3" not in text
+    tables = analyse(pairs, "mind", "base", {"3"}).tables
+    rows = {way: list(optimum_rows(table, "mind", "base")) for way, table in tables.items()}
+    assert ("3", "0", "-", "-", "1", "1.00", "1.00") in rows["triggered"]
+    assert ("4", "0", "-", "-", "1", "2.50", "1.25") in rows["random"]
+    assert "3" not in [row[0] for row in rows["random"]]
