@@ -9,8 +9,8 @@ from pathlib import Path
 
 from markupsafe import Markup
 
+from testbed.analysis import load_run
 from testbed.experiment.errors import StoreError
-from testbed.experiment.store import read_config
 from testbed.report.figures import Panel, drawn
 from testbed.report.rendering import environment
 from testbed.studies import Key, Section, results_of
@@ -54,7 +54,7 @@ def picture(folder: Path) -> str:
         StoreError: for a folder without a run, or one without such figures.
         ConfigError: where the stored configuration is not valid any more.
     """
-    found = results_of(folder, read_config(folder))
+    found = results_of(load_run(folder))
     sections = [own for finding in found for own in finding.sections if own.charts]
     if not sections:
         raise StoreError(f"{folder}: has no figures; only published experiments have")

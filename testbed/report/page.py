@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from asp.language import read_domain, scenario_notes
+from testbed.analysis import Run
 from testbed.analysis.condition import condition
 from testbed.analysis.counting import Apart, eventful, pairs_apart
 from testbed.analysis.summary import write_summary
+from testbed.analysis.table import table_of
 from testbed.config import ExperimentConfig
 from testbed.experiment.coverage import coverage_of
 from testbed.experiment.store import REPORT, read_records, replace_text
@@ -46,7 +48,8 @@ class Tables:
 
 def write_report(folder: Path, config: ExperimentConfig) -> Tables:
     """Write `summary.json` and `report.html` from the records of a run; its tables."""
-    found, sure = results_of(folder, config), eventful(config)
+    run = Run(folder, config, {}, table_of(read_records(folder)))
+    found, sure = results_of(run), eventful(config)
     covered = coverage_of(read_records(folder), config)
     summary = write_summary(folder, covered.numbers(), sure, [own.numbers for own in found])
     apart = pairs_apart(read_records(folder), sure)

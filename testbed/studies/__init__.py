@@ -5,7 +5,6 @@ from testbed.studies.pairs import Ratio, Sample, joined
 from testbed.studies.study import (
     STUDIES,
     Results,
-    Run,
     Section,
     Study,
     left_out,
@@ -25,7 +24,6 @@ __all__ = [
     "Ratio",
     "Results",
     "Rounded",
-    "Run",
     "Sample",
     "Section",
     "Series",

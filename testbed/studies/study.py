@@ -14,10 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+from testbed.analysis import Run
 from testbed.analysis.condition import deviations
 from testbed.config import ExperimentConfig, Finding, load_config
-from testbed.experiment.record import TrialRecord
-from testbed.experiment.store import read_records
 from testbed.experiment.wording import listed
 from testbed.registry import Registry, RegistryError
 from testbed.studies.charts import Chart, Key
@@ -25,22 +24,6 @@ from testbed.studies.tables import Sheet, View
 
 Numbers = Mapping[str, Any]
 Found = TypeVar("Found")
-
-
-@dataclass(frozen=True)
-class Run:
-    """A run folder with its configuration, as a study reads it.
-
-    `as_published`: whether the study's published figures apply to it.
-    """
-
-    folder: Path
-    config: ExperimentConfig
-    as_published: bool = False
-
-    def records(self) -> Iterator[TrialRecord]:
-        """The trials on record, in their order. Raises StoreError."""
-        return read_records(self.folder)
 
 
 @dataclass(frozen=True)
@@ -66,7 +49,8 @@ class Study(Generic[Found]):
     """An experiment, and what is counted of its runs.
 
     Args:
-        measures: What the trials of a run come to; None where none of them is for the study.
+        measures: What the trials of a run come to, which is told whether the published figures
+            apply to it; None where none of its trials is for the study.
         numbers: What is added to the summary of a run, key by key, also inside of its parts.
         sections: The study's part of the report; its views are also shown at the terminal.
         fine: Whether its trials are played at the fine resolution, else in scenarios.
@@ -78,7 +62,7 @@ class Study(Generic[Found]):
             the optimum; the report then has none of its own.
     """
 
-    measures: Callable[[Run], Found | None]
+    measures: Callable[[Run, bool], Found | None]
     numbers: Callable[[Found], Numbers]
     sections: Callable[[Found], Sequence[Section]]
     fine: bool = False
@@ -130,23 +114,23 @@ class Results:
     sections: tuple[Section, ...]
 
 
-def results_of(folder: Path, config: ExperimentConfig) -> list[Results]:
+def results_of(run: Run) -> list[Results]:
     """What the studies of a run come to; those that find nothing in it are left out."""
     return [
         Results(study, study.numbers(found), tuple(study.sections(found)))
-        for study, run in runs(folder, config)
-        if (found := study.measures(run)) is not None
+        for study, as_published in _studies(run.config)
+        if (found := study.measures(run, as_published)) is not None
     ]
 
 
-def runs(folder: Path, config: ExperimentConfig) -> Iterator[tuple[Study[Any], Run]]:
-    """The studies that read a run, each with the run as it is to read it."""
+def _studies(config: ExperimentConfig) -> Iterator[tuple[Study[Any], bool]]:
+    """The studies that read a run, each with whether its published figures apply."""
     named = None if config.protocol is None else STUDIES.find(config.protocol)
     if named is not None:
-        yield named, Run(folder, config, not named.deviations(config))
+        yield named, not named.deviations(config)
     for _, study in STUDIES.usable():
         if study is not named and study.every and study.fine == config.is_fine:
-            yield study, Run(folder, config)
+            yield study, False
 
 
 def left_out(config: ExperimentConfig) -> str | None:

@@ -4,9 +4,12 @@ from pathlib import Path
 
 import pytest
 
+from testbed.analysis import Run
 from testbed.analysis.statistics import Estimate, Test
+from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.resume import RunStatus, play_missing
+from testbed.experiment.store import read_records
 from testbed.studies import Ratio, Value, View, results_of
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
 from testbed.studies.levels.tables import ratio_charts
@@ -95,9 +98,10 @@ def _ignore(tally: RunStatus) -> None:
 
 
 def test_only_the_protocol_has_the_table(small: Path) -> None:
-    (own,) = results_of(small, load_config("table1"))
+    records = table_of(read_records(small))
+    (own,) = results_of(Run(small, load_config("table1"), {}, records))
     assert own.numbers["table1"]["intentional"]["triggered"] is not None
-    assert results_of(small, load_config("office")) == []
+    assert results_of(Run(small, load_config("office"), {}, records)) == []
 
 
 def _views(*times: tuple[str, float]) -> dict[str, View]:

@@ -8,12 +8,11 @@ from statistics import fmean, median, stdev
 
 import numpy as np
 
-from testbed.analysis import quotient
+from testbed.analysis import Run, quotient
 from testbed.analysis.statistics import Estimate, Test, Values
 from testbed.studies.levels.load import FineOutline, outlines_of
 from testbed.studies.levels.published import FIRST, NO_ZOOM, OWN, PAPER, PARTS, ZOOM, Paper
 from testbed.studies.pairs import Ratio, Sample, corrected
-from testbed.studies.study import Run
 
 Outlines = Sequence[FineOutline]
 Pair = tuple[FineOutline, FineOutline]
@@ -92,10 +91,10 @@ class Levels:
     paper: Paper = OWN
 
 
-def measures(run: Run) -> Levels | None:
+def measures(run: Run, as_published: bool) -> Levels | None:
     """The columns of the levels of a run."""
     levels = analyse(outlines_of(run.records()))
-    return Levels(levels, PAPER if run.as_published else OWN) if levels else None
+    return Levels(levels, PAPER if as_published else OWN) if levels else None
 
 
 def analyse(levels: Mapping[str, Outlines]) -> dict[str, Level]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from math import lcm
 from statistics import fmean
 
+from testbed.analysis import Run
 from testbed.analysis.counting import BASELINE, INTENTIONAL, NO_EVENT, NOTHING_TO_DO, eventful
 from testbed.analysis.optimum import Needed, Optimum, optimum
 from testbed.analysis.outline import TIMES
@@ -16,7 +17,6 @@ from testbed.analysis.statistics import Estimate, Test
 from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
 from testbed.studies.pairs import Ratio, Sample, corrected
-from testbed.studies.study import Run
 from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of
 from testbed.studies.table1.published import (
     ALL,
@@ -101,7 +101,7 @@ class Analysis:
         return {name: table for name, table in both.items() if table is not None}
 
 
-def measures(run: Run) -> list[Analysis]:
+def measures(run: Run, as_published: bool) -> list[Analysis]:
     """Each robot with activities against the traditional one.
 
     The published figures are those of one robot; these of all scenarios together are of five.
@@ -112,7 +112,7 @@ def measures(run: Run) -> list[Analysis]:
         for mind in minds_of(run.config)
     ]
     whole = set(SCENARIOS) <= set(run.config.scenarios)
-    paper = PUBLISHED if run.as_published else {}
+    paper = PUBLISHED if as_published else {}
     parts = {name: row for name, row in paper.items() if whole or not name.startswith(ALL)}
     return [
         _beside(own, *((parts, paper) if own.mind == INTENTIONAL else ({}, {}))) for own in found

@@ -9,10 +9,12 @@ from testbed.analysis.outline import DIVIDED
 from testbed.analysis.outline import MEASURES as COMPUTED
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
-from testbed.studies.table1 import table as text
+from testbed.studies import rows_of
 from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of, undone
 from testbed.studies.table1.measures import Analysis, Row, Table, analyse
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
+from testbed.studies.table1.tables import lines
+from testbed.studies.table1.tables import test_rows as effects
 from tests.experiment.samples import a_record
 
 WORLD = load_world("office")
@@ -209,10 +211,10 @@ def test_a_published_value_outside_of_our_interval_is_marked() -> None:
     pairs = [_pair("1", _side(1.0, event=None), _side(1.0, event=None)) for _ in range(30)]
     table = _analyse(pairs).triggered
     assert table is not None
-    cells = {row[0].strip(): row for row in list(text.rows_of(table))[:3]}
+    cells = {row[0].strip(): row for row in list(rows_of(lines(table)))[:3]}
     assert cells["1"][3] == "1.00 [1.00, 1.00]"
     assert cells["published"][2:] == ("0.81 *", "1.00", "0.45 *", "1.00", "1.00", "100%", "100%")
-    assert next(text.tests_of(table)) == ("1", *["-"] * 6)
+    assert next(effects(table)) == ("1", *["-"] * 6)
 
 
 @pytest.mark.parametrize(

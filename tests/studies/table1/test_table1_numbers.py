@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from testbed.analysis import load_run
 from testbed.analysis.summary import summarise
 from testbed.config import load_config
 from testbed.experiment.domains import load_world
@@ -15,7 +16,6 @@ from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records, write_config
 from testbed.report import write_report
-from testbed.studies import Run
 from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import Analysis, Row, analyse, measures
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED
@@ -45,7 +45,7 @@ def summary(folder: Path) -> Any:
 
 @pytest.fixture(scope="module")
 def analysis(folder: Path) -> Analysis:
-    (found,) = measures(Run(folder, CONFIG, as_published=True))
+    (found,) = measures(load_run(folder), as_published=True)
     return found
 
 
@@ -73,7 +73,7 @@ def test_a_scenario_has_the_numbers_of_its_row(summary: Any, analysis: Analysis)
 
 
 def test_what_is_in_no_row_is_counted_apart_in_the_summary(summary: Any, folder: Path) -> None:
-    (found,) = measures(Run(folder, CONFIG, as_published=True))
+    (found,) = measures(load_run(folder), as_published=True)
     assert found.triggered is not None
     apart = {
         reason: sum(summary["scenarios"][name][key] for name in INTENDED)
