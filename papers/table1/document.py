@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from papers.markdown import markdown, paragraph
+from testbed.experiment.coverage import coverage_of
+from testbed.experiment.digest import digest
+from testbed.experiment.domains import load_world
+from testbed.experiment.errors import StoreError
+from testbed.experiment.store import read_records
+from testbed.studies import rows_of
+from testbed.studies.table1.load import Pair
+from testbed.studies.table1.measures import RANDOM, Analysis, Table
+from testbed.studies.table1.tables import HEADINGS, lines, test_rows
+
 from papers.table1.commands import Sources, commands, played
 from papers.table1.drawing import drawing
 from papers.table1.failing import blindness, failures, meetings
@@ -20,62 +29,22 @@ from papers.table1.others import later, unaided
 from papers.table1.released import released
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run, released_weights, told_order
-from testbed.experiment.coverage import coverage_of
-from testbed.experiment.digest import digest
-from testbed.experiment.domains import load_world
-from testbed.experiment.errors import StoreError
-from testbed.experiment.store import read_records
-from testbed.studies import rows_of
-from testbed.studies.table1.load import Pair
-from testbed.studies.table1.measures import RANDOM, Analysis, Table
-from testbed.studies.table1.tables import HEADINGS, lines, test_rows
+from papers.text import render
 
+TITLES = {
+    "triggered": "Triggered scenarios",
+    "random": "Random exogenous actions, classified afterwards",
+}
 COLUMNS = ("scenario", "pairs", *HEADINGS, "TP acc.", "ATI acc.")
 __all__ = ["Sources", "document"]
-
-INTRODUCTION = """\
-# Published and measured
-
-Generated from stored trials by the commands below; [the protocol](table1.md) says what is counted
-and how. Nothing in the robots or in the triggers was chosen to come near the published figures.
-
-```console
-{commands}
-```
-
-Whoever runs them gets the same results. Planning times depend on the machine, and on what else it
-does. The digests of the results, which are also said at the end of each run, are
-
-{digests}
-{incomplete}
-In each table: our mean with its 95% interval, our median, and the published value, with `*` where
-it does not lie in the interval of our mean. TP is `traditional`, ATI `intentional`; ratios are
-TP / ATI. Times are process time; *planning time* is without diagnosis, [which is told
-beside it](#planning-diagnosis-and-both).
-"""
-
-TESTS = """\
-## Tests
-
-Effect sizes (of measures rank-biserial, above 0 where TP needed more; of the accuracy the
-difference of the proportions, above 0 where ATI was right more often), with p-values after Holm's
-correction over the table. What comes from one initial state counts once. There is none where no
-pair differs.
-
-"""
 
 
 def document(sources: Sources) -> str:
     """The page as Markdown: the tables, then a section a question, the tests last."""
     mind = sources.main.minds[0]
     analysis, pairs = sources.main.analyses[mind], sources.main.pairs[mind]
-    parts = [
-        INTRODUCTION.format(
-            commands=commands(sources),
-            digests=_digests(sources),
-            incomplete=_incomplete(sources),
-        ),
-        *_tables(analysis),
+    runs = [*played(sources), *sources.told]
+    sections = [
         times(analysis),
         drawing(analysis),
         blindness(pairs),
@@ -88,7 +57,32 @@ def document(sources: Sources) -> str:
         *([] if sources.unaided is None else [unaided(sources.unaided)]),
         _tests(analysis),
     ]
-    return "\n".join(parts)
+    return render(
+        "table1/page",
+        commands=commands(sources),
+        digests=[
+            (f"`runs/{run.config.name}`", f"`{digest(read_records(run.folder))}`") for run in runs
+        ],
+        incomplete=[(run.config.name, own) for run in runs if (own := _notice(run)) is not None],
+        columns=COLUMNS,
+        tables=[
+            (TITLES[name], rows_of(lines(table)), _apart(table))
+            for name, table in analysis.tables.items()
+        ],
+        sections=sections,
+    )
+
+
+def _notice(run: Run) -> str | None:
+    return coverage_of(read_records(run.folder), run.config).notice()
+
+
+def _tests(analysis: Analysis) -> str:
+    """Effect sizes and corrected p-values of both tables."""
+    tables = [
+        (name.capitalize(), list(test_rows(table))) for name, table in analysis.tables.items()
+    ]
+    return render("table1/tests", tables=tables, headings=HEADINGS)
 
 
 def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
@@ -125,48 +119,8 @@ def _of(main: Run, run: Run, mind: str) -> list[Pair]:
     return run.pairs[mind]
 
 
-def _digests(sources: Sources) -> str:
-    rows = [
-        (f"`runs/{run.config.name}`", f"`{digest(read_records(run.folder))}`")
-        for run in (*played(sources), *sources.told)
-    ]
-    return markdown(("run", "digest"), rows)
-
-
-def _incomplete(sources: Sources) -> str:
-    """A paragraph for each run that is not complete."""
-    runs = (*played(sources), *sources.told)
-    notices = ((run, coverage_of(read_records(run.folder), run.config).notice()) for run in runs)
-    return "".join(
-        "\n" + paragraph(f"**Incomplete:** of `runs/{run.config.name}` {notice}.") + "\n"
-        for run, notice in notices
-        if notice is not None
-    )
-
-
-def _tables(analysis: Analysis) -> Iterator[str]:
-    if analysis.triggered is not None:
-        yield "## Triggered scenarios\n"
-        yield markdown(COLUMNS, rows_of(lines(analysis.triggered))) + "\n"
-        yield _apart(analysis.triggered)
-    if analysis.random is not None:
-        yield "## Random exogenous actions, classified afterwards\n"
-        yield markdown(COLUMNS, rows_of(lines(analysis.random))) + "\n"
-        yield _apart(analysis.random)
-
-
-def _tests(analysis: Analysis) -> str:
-    """Effect sizes and corrected p-values of both tables."""
-    columns = ("scenario", *HEADINGS, "accuracy")
-    parts = [
-        f"**{name}**\n\n{markdown(columns, test_rows(table))}\n"
-        for name, table in (("Triggered", analysis.triggered), ("Random", analysis.random))
-        if table is not None
-    ]
-    return TESTS + "\n".join(parts)
-
-
 def _apart(table: Table) -> str:
+    """How many pairs are in no row, and why."""
     apart = [f"{count} pairs: {name}" for name, count in table.apart.items()]
     everything = [row for row in table.rows if row.name.isdigit()]
     counts = (
@@ -175,5 +129,4 @@ def _apart(table: Table) -> str:
         ("goal out of reach from the start", sum(row.unsolvable for row in everything)),
         ("goal out of reach at the end", sum(row.out_of_reach for row in everything)),
     )
-    counted = [f"{name}: {count}" for name, count in counts]
-    return f"Counted apart: {'; '.join([*apart, *counted])}.\n"
+    return "; ".join([*apart, *(f"{name}: {count}" for name, count in counts)])

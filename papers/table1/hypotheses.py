@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from papers.markdown import markdown, paragraph
-from papers.table1 import evidence
-from papers.table1.released import NAMES, PAIRS
-from papers.table1.weighing import Weighing, weighing
-from papers.text import percent
 from testbed.analysis.statistics import Estimate
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS
 from testbed.studies.table1.tables import number
+
+from papers.table1 import evidence
+from papers.table1.released import NAMES, PAIRS
+from papers.table1.weighing import Weighing, weighing
+from papers.text import percent, render
 
 AS_PLAYED, PASSED_ON = "as played", "released draw"
 Weights = Callable[[Pair], float]
@@ -77,45 +77,22 @@ def _undone(pair: Pair, goal: Sequence[str], sign: str) -> bool:
     return not unwanted.isdisjoint(pair.state.split())
 
 
-VARIANTS = """\
-Rows with a name alone are runs in a variant of the domain (`examples/NAME.al` says which).
-
-"""
-TOLD = """\
-`told`: in the released simulator TP is told, when it explains that its goal holds, whether it does,
-and takes another explanation if not; at the end of a plan it is told nothing. Here it tries the
-places of what it misses in the order given, else in the domain's. Which order the solver of the
-released simulator comes to is not known; several were tried.
-
-"""
-
-
 def compared(found: Sequence[Hypothesis], with_variants: bool, with_told: bool) -> str:
-    """All hypotheses beside each other, and which comes nearest."""
-    columns = (
-        "if",
-        "TP acc. 3",
-        "TP acc. 4",
-        "plans 2",
-        "exec. time 5",
-        "actions 5",
-        "shares 1 to 5",
-        "inside",
-        "distance",
+    """All hypotheses beside each other, and which comes nearest: with the most values inside."""
+    best = max(found, key=_agreement)
+    weights, _ = evidence.published_weights()
+    return render(
+        "table1/hypotheses",
+        with_variants=with_variants,
+        with_told=with_told,
+        rows=[_published_line(), *map(_line, found)],
+        best=best.name,
+        near=evidence.closeness(best.weighed.table),
+        left=list(evidence.outside(best.weighed.table.rows)),
+        names=NAMES,
+        pairs=PAIRS,
+        weights=weights,
     )
-    rows = [_published_line(), *map(_line, found)]
-    return f"""\
-## Hypotheses
-
-What would come out if the same had happened, but not as often (`as played` are the random pairs as
-they are), or if something had been otherwise in a run of its own. `inside` counts the published
-values of rows 1 to 5 that lie in our intervals, `distance` is that of the ratios, both as above.
-Where fewer pairs are left the intervals are wider, so that both have to be read together.
-
-{VARIANTS * with_variants}{TOLD * with_told}{markdown(columns, rows)}
-
-{_nearest(found)}
-"""
 
 
 def _published_line() -> tuple[str, ...]:
@@ -155,25 +132,6 @@ def _value(own: Estimate | None, written: Callable[[float], str]) -> str:
 
 def _shares(shares: Mapping[str, float]) -> str:
     return " ".join(f"{100 * shares[name]:.0f}" for name in SCENARIOS) + "%"
-
-
-def _nearest(found: Sequence[Hypothesis]) -> str:
-    """The hypothesis with the most values inside, and what is outside with it, too."""
-    best = max(found, key=_agreement)
-    near = evidence.closeness(best.weighed.table)
-    left = [
-        f"row {own.row} {NAMES.get(own.column, own.column)} "
-        f"({own.ours:.2f}, published {own.published:.2f})"
-        for own in evidence.outside(best.weighed.table.rows)
-    ]
-    weights, _ = evidence.published_weights()
-    fewest = ", ".join(f"{PAIRS * weights[name]:.0f} in row {name}" for name in ("2", "5"))
-    return paragraph(
-        f"Most published values, {near.inside} of {near.values}, lie inside with `{best.name}`"
-        f"{'; outside remain ' + ', '.join(left) if left else ''}. The best of several looks a "
-        "little better than it is. The published means are of a "
-        f"sample, too: {PAIRS} pairs in these shares are {fewest}.",
-    )
 
 
 def _agreement(own: Hypothesis) -> tuple[int, float]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from papers.markdown import markdown, paragraph
-from papers.table1 import evidence
-from papers.table1.weighing import Weighing
-from papers.text import percent
 from testbed.analysis.statistics import Estimate
 from testbed.studies.table1.measures import Row
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS, Published
+
+from papers.table1 import evidence
+from papers.table1.weighing import Weighing
+from papers.text import percent, render
 
 NAMES = {"plans": "plans", "execution_units": "exec. time", "actions": "actions"}
 """The measures that do not depend on how fast a machine or a solver is."""
@@ -24,44 +24,15 @@ def released(own: Weighing, met_otherwise: int) -> str:
 
     `met_otherwise` counts the random pairs whose robots did not meet the same event.
     """
-    columns = ("scenario", "share", "TP acc.", *NAMES.values())
-    return f"""\
-## The draw of the released simulator
-
-The random event here is what the domain's text says: one of what exogenous actions are done to is
-drawn, and if nothing can be done to it, nothing happens at this step. The released simulator
-(github.com/hril230/theoryofintentions) does it otherwise in two points. A book that is drawn while
-the robot holds it, or is picking it up, passes the draw on to the other book: the event comes
-earlier, it moves a book more often than it locks a room, and while one book is on its way it is the
-other that is moved, which may be in its place already. And the new room is drawn among all others;
-where it is not possible, nothing happens.
-
-{_why(own, met_otherwise)}
-
-{markdown(columns, _table(own))}
-
-{_number(own)}
-"""
-
-
-def _why(own: Weighing, met_otherwise: int) -> str:
-    """Why weights do, and how far."""
-    doubt = f"In {met_otherwise} pairs they did not meet the same; there it is ATI's event. "
-    return paragraph(
-        "Until the event both robots know everything, and act alike under either draw. So the "
-        "pairs above are pairs of the released simulator, too, only not as frequent: each is "
-        "weighed by how many times more probable its event is there "
-        f"(`papers/table1/redrawing.py`). {doubt if met_otherwise else ''}What comes "
-        f"of it, as certain as {own.worth:.0f} pairs of equal weight:"
-    )
-
-
-def _number(own: Weighing) -> str:
-    """How many pairs the published rows are of, as far as it can be told."""
-    return paragraph(
-        f"Of {DRAWN} pairs so drawn {DRAWN * own.inside:.0f} are of scenarios 1 to 5. The paper "
-        f"speaks of about {PAIRS} paired trials in each scenario, which the unequal shares of its "
-        "own rows do not bear out."
+    return render(
+        "table1/released",
+        met_otherwise=met_otherwise,
+        worth=own.worth,
+        rows=list(_table(own)),
+        names=tuple(NAMES.values()),
+        drawn=DRAWN,
+        inside=own.inside,
+        pairs=PAIRS,
     )
 
 
