@@ -7,11 +7,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from testbed.config import ConfigError
-from testbed.experiment.errors import StoreError
-
 from papers.table1.document import Sources, document
 from papers.table1.runs import Run, read_run
+from testbed.config import ConfigError
+from testbed.experiment.errors import StoreError
 
 BAD_INPUT = 2
 

@@ -6,14 +6,13 @@ import shlex
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from testbed.studies.table1.load import MEETINGS, Pair
-from testbed.studies.table1.measures import RANDOM
-from testbed.studies.table1.published import PUBLISHED
-
 from papers.table1 import evidence
 from papers.table1.evidence import Blindness
 from papers.table1.runs import Run
 from papers.text import render
+from testbed.studies.table1.load import MEETINGS, Pair
+from testbed.studies.table1.measures import RANDOM
+from testbed.studies.table1.published import PUBLISHED
 
 
 def blindness(pairs: Sequence[Pair]) -> str:

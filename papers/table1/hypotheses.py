@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from papers.table1 import evidence
+from papers.table1.released import NAMES, PAIRS
+from papers.table1.weighing import Weighing, weighing
+from papers.text import percent, render
 from testbed.analysis.statistics import Estimate
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS
 from testbed.studies.table1.tables import number
-
-from papers.table1 import evidence
-from papers.table1.released import NAMES, PAIRS
-from papers.table1.weighing import Weighing, weighing
-from papers.text import percent, render
 
 AS_PLAYED, PASSED_ON = "as played", "released draw"
 Weights = Callable[[Pair], float]

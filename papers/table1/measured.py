@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import exp, log
 from statistics import fmean
 
+from papers.text import render
 from testbed.analysis.statistics import Estimate
 from testbed.studies.table1.measures import Analysis, Row
 from testbed.studies.table1.published import PLANNING, PUBLISHED, SCENARIOS
@@ -17,8 +18,6 @@ from testbed.studies.table1.tables import (
     times_rows,
 )
 from testbed.studies.tables import Cells
-
-from papers.text import render
 
 
 def times(analysis: Analysis) -> str:

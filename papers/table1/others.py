@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
+from papers.table1 import evidence
+from papers.table1.runs import Run
+from papers.text import percent, render
 from testbed.analysis.counting import NO_EVENT, NOTHING_TO_DO, Apart, eventful
 from testbed.experiment.domains import load_world
 from testbed.studies.table1.load import Pair
@@ -12,10 +15,6 @@ from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS, number
 from testbed.studies.tables import written
-
-from papers.table1 import evidence
-from papers.table1.runs import Run
-from papers.text import percent, render
 
 
 def later(run: Run, main: Sequence[Pair]) -> str:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from testbed.analysis.statistics import Estimate
-from testbed.studies.table1.measures import Row
-from testbed.studies.table1.published import PUBLISHED, SCENARIOS, Published
-
 from papers.table1 import evidence
 from papers.table1.weighing import Weighing
 from papers.text import percent, render
+from testbed.analysis.statistics import Estimate
+from testbed.studies.table1.measures import Row
+from testbed.studies.table1.published import PUBLISHED, SCENARIOS, Published
 
 NAMES = {"plans": "plans", "execution_units": "exec. time", "actions": "actions"}
 """The measures that do not depend on how fast a machine or a solver is."""

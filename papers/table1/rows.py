@@ -8,14 +8,13 @@ from statistics import fmean, median
 from typing import Any
 
 from asp.language import literals as text
+from papers.table1 import evidence
+from papers.text import render
 from testbed.studies.table1.load import Pair, Side
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS, number
 from testbed.world import World
-
-from papers.table1 import evidence
-from papers.text import render
 
 
 def row_by_row(pairs: Sequence[Pair], world: World) -> str:

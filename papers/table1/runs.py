@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from papers.table1.redrawing import as_stated, passed_on, weight
 from testbed.analysis.counting import BASELINE, INTENTIONAL, eventful
 from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
@@ -14,8 +15,6 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import read_config, read_records
 from testbed.studies.table1.load import Pair, pairs_of
 from testbed.studies.table1.measures import RANDOM, Analysis, analyse, minds_of
-
-from papers.table1.redrawing import as_stated, passed_on, weight
 
 PROTOCOL = "table1"
 TOLD = "told"

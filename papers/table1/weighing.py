@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
+
 from testbed.analysis.resampling import BATCH, CONFIDENCE, RESAMPLES, SEED, Values
 from testbed.analysis.statistics import Estimate
 from testbed.studies import Ratio
