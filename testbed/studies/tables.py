@@ -155,14 +155,15 @@ def _below(line: Line, name: str) -> Cells:
 
 def grid(view: View, title: str) -> Grid:
     """A view for a terminal: each interval below its value; medians are in the report alone."""
+    lines = [
+        [cells for row in rows_of([line]) if MEDIAN not in row for cells in _narrow(row)]
+        for line in view.lines
+    ]
+    apart = any(len(own) > 1 for own in lines)
     cells: list[Cells | None] = []
-    before = None
-    for row in rows_of(view.lines):
-        if before not in (None, row[0]) and not row[0].startswith(" "):
-            cells.append(None)
-        before = row[0]
-        if MEDIAN not in row:
-            cells.extend(_narrow(row))
+    for before, own in zip((None, *lines), lines, strict=False):
+        cells += [None] * (apart and before is not None and before[0][0] != own[0][0])
+        cells += own
     marked = any(value.inside is False for line in view.lines for value in line.values)
     numbers = range(len(view.lines[0].labels) - 1, len(view.columns))
     return Grid(view.columns, cells, numbers, title + (MARKED if marked else ""))
