@@ -48,26 +48,37 @@ def say(line: str) -> None:
 @contextmanager
 def input_errors() -> Iterator[None]:
     """Turn what a user can get wrong into one line per error and the exit code for it."""
+    try:
+        yield
+    except BrokenPipeError:  # the reader of standard output has enough
+        raise typer.Exit(DONE) from None
+    except (ValueError, RuntimeError, OSError) as error:
+        lines = None if isinstance(error, typer.Exit) else _refusal(error)
+        if lines is None:
+            raise
+        refuse(lines)
+
+
+def _refusal(error: Exception) -> Iterable[str] | None:
+    """The lines of an error that is one of the input; None of another."""
     from asp.language import SourceError
     from testbed.config import ConfigError
     from testbed.experiment.errors import ServingError, StoreError, WorkerError
     from testbed.registry import RegistryError
 
-    try:
-        yield
-    except SourceError as error:
-        refuse(map(str, error.all))
-    except ConfigError as error:
-        refuse(error.lines)
-    except (StoreError, ServingError, WorkerError, RegistryError) as error:
-        refuse(str(error).split("\n"))
-    except UnicodeDecodeError as error:
-        refuse([f"not a text file in UTF-8: {error.reason} at byte {error.start}"])
-    except BrokenPipeError:  # the reader of standard output has enough
-        raise typer.Exit(DONE) from None
-    except OSError as error:
-        where = f"{error.filename}: " if error.filename else ""
-        refuse([f"{where}{error.strerror or error}"])
+    match error:
+        case SourceError():
+            return map(str, error.all)
+        case ConfigError():
+            return error.lines
+        case StoreError() | ServingError() | WorkerError() | RegistryError():
+            return str(error).split("\n")
+        case UnicodeDecodeError():
+            return [f"not a text file in UTF-8: {error.reason} at byte {error.start}"]
+        case OSError():
+            where = f"{error.filename}: " if error.filename else ""
+            return [f"{where}{error.strerror or error}"]
+    return None
 
 
 def refuse(lines: Iterable[str]) -> NoReturn:

@@ -6,8 +6,16 @@ from contextlib import contextmanager
 
 from testbed.link.exchange import Desk, failed, read_decision
 from testbed.link.process import spawned_robot
-from testbed.protocol import Decision, Percept, Question, RobotClient, RobotFactory, Task, encode
-from testbed.protocol.errors import in_one_line
+from testbed.protocol import (
+    Decision,
+    Percept,
+    Question,
+    RobotClient,
+    RobotFactory,
+    Task,
+    encode,
+    in_one_line,
+)
 
 
 class InProcessRobot:

@@ -9,8 +9,7 @@ import zenoh
 from testbed.link import keys
 from testbed.link.exchange import Desk
 from testbed.link.session import open_robot
-from testbed.protocol import RobotFactory
-from testbed.protocol.errors import in_one_line
+from testbed.protocol import RobotFactory, in_one_line
 
 
 def serve_forever(

@@ -35,12 +35,12 @@ class RobotGone(RobotLost):
     """The robot is not there any more, or was never there: its process ended, or the link did."""
 
 
-def in_one_line(error: Exception) -> str:
+def in_one_line(error: BaseException) -> str:
     """Return what an exception says: of a robot's, what travels to the driver."""
     return shortened(" ".join(f"{type(error).__name__}: {_said(error)}".split()))
 
 
-def _said(error: Exception) -> str:
+def _said(error: BaseException) -> str:
     """What an exception says, as text that can be written: names of files need not be Unicode."""
     try:
         return str(error).encode(errors="backslashreplace").decode()

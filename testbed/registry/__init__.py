@@ -18,6 +18,7 @@ from types import ModuleType
 from typing import Any, Generic, TypeVar
 
 from asp.language import suggestion
+from testbed.protocol import in_one_line
 
 T = TypeVar("T")
 PATH_VARIABLE = "TESTBED_PATH"
@@ -144,7 +145,7 @@ def _imported(name: str) -> ModuleType:
         if isinstance(error, ModuleNotFoundError) and f"{name}.".startswith(f"{error.name}."):
             where = "it can lie beside the configuration, or be installed"
             raise RegistryError(f"there is no module '{error.name}'; {where}") from None
-        said = " ".join(f"{type(error).__name__}: {error}".split())
+        said = in_one_line(error)
         raise RegistryError(f"the module '{name}' cannot be imported: {said}") from error
 
 

@@ -32,12 +32,33 @@ main()
     ],
 )
 def test_what_is_mistyped_is_refused_before_anything_heavy_is_imported(mistyped: str) -> None:
+    assert _loaded(mistyped).isdisjoint(HEAVY)
+
+
+def test_a_process_of_a_robot_loads_nothing_of_the_world_and_of_experiments(
+    tmp_path: Path,
+) -> None:
+    """The module of the robot, which is imported before it is served, tells what is there then."""
+    spy = "import json, sys\nprint(json.dumps(list(sys.modules)))\nraise SystemExit\n"
+    (tmp_path / "spying_robot.py").write_text(spy, encoding="utf-8")
+    loaded = _loaded("robot --name spying_robot:Spy", tmp_path)
+    assert "zenoh" in loaded
+    assert loaded.isdisjoint({*HEAVY, "omegaconf"} - {"zenoh"})
+
+
+def _loaded(refused: str, folder: Path | None = None) -> set[str]:
+    """The packages that are imported when a command has been refused, by the first that tells."""
     root = str(Path(__file__).parents[2])
     path = os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])
-    command = [sys.executable, "-c", LOADED, *mistyped.split()]
+    command = [sys.executable, "-c", LOADED, *refused.split()]
     done = subprocess.run(
-        command, check=False, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": path}
+        command,
+        check=False,
+        capture_output=True,
+        text=True,
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": path},
     )
     assert done.returncode == 2, done.stderr
     assert "Traceback" not in done.stderr
-    assert set(json.loads(done.stdout)).isdisjoint(HEAVY)
+    return set(json.loads(done.stdout.splitlines()[0]))
