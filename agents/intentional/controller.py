@@ -43,8 +43,8 @@ class IntentionalRobot(ReasoningRobot[History]):
             thought.diagnosis, self._explanation = intention.under, intention.under.explanation
         return intention
 
-    def _observe(self, percept: Percept) -> None:
-        """Steps 4 and 1 of the loop: the result of the last attempt, then what is relevant."""
+    def _hear(self, percept: Percept) -> None:
+        """Step 4 of the loop: the result of the last attempt, and of having finished."""
         history = self._history
         if self._attempted is not None:
             # A mental action and finishing cannot fail; the world only answers physical ones.
@@ -52,16 +52,15 @@ class IntentionalRobot(ReasoningRobot[History]):
             history.happened(self._attempted, success is not False, history.step)
             if success is False and percept.failing:
                 history.failed(self._attempted, history.step)
-        for event in percept.events:
-            history.happened(event.action, True, event.step)
         if percept.goal_holds is not None:
             history.observe([GOAL if percept.goal_holds else f"-{GOAL}"], history.step)
-        history.step = percept.step
-        relevant = relevant_literals(
-            self._domain.description, self._goal_fluents, (percept.attempted,), percept.visible
+
+    def _relevant(self, percept: Percept) -> tuple[str, ...]:
+        """Step 1 of the loop: what bears on the goal, or on the last attempt (P 3.2)."""
+        description = self._domain.description
+        return relevant_literals(
+            description, self._goal_fluents, percept.attempted, percept.visible
         )
-        history.observe(relevant, percept.step)
-        history.doubt(percept.doubtful, percept.step)
 
     def _attempt(self, intention: Intention | None) -> None:
         """Step 3 of the loop: the attempt is recorded, and a new activity with it."""

@@ -37,14 +37,9 @@ def outcome_literals(
 
 
 def relevant_literals(
-    description: Description,
-    goal: frozenset[str],
-    actions: Iterable[str | None],
-    visible: Iterable[str],
+    description: Description, goal: frozenset[str], action: str | None, visible: Iterable[str]
 ) -> tuple[str, ...]:
-    """The seen literals that bear on the goal (`goal_fluents`) or on one of the actions."""
+    """The seen literals that bear on the goal (`goal_fluents`) or on the last action."""
     seen = tuple(visible)
-    wanted = set(goal)
-    for action in actions:
-        wanted.update(map(atom, outcome_literals(description, action, seen)))
+    wanted = goal.union(map(atom, outcome_literals(description, action, seen)))
     return tuple(literal for literal in seen if atom(literal) in wanted)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import ClassVar, Generic
 
 from msgspec import structs
@@ -89,8 +89,12 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """Begins the history, and what else the robot keeps of a trial."""
 
     @abstractmethod
-    def _observe(self, percept: Percept) -> None:
-        """Adds to the history the result of the last attempt, news, and what is observed."""
+    def _hear(self, percept: Percept) -> None:
+        """Adds to the history the result of the last attempt."""
+
+    @abstractmethod
+    def _relevant(self, percept: Percept) -> Iterable[str]:
+        """The literals that the robot observes of those that it sees."""
 
     @abstractmethod
     def _trace(self, thought: Thought) -> Trace:
@@ -103,6 +107,16 @@ class ReasoningRobot(ABC, Generic[H_contra]):
     def _physical(self, intention: Intention) -> str:
         """What the robot does in the world."""
         return intention.action
+
+    def _observe(self, percept: Percept) -> None:
+        """Adds to the history the result of the last attempt, news, and what is observed."""
+        history = self._history
+        self._hear(percept)
+        for event in percept.events:
+            history.happened(event.action, True, event.step)
+        history.step = percept.step
+        history.observe(self._relevant(percept), percept.step)
+        history.doubt(percept.doubtful, percept.step)
 
     def _prepare(self) -> Reasoner[H_contra]:
         """What the domain is reasoned with, made in a decision so that its limits hold for it."""

@@ -49,17 +49,16 @@ class TraditionalRobot(ReasoningRobot[History]):
             intention = intention_of(intention.plan[1:], intention.believed)
         self._rest = intention
 
-    def _observe(self, percept: Percept) -> None:
+    def _hear(self, percept: Percept) -> None:
         history = self._history
         if percept.attempted is not None:
             history.happened(percept.attempted, percept.happened is not False, history.step)
         if percept.happened is False:
             self._rest = None  # whenever there will be time for another one
-        for event in percept.events:
-            history.happened(event.action, True, event.step)
-        history.step = percept.step
-        seen = outcome_literals(self._domain.description, percept.attempted, percept.visible)
-        history.observe(seen, percept.step)
+
+    def _relevant(self, percept: Percept) -> tuple[str, ...]:
+        """The outcome of the action in hand."""
+        return outcome_literals(self._domain.description, percept.attempted, percept.visible)
 
     def _trace(self, thought: Thought) -> Trace:
         trace = self._with_explanation(Trace(reason=thought.limit, plans=self._plans))
