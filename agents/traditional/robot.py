@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from msgspec import structs
 
 from agents.shared.relevance import outcome_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
 from agents.traditional.incremental import IncrementalReasoner
-from agents.traditional.reference import intention_of
+from agents.traditional.reference import ReferenceReasoner, intention_of
 from asp.reasoning.diagnosis import GOAL, History
-from testbed.protocol import Percept, Task, Trace
+from testbed.protocol import Capabilities, Percept, Task, Trace
 
 
 class TraditionalRobot(ReasoningRobot[History]):
@@ -22,6 +24,8 @@ class TraditionalRobot(ReasoningRobot[History]):
     `reasoner` is the `IncrementalReasoner`, or the `ReferenceReasoner` that solves its programs
     from scratch.
     """
+
+    capabilities: ClassVar = Capabilities(knowledge=("complete", "seen"))
 
     def __init__(self, reasoner: MakeReasoner[History] = IncrementalReasoner) -> None:
         super().__init__(reasoner)
@@ -80,6 +84,13 @@ class TraditionalRobot(ReasoningRobot[History]):
             no_plan=no_plan,
             plans=self._plans,
         )
+
+
+class TraditionalReference(TraditionalRobot):
+    """TP, each program solved from scratch."""
+
+    def __init__(self) -> None:
+        super().__init__(ReferenceReasoner)
 
 
 def _why(is_new: bool, actions: int) -> str:

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 from testbed.protocol import Capabilities, Robot
 from testbed.registry import Registry, class_fault
 
-_INTENTIONAL, _TRADITIONAL = "agents.intentional.robots", "agents.traditional.robots"
+_INTENTIONAL, _TRADITIONAL = "agents.intentional.robots", "agents.traditional.robot"
 
 
 class RobotClass(Protocol):
@@ -37,7 +37,7 @@ ROBOTS: Registry[RobotClass] = Registry(
         "intentional-joint": f"{_INTENTIONAL}:Joint",
         "intentional-joint-plain": f"{_INTENTIONAL}:JointReference",
         "intentional-checking": f"{_INTENTIONAL}:Checking",
-        "traditional": f"{_TRADITIONAL}:Traditional",
+        "traditional": f"{_TRADITIONAL}:TraditionalRobot",
         "traditional-plain": f"{_TRADITIONAL}:TraditionalReference",
     },
     _fault,
