@@ -2,8 +2,21 @@
 
 from asp.translation.compact import NotCompactError, compact
 from asp.translation.literal import translate, translate_source
-from asp.translation.program_parts import ACTION, BASE, OPEN, STATE, STEP, Rule, confined, plain
-from asp.translation.rules import condition, rule, term_text
+from asp.translation.rules import (
+    ACTION,
+    BASE,
+    OPEN,
+    STATE,
+    STEP,
+    Rule,
+    condition,
+    confined,
+    plain,
+    rule,
+    schema,
+    sort_conditions,
+    term_text,
+)
 
 __all__ = [
     "ACTION",
@@ -18,6 +31,8 @@ __all__ = [
     "confined",
     "plain",
     "rule",
+    "schema",
+    "sort_conditions",
     "term_text",
     "translate",
     "translate_source",

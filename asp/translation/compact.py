@@ -9,21 +9,33 @@ state is complete, are the translation's.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from asp.language import (
     Function,
     Signature,
     excluding_place,
     functions,
+    ground,
     named,
     syntax,
     without_exogenous,
 )
 from asp.language import variable_sorts as roles
-from asp.translation.executability import allowing
-from asp.translation.program_parts import ACTION, BASE, BEFORE, NOW, OPEN, STATE, STEP, Rule
-from asp.translation.rules import term_text
+from asp.translation.rules import (
+    ACTION,
+    BASE,
+    BEFORE,
+    NOW,
+    OPEN,
+    STATE,
+    STEP,
+    Rule,
+    condition,
+    schema,
+    sort_conditions,
+    term_text,
+)
 
 
 class NotCompactError(ValueError):
@@ -54,27 +66,24 @@ class _Translation:
 
     def _inertia(self, symbol: syntax.Declaration) -> Iterator[Rule]:
         """What is true at step 0 is chosen; afterwards it stays, unless something else follows."""
-        given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
-        fluent, sorts = _term(symbol.name, given), _sorts(symbol, given)
+        fluent, given, sorts = schema(symbol)
         gives = self._gives(symbol.name, given)
         chosen = gives or ("", fluent)
         yield Rule(OPEN, f"{{ holds({fluent},0) }}", tuple(sorts), gives=chosen)
         stays = [f"holds({fluent},{BEFORE})", f"not denied({fluent},{NOW})"]
         if gives is not None:
             stays.append(f"not changed({gives[0]},{NOW})")
-            yield from self._function(symbol, given, self._functions[symbol.name])
+            yield from self._function(symbol, self._functions[symbol.name])
         yield Rule(STEP, f"holds({fluent},{NOW})", tuple(stays), gives=gives)
 
-    def _function(
-        self, symbol: syntax.Declaration, given: Sequence[str], function: Function
-    ) -> Iterator[Rule]:
+    def _function(self, symbol: syntax.Declaration, function: Function) -> Iterator[Rule]:
         """A function has one value; where a new one is true, the old one is not.
 
         That a total one has a value at first is assumed by placed(K) where it is not told which.
         """
-        fluent, sorts = _term(symbol.name, given), _sorts(symbol, given)
-        others = _without(given, function.place)
-        subject, value = _term(symbol.name, others), sorts[function.place]
+        fluent, given, sorts = schema(symbol)
+        subject = ground(symbol.name, _without(given, function.place))
+        value = sorts[function.place]
         new = (f"holds({fluent},{NOW})", f"not holds({fluent},{BEFORE})")
         yield Rule(STEP, f"changed({subject},{NOW})", new)
         body = _without(sorts, function.place)
@@ -90,7 +99,7 @@ class _Translation:
         function = self._functions.get(name)
         if function is None:
             return None
-        return _term(name, _without(arguments, function.place)), _term(name, arguments)
+        return ground(name, _without(arguments, function.place)), ground(name, arguments)
 
     def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
         name = law.head.atom.name
@@ -98,7 +107,8 @@ class _Translation:
             yield self._rule(BASE, law, term_text(law.head.atom), self._body(law.body, NOW))
             return
         for literal in roles.literals(law.body):
-            if not literal.positive and self._kind(literal) == "inertial":
+            symbol = self._signature.symbols.get(literal.atom.name)
+            if not literal.positive and symbol is not None and symbol.kind == "inertial":
                 raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
         function = self._functions.get(name)
         if function is None or excluding_place(law) != function.place:
@@ -118,7 +128,7 @@ class _Translation:
         """Which actions are enabled: by conditions that each allow them, and others that forbid."""
         numbers: dict[str, list[int]] = {}
         for number, law in enumerate(self._source.each(syntax.ExecutabilityCondition)):
-            cases = allowing(law, self._functions)
+            cases = _allowing(law, self._functions)
             if cases is None:
                 occurs = [f"occurs({term_text(action)},{BEFORE})" for action in law.actions]
                 yield self._rule(STEP, law, "", [*occurs, *self._body(law.body, BEFORE)])
@@ -130,29 +140,13 @@ class _Translation:
                 yield self._rule(STEP, law, head, self._body(case, BEFORE))
         for symbol in self._signature.symbols.values():
             if symbol.kind == "agent":
-                given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
-                action_term = _term(symbol.name, given)
-                body = [
-                    f"allowed({n},{action_term},{BEFORE})" for n in numbers.get(symbol.name, ())
-                ]
-                head = f"enabled({action_term},{BEFORE})"
-                gives = ACTION, action_term
-                yield Rule(STEP, head, (*body, *_sorts(symbol, given)), gives=gives)
+                term, _, sorts = schema(symbol)
+                body = [f"allowed({n},{term},{BEFORE})" for n in numbers.get(symbol.name, ())]
+                head = f"enabled({term},{BEFORE})"
+                yield Rule(STEP, head, (*body, *sorts), gives=(ACTION, term))
 
     def _body(self, body: Iterable[syntax.Condition], step: str) -> list[str]:
-        return [self._condition(part, step) for part in body]
-
-    def _condition(self, part: syntax.Condition, step: str) -> str:
-        if isinstance(part, syntax.Comparison):
-            return f"{part.left.name} {'=' if part.equal else '!='} {part.right.name}"
-        text = term_text(part.atom)
-        if self._kind(part) != "static":
-            text = f"holds({text},{step})"
-        return text if part.positive else f"not {text}"
-
-    def _kind(self, literal: syntax.Literal) -> str:
-        name = literal.atom.name
-        return "static" if name in self._signature.sorts else self._signature.symbols[name].kind
+        return [condition(part, self._signature, step, "not ") for part in body]
 
     def _rule(
         self,
@@ -163,26 +157,69 @@ class _Translation:
         gives: tuple[str, str] | None = None,
     ) -> Rule:
         """The rule, with the sorts of the law's variables."""
-        sorts = dict.fromkeys(
-            f"{sort}({term.name})"
-            for use in roles.uses(law)
-            if use.atom.name not in self._signature.sorts
-            for term, sort in zip(
-                use.atom.args,
-                (s.name for s in self._signature.symbols[use.atom.name].sorts),
-                strict=True,
-            )
-            if term.is_variable
-        )
+        sorts = sort_conditions(law, self._signature)
         return Rule(part, head, (*body, *sorts), frozenset(named(law)), gives)
 
 
-def _sorts(symbol: syntax.Declaration, given: Sequence[str]) -> list[str]:
-    return [f"{sort.name}({name})" for sort, name in zip(symbol.sorts, given, strict=True)]
+def _allowing(
+    law: syntax.ExecutabilityCondition, functions: Mapping[str, Function]
+) -> list[list[syntax.Condition]] | None:
+    """Conjunctions one of which is true exactly where the law says nothing; None: no such.
+
+    It has where all its variables are the action's, or values of total functions of these: then
+    there is one instance, and one of its other conditions has to be false. `functions` are the
+    fluents that are such, by name.
+    """
+    if len(law.actions) != 1 or not _all_different(law.actions[0]):
+        return None
+    known = {term.name for term in law.actions[0].args}
+    values = [part for part in law.body if _is_value(part, known, functions)]
+    guards = [part for part in law.body if part not in values]
+    named_values = [_value(part, functions) for part in values]
+    known.update(named_values)
+    if len(set(named_values)) < len(values) or not guards:
+        return None
+    if not all(_is_open(guard, known) for guard in guards):
+        return None
+    return [[*values, _negated(guard)] for guard in guards]
 
 
-def _term(name: str, arguments: Sequence[str]) -> str:
-    return f"{name}({','.join(arguments)})" if arguments else name
+def _is_value(part: syntax.Condition, known: set[str], functions: Mapping[str, Function]) -> bool:
+    """Whether a condition only names the value of a total function of what is known."""
+    if not isinstance(part, syntax.Literal) or not part.positive:
+        return False
+    function = functions.get(part.atom.name)
+    if function is None or not function.total:
+        return False
+    value = part.atom.args[function.place]
+    others = (term.name for n, term in enumerate(part.atom.args) if n != function.place)
+    return value.is_variable and value.name not in known and known.issuperset(others)
+
+
+def _value(part: syntax.Condition, functions: Mapping[str, Function]) -> str:
+    assert isinstance(part, syntax.Literal)
+    return part.atom.args[functions[part.atom.name].place].name
+
+
+def _is_open(guard: syntax.Condition, known: set[str]) -> bool:
+    """Whether a condition is negative, so that few instances make it false, and all is known."""
+    if isinstance(guard, syntax.Comparison):
+        terms: tuple[syntax.Term, ...] = (guard.left, guard.right)
+        return not guard.equal and all(t.name in known or not t.is_variable for t in terms)
+    return not guard.positive and all(
+        term.name in known or not term.is_variable for term in guard.atom.args
+    )
+
+
+def _negated(guard: syntax.Condition) -> syntax.Condition:
+    if isinstance(guard, syntax.Comparison):
+        return syntax.Comparison(guard.left, guard.right, not guard.equal, guard.place)
+    return syntax.Literal(guard.atom, not guard.positive)
+
+
+def _all_different(atom: syntax.Atom) -> bool:
+    names = [term.name for term in atom.args]
+    return all(term.is_variable for term in atom.args) and len(set(names)) == len(names)
 
 
 def _without(items: Sequence[str], place: int) -> list[str]:

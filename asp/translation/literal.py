@@ -13,7 +13,7 @@ from itertools import chain, count
 from asp.language import Signature, analyse, ground, syntax, variable_domains
 from asp.language import variable_sorts as roles
 from asp.solving import theory
-from asp.translation.rules import condition, rule, term_text
+from asp.translation.rules import condition, rule, schema, term_text
 
 _HEADER = """\
 % Steps 0 to n; `-c n=K` on clingo's command line sets another horizon.
@@ -95,10 +95,8 @@ def _sort_rule(name: str, part: syntax.Term | tuple[syntax.Term, ...]) -> str:
 
 def _declaration(declaration: syntax.Declaration) -> str:
     predicate = declaration.kind + ("_action" if declaration.kind in roles.ACTIONS else "")
-    variables = [f"X{number}" for number, _ in enumerate(declaration.sorts, start=1)]
-    term = declaration.name + (f"({','.join(variables)})" if variables else "")
-    body = [f"{s.name}({v})" for s, v in zip(declaration.sorts, variables, strict=True)]
-    return rule(f"{predicate}({term})", body)
+    term, _, sorts = schema(declaration)
+    return rule(f"{predicate}({term})", sorts)
 
 
 def _law(law: syntax.Statement, signature: Signature) -> str:
@@ -191,10 +189,8 @@ def _signature_rules(signature: Signature) -> str:
     lines = ["% Closed world for statics."]
     for declaration in signature.symbols.values():
         if declaration.kind == "static":
-            variables = [f"X{number}" for number, _ in enumerate(declaration.sorts, start=1)]
-            atom = declaration.name + (f"({','.join(variables)})" if variables else "")
-            body = [f"{s.name}({v})" for s, v in zip(declaration.sorts, variables, strict=True)]
-            lines.append(rule("-" + atom, [*body, f"not {atom}"]))
+            atom, _, sorts = schema(declaration)
+            lines.append(rule(f"-{atom}", [*sorts, f"not {atom}"]))
     defined = "#defined inertial/1. #defined defined/1.\n"
     defined += "#defined agent_action/1. #defined exogenous_action/1.\n"
     defined += "#defined occurs/2. #defined impossible/2."

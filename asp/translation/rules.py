@@ -1,10 +1,13 @@
-"""Pieces of ASP text made of abstract syntax."""
+"""Pieces of ASP text made of abstract syntax, and the rules of compact programs in their parts."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
 
-from asp.language import Signature, syntax
+from asp.language import Signature, ground, syntax
+from asp.language import variable_sorts as roles
 
 
 def rule(head: str, body: Iterable[str]) -> str:
@@ -17,16 +20,99 @@ def rule(head: str, body: Iterable[str]) -> str:
 
 def term_text(atom: syntax.Atom) -> str:
     """A fluent, static or action as a term or atom of ASP."""
-    arguments = ",".join(term.name for term in atom.args)
-    return f"{atom.name}({arguments})" if arguments else atom.name
+    return ground(atom.name, (term.name for term in atom.args))
 
 
-def condition(part: syntax.Condition, signature: Signature, step: str = "I") -> str:
-    """A condition of a body: fluents in `holds`, statics and sorts as they stand."""
+def condition(
+    part: syntax.Condition, signature: Signature, step: str = "I", denied: str = "-"
+) -> str:
+    """A condition of a body: fluents in `holds`, statics and sorts as they stand.
+
+    `denied` stands before what has to be false: `-`, or `not `.
+    """
     if isinstance(part, syntax.Comparison):
         return f"{part.left.name} {'=' if part.equal else '!='} {part.right.name}"
-    sign = "" if part.positive else "-"
+    sign = "" if part.positive else denied
     name = part.atom.name
     if name in signature.sorts or signature.symbols[name].kind == "static":
         return sign + term_text(part.atom)
     return f"{sign}holds({term_text(part.atom)},{step})"
+
+
+def sort_conditions(statement: syntax.Statement, signature: Signature) -> list[str]:
+    """`sort(V)` for the variables of a statement, by all the places where they stand, each once."""
+    return list(
+        dict.fromkeys(
+            f"{sort.name}({term.name})"
+            for use in roles.scope(statement)
+            if use.atom.name not in signature.sorts
+            for term, sort in zip(
+                use.atom.args, signature.symbols[use.atom.name].sorts, strict=True
+            )
+            if term.is_variable
+        )
+    )
+
+
+class Schema(NamedTuple):
+    """A symbol with variables for its arguments: `loc(X1,X2)`, X1 and X2, their sorts."""
+
+    term: str
+    variables: list[str]
+    sorts: list[str]
+
+
+def schema(symbol: syntax.Declaration) -> Schema:
+    """The symbol with variables for its arguments."""
+    variables = [f"X{number}" for number, _ in enumerate(symbol.sorts, start=1)]
+    sorts = [f"{sort.name}({v})" for sort, v in zip(symbol.sorts, variables, strict=True)]
+    return Schema(ground(symbol.name, variables), variables, sorts)
+
+
+BASE, OPEN, STATE, STEP = "base", "open", "state(t)", "step(t)"
+BEFORE, NOW = "t-1", "t"
+ACTION = "action"  # as a function: the action that occurs at a step
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A rule of a part of the program, with the constants that it names.
+
+    `gives` is the function that the head gives a value and the fluent that says so, where there is
+    one: (`fine_loc(P)`, `fine_loc(P,C)`). What is chosen at step 0 has it for every fluent. What
+    enables an action has it for the action, as a value of ACTION.
+    """
+
+    part: str
+    head: str
+    body: tuple[str, ...]
+    constants: frozenset[str] = frozenset()
+    gives: tuple[str, str] | None = None
+
+
+def plain(law: Rule) -> Iterator[str]:
+    """The text of a rule."""
+    yield rule(law.head, law.body)
+
+
+def confined(law: Rule) -> Iterator[str]:
+    """The texts of a rule where functions may be confined at some steps to some values.
+
+    What would give a fluent's function another value then is a constraint; another action is not
+    enabled. What is chosen at step 0 is given instead. See the part
+    `problem` of `incremental_fine_planning.lp`.
+    """
+    if law.gives is None:
+        if law.part != OPEN:
+            yield from plain(law)
+        return
+    function, value = law.gives
+    if law.part == OPEN:
+        yield rule("", [f"holds({value},0)", f"not given({value})"])
+        return
+    step = BEFORE if function == ACTION else NOW
+    yield rule(law.head, [*law.body, f"not confined({function},{step})"])
+    yield rule(law.head, [*law.body, f"within({value},{step})"])
+    if function != ACTION:
+        confines = f"confined({function},{step})"
+        yield rule("", [*law.body, confines, f"not within({value},{step})"])

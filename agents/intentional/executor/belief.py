@@ -15,16 +15,13 @@ from testbed.protocol import Percept, Task
 
 
 class FineBelief:
-    """What is known of a trial at the fine resolution.
-
-    Inferences are those of `fine_inference.lp`, made incrementally where the laws are simple.
-    """
+    """What is known of a trial at the fine resolution."""
 
     def __init__(self, refinement: Refinement, literals: Iterable[str]) -> None:
         """`literals` are known to begin with."""
         self._refinement = refinement
         means = means_of(refinement)
-        self._quick, self._theory = means.quick, means.theory
+        self._knowledge = means.knowledge
         self._is_value = means.is_value
         self._unmagnified, self._carriers = means.unmagnified, means.carriers
         self._carrying: frozenset[str] = frozenset()
@@ -36,9 +33,7 @@ class FineBelief:
 
         What was known gives way to them; where that does not suffice, the least is forgotten.
         """
-        seen, known = list(literals), self._with_carriers()
-        after = self._quick.after(known, seen) if self._quick.is_enough else None
-        after = after or self._theory.infer(known, [seen], ()).known
+        after = self._knowledge.after(self._with_carriers(), list(literals))
         self.known = Known(after.true - self._unmagnified, after.false - self._unmagnified)
 
     def suppose(self, unmagnified: Collection[str]) -> None:
@@ -54,6 +49,8 @@ class FineBelief:
     def _with_carriers(self) -> Known:
         """What is known, of the fluents without counterparts that it depends on, too."""
         known = self.known
+        if not self._carriers:
+            return known
         idle = self._carriers - self._carrying
         return Known(known.true | self._carrying, known.false | idle)
 
@@ -67,19 +64,11 @@ class FineBelief:
 
     def is_false(self, fluent: str) -> bool:
         """Whether a fluent is known not to hold."""
-        if self._quick.is_enough:
-            return self._quick.is_false(self.known, fluent)
-        about = {self._refinement.wholes[part] for part in arguments(fluent)}
-        inferred = self._theory.infer(self._with_carriers(), [], about)
-        return fluent not in inferred.known.true and fluent not in inferred.possible
+        return self._knowledge.is_false(self._with_carriers(), fluent)
 
     def coarse(self, fluents: Collection[str]) -> frozenset[str]:
         """The literals that follow of coarse fluents with counterparts (indirect observation)."""
-        if self._quick.is_enough:
-            return self._quick.coarse(self.known, fluents)
-        about = {constant for fluent in fluents for constant in arguments(fluent)}
-        inferred = self._theory.infer(self._with_carriers(), [], about).coarse
-        return frozenset(literal for literal in inferred if atom(literal) in fluents)
+        return self._knowledge.coarse(self._with_carriers(), fluents)
 
     def candidates(self, fluent: str) -> tuple[tuple[str, ...], ...]:
         """Groups of fluents one of each of which is true, nobody knows which, if a coarse one is.
@@ -87,7 +76,7 @@ class FineBelief:
         One group for each component that always has a value, as a thing is always somewhere; else
         a single one. None where one is known.
         """
-        groups = self._quick.groups(fluent)
+        groups = self._knowledge.groups(fluent)
         if not self._is_value(groups[0][0]):
             groups = (tuple(chain(*groups)),)
         if any(not self.known.true.isdisjoint(group) for group in groups):

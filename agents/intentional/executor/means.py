@@ -9,7 +9,7 @@ from typing import TypeVar
 from agents.intentional.executor.laws import Effects, Tests
 from asp.language import Function, atom, functions, name, subject, syntax
 from asp.language import variable_sorts as roles
-from asp.reasoning.fine_knowledge import Quick, Theory
+from asp.reasoning.fine_knowledge import IncrementalFineKnowledge
 from asp.reasoning.fine_planning import (
     MOST_STEPS,
     FinePlanner,
@@ -49,14 +49,9 @@ class Means:
         return fine_planner(refinement.weak, refinement.weak_signature, self._horizons)
 
     @prepared
-    def quick(self) -> Quick:
-        """Inferences where the laws are simple."""
-        return Quick(self._refinement)
-
-    @prepared
-    def theory(self) -> Theory:
-        """Inferences by `fine_inference.lp`."""
-        return Theory(self._refinement)
+    def knowledge(self) -> IncrementalFineKnowledge:
+        """Inferences from observations."""
+        return IncrementalFineKnowledge(self._refinement)
 
     @prepared
     def effects(self) -> Effects:

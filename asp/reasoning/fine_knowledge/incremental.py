@@ -8,24 +8,25 @@ forget is left to the theory.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import lru_cache
 
 from asp.language import arguments, atom, complement, ground, is_positive, name
-from asp.reasoning.fine_knowledge.reference import Known
+from asp.reasoning.fine_knowledge.reference import Known, ReferenceFineKnowledge
 from asp.reasoning.fine_knowledge.simple_laws import SimpleLaws
 from asp.refinement import Refinement
 
 _REMEMBERED = 50_000
 
 
-class Quick:
-    """What is known after observations, in a refinement; `is_enough` if its laws are simple."""
+class IncrementalFineKnowledge:
+    """`FineKnowledge` without a solver where laws are simple (`is_simple`), else by the theory."""
 
     def __init__(self, refinement: Refinement) -> None:
         self._refinement = refinement
+        self._theory = ReferenceFineKnowledge(refinement)
         self._laws = SimpleLaws(refinement.weak, refinement.weak_signature)
-        self.is_enough = self._laws.are_simple
+        self.is_simple = self._laws.are_simple
         remembering = lru_cache(_REMEMBERED)
         self._alike = remembering(self._find_alike)
         self._parts = remembering(self._find_parts)
@@ -33,11 +34,16 @@ class Quick:
         self._variables = remembering(self._find_variables)
         self._values = lru_cache(1)(self._find_values)
 
-    def after(self, known: Known, seen: Iterable[str]) -> Known | None:
-        """What is known after literals seen at one step; None: they contradict each other.
+    def after(self, known: Known, seen: Collection[str]) -> Known:
+        """What is known after literals seen at one step.
 
-        What was known before gives way to what was seen, and to what follows from it.
+        Raises ValueError if they contradict each other.
         """
+        following = self.following(known, seen) if self.is_simple else None
+        return self._theory.after(known, seen) if following is None else following
+
+    def following(self, known: Known, seen: Iterable[str]) -> Known | None:
+        """What is known after literals seen at one step; None: they contradict each other."""
         literals = list(seen)
         told = [literal for literal in literals if is_positive(literal)]
         denied = {atom(literal) for literal in literals if not is_positive(literal)}
@@ -55,17 +61,17 @@ class Quick:
 
     def is_false(self, known: Known, fluent: str) -> bool:
         """Whether an inertial fluent is known to be false."""
+        if not self.is_simple:
+            return self._theory.is_false(known, fluent)
         if not known.false.isdisjoint(self._alike(fluent)):
             return True
         values = self._values(known.true)
         return any(values.get(key, own) != own for key, own in self._variables(fluent))
 
-    def possible(self, known: Known, fluents: Iterable[str]) -> list[str]:
-        """Those inertial fluents of which it is not known whether they are true."""
-        return [f for f in fluents if f not in known.true and not self.is_false(known, f)]
-
-    def coarse(self, known: Known, fluents: Iterable[str]) -> frozenset[str]:
+    def coarse(self, known: Known, fluents: Collection[str]) -> frozenset[str]:
         """What follows of coarse fluents that have counterparts, as literals."""
+        if not self.is_simple:
+            return self._theory.coarse(known, fluents)
         true = {coarse for fluent in known.true for coarse in self._refinement.coarse_of(fluent)}
         return frozenset(
             fluent if fluent in true else complement(fluent)

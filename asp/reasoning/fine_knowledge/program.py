@@ -7,12 +7,12 @@ if its head is known to be false, so is its body. What is true of inertial fluen
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 
-from asp.language import Signature, ground, syntax
+from asp.language import Signature, syntax
 from asp.language import variable_sorts as roles
-from asp.translation import condition, rule, term_text
+from asp.translation import condition, rule, schema, sort_conditions, term_text
 
 Laws = Collection[syntax.StateConstraint]
 
@@ -45,7 +45,7 @@ def _derivations(law: syntax.StateConstraint, signature: Signature) -> Iterator[
 def _derivation(law: syntax.StateConstraint, signature: Signature) -> str:
     head = f"{'' if law.head.positive else '-'}holds({term_text(law.head.atom)},I)"
     body = (condition(part, signature) for part in law.body)
-    return rule(head, [*body, *_sorts(law, signature), "step(I)"])
+    return rule(head, [*body, *sort_conditions(law, signature), "step(I)"])
 
 
 def _bridges(laws: Laws, signature: Signature) -> Iterator[str]:
@@ -56,7 +56,7 @@ def _bridges(laws: Laws, signature: Signature) -> Iterator[str]:
             (fluent,) = _fluents(law, signature)
             body = [condition(part, signature) for part in law.body if part is not fluent]
             head = f"bridge({term_text(law.head.atom)},{term_text(fluent.atom)})"
-            yield rule(head, [*body, *_sorts(law, signature)])
+            yield rule(head, [*body, *sort_conditions(law, signature)])
 
 
 def _is_bridge(law: syntax.StateConstraint, signature: Signature) -> bool:
@@ -64,7 +64,7 @@ def _is_bridge(law: syntax.StateConstraint, signature: Signature) -> bool:
 
 
 def _carried(declaration: syntax.Declaration) -> str:
-    fluent = ground(declaration.name, (f"X{n}" for n, _ in enumerate(declaration.sorts)))
+    fluent = schema(declaration).term
     return f"carried({fluent},I) :- holds({fluent},I)."
 
 
@@ -89,22 +89,10 @@ def _static_rules(
     for law in constraints:
         if law.head.atom.name in named:
             body = (condition(part, signature) for part in law.body)
-            yield rule(term_text(law.head.atom), [*body, *_sorts(law, signature)])
+            yield rule(term_text(law.head.atom), [*body, *sort_conditions(law, signature)])
     for symbol in sorted({literal.atom.name for literal in asked if not literal.positive}):
-        sorts = [sort.name for sort in signature.symbols[symbol].sorts]
-        atom = ground(symbol, (f"X{n}" for n, _ in enumerate(sorts)))
-        yield rule(f"-{atom}", [*(f"{s}(X{n})" for n, s in enumerate(sorts)), f"not {atom}"])
-
-
-def _sorts(law: syntax.StateConstraint, signature: Signature) -> Iterable[str]:
-    """The sorts of a law's variables, each once."""
-    return dict.fromkeys(
-        f"{sort.name}({term.name})"
-        for use in roles.scope(law)
-        if use.atom.name not in signature.sorts
-        for term, sort in zip(use.atom.args, signature.symbols[use.atom.name].sorts, strict=True)
-        if term.is_variable
-    )
+        atom, _, sorts = schema(signature.symbols[symbol])
+        yield rule(f"-{atom}", [*sorts, f"not {atom}"])
 
 
 def _fluents(law: syntax.StateConstraint, signature: Signature) -> list[syntax.Literal]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from clingo import Symbol
 
@@ -37,8 +38,26 @@ class Inferred:
     coarse: frozenset[str]
 
 
-class Theory:
-    """The theory `fine_inference.lp` over the laws of a refinement, solved anew at every call."""
+class FineKnowledge(Protocol):
+    """What follows from observations in a refinement."""
+
+    def after(self, known: Known, seen: Collection[str]) -> Known:
+        """What is known after literals seen at one step.
+
+        What was known before gives way to what was seen, and to what follows from it; where that
+        leaves a choice, as little as possible is forgotten. Raises ValueError if the literals
+        contradict each other.
+        """
+
+    def is_false(self, known: Known, fluent: str) -> bool:
+        """Whether an inertial fluent is known to be false."""
+
+    def coarse(self, known: Known, fluents: Collection[str]) -> frozenset[str]:
+        """What follows of coarse fluents that have counterparts, as literals."""
+
+
+class ReferenceFineKnowledge:
+    """`FineKnowledge` by the theory `fine_inference.lp`, solved anew at every call."""
 
     def __init__(self, refinement: Refinement) -> None:
         self._refinement = refinement
@@ -66,6 +85,22 @@ class Theory:
             if model is not None:
                 return _read(model)
         raise ValueError("literals seen at one step contradict each other")
+
+    def after(self, known: Known, seen: Collection[str]) -> Known:
+        """What is known after literals seen at one step."""
+        return self.infer(known, [seen], ()).known
+
+    def is_false(self, known: Known, fluent: str) -> bool:
+        """Whether an inertial fluent is known to be false."""
+        about = {self._refinement.wholes[part] for part in arguments(fluent)}
+        inferred = self.infer(known, [], about)
+        return fluent not in inferred.known.true and fluent not in inferred.possible
+
+    def coarse(self, known: Known, fluents: Collection[str]) -> frozenset[str]:
+        """What follows of coarse fluents that have counterparts, as literals."""
+        about = {constant for fluent in fluents for constant in arguments(fluent)}
+        inferred = self.infer(known, [], about).coarse
+        return frozenset(literal for literal in inferred if atom(literal) in fluents)
 
     def _make_program(self, about: frozenset[str]) -> str:
         refinement = self._refinement

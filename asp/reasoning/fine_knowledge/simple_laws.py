@@ -6,7 +6,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import product
 
-from asp.language import Signature, arguments, ground, name, syntax, variable_domains
+from asp.language import (
+    Signature,
+    arguments,
+    excluding_place,
+    ground,
+    name,
+    syntax,
+    variable_domains,
+)
 from asp.language import variable_sorts as roles
 from asp.refinement import shared_places
 
@@ -39,7 +47,7 @@ class SimpleLaws:
     def _take(
         self, law: syntax.StateConstraint, source: syntax.Source, signature: Signature
     ) -> None:
-        place = _excluded_place(law)
+        place = excluding_place(law)
         if place is not None:
             fluent = law.head.atom.name
             self.single[fluent] = (*self.single.get(fluent, ()), place)
@@ -85,25 +93,6 @@ class _Derivation:
             == c.equal
             for c in self._comparisons
         )
-
-
-def _excluded_place(law: syntax.StateConstraint) -> int | None:
-    """The place in which a fluent has one value at most, if that is what the law says."""
-    fluents, comparisons = list(roles.literals(law.body)), list(roles.comparisons(law.body))
-    if law.head.positive or len(fluents) != 1 or len(comparisons) != 1 or comparisons[0].equal:
-        return None
-    own, other = law.head.atom, fluents[0].atom
-    if own.name != other.name or not fluents[0].positive:
-        return None
-    differ = [
-        n for n, (a, b) in enumerate(zip(own.args, other.args, strict=True)) if a.name != b.name
-    ]
-    compared = {comparisons[0].left.name, comparisons[0].right.name}
-    if len(differ) != 1 or not all(term.is_variable for term in (*own.args, *other.args)):
-        return None
-    named = {own.args[differ[0]].name, other.args[differ[0]].name}
-    distinct = len({term.name for term in own.args}) == len(own.args)
-    return differ[0] if compared == named and distinct else None
 
 
 def _is_derivation(
