@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from benchmarks import (
+    ablation,
     decisions,
     driver,
     figures,
@@ -35,6 +36,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "refinements": refinements.main,
     "rooms": rooms.main,
     "worlds": worlds.main,
+    "ablation": ablation.main,
 }
 
 FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {

@@ -31,6 +31,8 @@ from asp.reasoning.relevance import Relevance, interchangeable
 from asp.solving import deciding, preparation
 from testbed.protocol import Decision, Percept, Robot, Task
 
+TASK_ABSTRACTION = True
+
 _SECTIONS: Mapping[type[syntax.Statement], str] = {
     syntax.SortDefinition: "sorts",
     syntax.CausalLaw: "laws",
@@ -130,8 +132,10 @@ class _Domain:
         self._members = frozenset(constant for each in self.classes for constant in each)
         self._inertial = description.inertial
         self._relevance = Relevance(laws, signature)
-        self._whole = bool(description.defaults) or _may_hinder(
-            laws, signature, self._relevance.obstacles
+        self._whole = (
+            not TASK_ABSTRACTION
+            or bool(description.defaults)
+            or _may_hinder(laws, signature, self._relevance.obstacles)
         )
 
     def needed(self, task: Task) -> frozenset[str]:

@@ -35,8 +35,11 @@ from asp.reasoning.relevance import Relevance
 from asp.solving import Recent
 from asp.translation import NotCompactError
 
-LARGEST_SESSION = 2_000
-"""Constants times steps of a session."""
+LARGEST_SESSION: float = 2_000
+"""Constants times steps of a session: problems beyond get programs for themselves; inf: none do."""
+
+LANDMARKS = True
+"""Whether programs for single problems are told where plans can pass."""
 
 MOST_STEPS = 100_000
 """Constants times steps of all sessions: memory grows with that, 100,000 take some 500 MB."""
@@ -60,7 +63,7 @@ class _Part:
     @cached_property
     def problems(self) -> ProblemPrograms:
         """Programs for single problems."""
-        return ProblemPrograms(self._part, self.relaxed, self._functions)
+        return ProblemPrograms(self._part, self.relaxed, self._functions, LANDMARKS)
 
 
 Horizons = Recent[tuple[_Part, int], Horizon]
@@ -84,19 +87,18 @@ class IncrementalFinePlanner:
         signature: Signature,
         horizons: Horizons | None = None,
         most: int = _MOST_PARTS,
-        largest: int = LARGEST_SESSION,
+        largest: float | None = None,
     ) -> None:
         """`source` has the physics only.
 
         At most `most` parts of it are kept. `horizons` may be those of other planners too;
-        without, there are up to MOST_STEPS of its own. `largest` are constants times steps of a
-        session; what takes more gets a program for itself.
+        without, there are up to MOST_STEPS of its own. `largest` stands for LARGEST_SESSION.
         """
         self._constants = signature.constants
         self._functions = functions(source, signature)
         self._relevance = Relevance(without_exogenous(source, signature), signature)
         self._narrowed = lru_cache(_MOST_NARROWED)(CompactDescription(source, signature).part)
-        self._largest = largest
+        self._largest = LARGEST_SESSION if largest is None else largest
         self._parts: Recent[object, _Part] = Recent(most)
         self._horizons: Horizons = Recent(MOST_STEPS) if horizons is None else horizons
 

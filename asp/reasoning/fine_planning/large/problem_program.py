@@ -44,8 +44,14 @@ class ProblemPrograms:
     """Programs for single problems in a part of a description."""
 
     def __init__(
-        self, part: CompactPart, relaxed: Relaxed, functions: Mapping[str, Function]
+        self,
+        part: CompactPart,
+        relaxed: Relaxed,
+        functions: Mapping[str, Function],
+        landmarks: bool,
     ) -> None:
+        """With `landmarks` functions are confined."""
+        self._confines = landmarks
         self._rules = part.worded(worded)
         self._ranks = {action: rank for rank, action in enumerate(part.actions)}
         self._loose = loose(part.rules, part.sorts)
@@ -56,7 +62,12 @@ class ProblemPrograms:
 
     def plan(self, problem: Problem, reach: Reach, length: int) -> tuple[str, ...] | None:
         """The first plan of exactly so many steps, or None. Raises LimitError."""
-        steps = confined(reach, self._valued.number, length)
+        reach.spread.through(length)
+        steps = (
+            confined(reach, self._valued.number, length)
+            if self._confines
+            else [Values() for _ in range(length + 1)]
+        )
         left = [dict(self._told(values)) for values in steps]
         playing = self._loose | in_play(reach, self._valued, steps)
         static = (f"{fact}." for fact in self._facts_about(playing))
