@@ -46,8 +46,8 @@ EDGES = {"small": (2,), "full": (4, 8, 10, 14, 20)}
 DRAWN = {"small": 1, "full": 8}
 NOTES = (
     "with_all_s: processor time with all parts; others: how many times as long it takes without",
-    "one; '>': it was given up. Each cell is the least of three processes of its own, with all that",
-    "is prepared in them",
+    "one; '>': it was given up. Each cell is the least of three processes of its own, with all",
+    "that is prepared in them",
 )
 
 Answer = list[object]

@@ -48,7 +48,7 @@ _DECLARED = {"static": "statics", "inertial": "fluents", "defined": "fluents"}
 _SILENT = (syntax.CostStatement, syntax.TriggerStatement, syntax.QuietStatement)
 
 
-class Leaned:
+class AbstractTask:
     """The task that is left of another, and the way between their names.
 
     Where the domain has defaults, everything is kept.
@@ -106,8 +106,8 @@ class Leaned:
         return renamed_decision(decision, self._back)
 
 
-class LeanRobot:
-    """Plays a task as another robot plays what is left of it (`Leaned`)."""
+class AbstractingRobot:
+    """Plays a task as another robot plays what is left of it (`AbstractTask`)."""
 
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
@@ -115,12 +115,12 @@ class LeanRobot:
     def begin(self, task: Task) -> None:
         """Takes on what is left of the task."""
         with deciding():
-            self.leaned = Leaned(task)
-            self._robot.begin(self.leaned.task)
+            self.abstract = AbstractTask(task)
+            self._robot.begin(self.abstract.task)
 
     def act(self, percept: Percept) -> Decision:
         """The other robot's decision. Raises RobotStops."""
-        return self.leaned.decision(self._robot.act(self.leaned.percept(percept)))
+        return self.abstract.decision(self._robot.act(self.abstract.percept(percept)))
 
 
 class _Domain:

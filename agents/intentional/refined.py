@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from msgspec import structs
 
-from agents.intentional.abstraction import LeanRobot
+from agents.intentional.abstraction import AbstractingRobot
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.executor.belief import Mind
 from agents.intentional.executor.coarse import CoarseDiagram, Outcome, Reporter
@@ -28,7 +28,7 @@ class RefinedRobot:
     """
 
     def __init__(self, coarse: Callable[[], Robot] = IntentionalRobot, zooms: bool = True) -> None:
-        self._coarse = LeanRobot(coarse())
+        self._coarse = AbstractingRobot(coarse())
         self._zooms = zooms
 
     def begin(self, task: Task) -> None:
@@ -45,9 +45,9 @@ class RefinedRobot:
             file = f"{task.domain}.al"
             refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
         self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
-        self._diagram = CoarseDiagram(self._coarse.leaned)
+        self._diagram = CoarseDiagram(self._coarse.abstract)
         self._mind = Mind(refinement, self._diagram.robot, task, self._zooms)
-        known = [literal for literal in task.initial if self._coarse.leaned.is_about(literal)]
+        known = [literal for literal in task.initial if self._coarse.abstract.is_about(literal)]
         self._mind.know(task.initial_fine, known)
         self._calendar = Calendar()
         self._reporter = Reporter(self._mind, self._diagram, self._calendar)

@@ -3,12 +3,10 @@
 from asp.solving.budget import UNLIMITED, BudgetError, LimitError, Limits, current, deciding, up_to
 from asp.solving.cache import Answers, Recent
 from asp.solving.clock import Reading, preparation, reasoning_clock
-from asp.solving.preference import preferring
-from asp.solving.session import Session, State, goal_externals
+from asp.solving.session import Session, State, core, goal_externals, preferring
 from asp.solving.signals import undisturbed
 from asp.solving.solver import (
     answer_sets,
-    core,
     fact,
     first_model,
     ground,

@@ -1,8 +1,9 @@
-"""Multi-shot solving: a program grounded once, asked by assumptions and externals."""
+"""Multi-shot solving: a program grounded once, asked by assumptions and externals, in an order."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import lru_cache
 
 import clingo
@@ -10,7 +11,7 @@ from clingo import Symbol
 
 from asp.solving.clock import preparation
 from asp.solving.signals import undisturbed
-from asp.solving.solver import fact, ground, theory
+from asp.solving.solver import fact, ground, is_satisfiable, solving, theory
 
 State = frozenset[str]
 """A complete state of a domain, as the set of its true fluents."""
@@ -90,3 +91,78 @@ def goal_externals(goal: tuple[str, ...]) -> tuple[Symbol, ...]:
         fact("unwanted", literal[1:]) if literal.startswith("-") else fact("wanted", literal)
         for literal in goal
     )
+
+
+@contextmanager
+def preferring(
+    control: clingo.Control, assumptions: Sequence[int] = ()
+) -> Iterator[clingo.Model | None]:
+    """The first model in the order that `asp/theories/order.lp` states; None: there is none.
+
+    It is to be read while this is open. Raises LimitError.
+    """
+    if control.is_conflicting:  # grounding alone found that there is none
+        yield None
+        return
+    fixed = list(assumptions)
+    groups = _groups(control)
+    for group in groups[:-1]:
+        _decide(control, groups, group)
+        with solving(control, fixed) as model:
+            if model is None:
+                yield None
+                return
+            fixed += _decided(control, group, model)
+    _decide(control, groups, groups[-1])
+    with solving(control, fixed) as model:
+        yield model
+
+
+def _groups(control: clingo.Control) -> list[int]:
+    """The groups of decisions, in the order in which they are to be decided."""
+    atoms = control.symbolic_atoms.by_signature("deciding", 1)
+    return sorted((atom.symbol.arguments[0].number for atom in atoms), reverse=True)
+
+
+def _decide(control: clingo.Control, groups: Sequence[int], group: int) -> None:
+    """Switches on the levels of one group only; a group that is alone is always on."""
+    if len(groups) > 1:
+        for other in groups:
+            control.assign_external(fact("deciding", other), other == group)
+
+
+def _decided(control: clingo.Control, group: int, model: clingo.Model) -> Iterator[int]:
+    """What a model decides in a group, as assumptions."""
+    for decision in control.symbolic_atoms.by_signature("decision", 3):
+        what, of, _ = decision.symbol.arguments
+        atom = control.symbolic_atoms[what]
+        if of.number == group and atom is not None:
+            yield atom.literal if model.is_true(atom.literal) else -atom.literal
+
+
+def core(
+    control: clingo.Control, assumptions: Sequence[int], optional: Sequence[int]
+) -> list[int] | None:
+    """A smallest part of `optional` that has no answer set beside `assumptions`; None: all have.
+
+    None of its members can be left out; where there is a choice it has the later ones of
+    `optional`. Raises LimitError.
+    """
+    found: list[int] = []
+    left = list(optional)
+    if is_satisfiable(control, [*assumptions, *left]):
+        return None
+    while True:
+        # The shortest end of what is left that fails together with what was found: without its
+        # first member it would not fail, so that this member belongs to the core.
+        low, high = 0, len(left)
+        while low < high:
+            middle = (low + high) // 2 + 1
+            if is_satisfiable(control, [*assumptions, *found, *left[middle:]]):
+                high = middle - 1
+            else:
+                low = middle
+        if low == len(left):
+            return found
+        found.append(left[low])
+        left = left[low + 1 :]

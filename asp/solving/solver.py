@@ -12,18 +12,20 @@ from typing import Any
 import clingo
 from clingo import Symbol
 
-from asp.solving.budget import OUT_OF_BUDGET, BudgetError, current
-from asp.solving.ground_size import Statement, count_rules
+from asp.solving.budget import OUT_OF_BUDGET, BudgetError, count_rules, current
 from asp.solving.signals import Deliver, undisturbed
 
 Assumption = tuple[Symbol, bool]
+
+Statement = Symbol | str
+"""A fact, as a term or as its text."""
 
 # A call of the solver that blocks answers in microseconds where one in the background takes a
 # millisecond, but it keeps signals from Python: it may only take some milliseconds.
 _BURST_CONFLICTS = 2000
 _NO_LIMIT = "umax"
 # Nothing that was learned is kept from one call to the next: how many conflicts a call takes, and
-# whether a budget suffices, hardly depends on what a kept control was asked before.
+# whether a budget suffices, hardly depends on what a session was asked before.
 _OPTIONS = (
     "--heuristic=Domain",
     "--warn=none",
@@ -155,34 +157,6 @@ def _collect(
         handle.resume()
         wait()
     return found, False
-
-
-def core(
-    control: clingo.Control, assumptions: Sequence[int], optional: Sequence[int]
-) -> list[int] | None:
-    """A smallest part of `optional` that has no answer set beside `assumptions`; None: all have.
-
-    None of its members can be left out; where there is a choice it has the later ones of
-    `optional`. Raises LimitError.
-    """
-    found: list[int] = []
-    left = list(optional)
-    if is_satisfiable(control, [*assumptions, *left]):
-        return None
-    while True:
-        # The shortest end of what is left that fails together with what was found: without its
-        # first member it would not fail, so that this member belongs to the core.
-        low, high = 0, len(left)
-        while low < high:
-            middle = (low + high) // 2 + 1
-            if is_satisfiable(control, [*assumptions, *found, *left[middle:]]):
-                high = middle - 1
-            else:
-                low = middle
-        if low == len(left):
-            return found
-        found.append(left[low])
-        left = left[low + 1 :]
 
 
 @contextmanager

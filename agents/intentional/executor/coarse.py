@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from agents.intentional.abstraction import Leaned
+from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import Mind
 from agents.intentional.executor.trace import Calendar
 from agents.shared.sessions import sessions_of
@@ -18,25 +18,25 @@ from testbed.protocol import Event, Percept
 class CoarseDiagram:
     """The transitions of what is left of a task, and the fluents that they are about."""
 
-    def __init__(self, leaned: Leaned) -> None:
-        self._leaned = leaned
-        self._knowledge = knowledge(leaned.task.domain, leaned.task.source)
+    def __init__(self, abstract: AbstractTask) -> None:
+        self._abstract = abstract
+        self._knowledge = knowledge(abstract.task.domain, abstract.task.source)
         description = self._knowledge.description
-        self.fluents = tuple(leaned.back(description.fluents))
-        self.inertial = tuple(leaned.back(description.inertial))
-        self.robot = leaned.constant(description.robots[0])
+        self.fluents = tuple(abstract.back(description.fluents))
+        self.inertial = tuple(abstract.back(description.inertial))
+        self.robot = abstract.constant(description.robots[0])
 
     def after(self, state: State, action: str | None, events: Iterable[str]) -> State | None:
         """The next state, where the action and the events occur together; None: they cannot."""
-        leaned = self._leaned
-        attempt = None if action is None else leaned.seen([action])[0]
+        abstract = self._abstract
+        attempt = None if action is None else abstract.seen([action])[0]
         transitions = sessions_of(self._knowledge).transitions
         found = transitions.after(
-            frozenset(leaned.seen(state)), attempt, tuple(leaned.seen(events))
+            frozenset(abstract.seen(state)), attempt, tuple(abstract.seen(events))
         )
         if found is None or (action is not None and not found[1]):
             return None
-        return frozenset(leaned.back(found[0]))
+        return frozenset(abstract.back(found[0]))
 
     def news(self, state: State, action: str | None, events: Iterable[str]) -> list[str]:
         """Those of the events, told in this order, that can have occurred with the action.
@@ -53,7 +53,7 @@ class CoarseDiagram:
 
     def about(self, events: Iterable[str]) -> list[str]:
         """Those of the events that are about what is left of the task."""
-        return list(filter(self._leaned.is_about, events))
+        return list(filter(self._abstract.is_about, events))
 
 
 @dataclass(frozen=True)

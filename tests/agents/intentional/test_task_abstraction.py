@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec import structs
 
-from agents.intentional.abstraction import Leaned, LeanRobot
+from agents.intentional.abstraction import AbstractingRobot, AbstractTask
 from agents.intentional.controller import IntentionalRobot
 from asp.domains.levels import level_text
 from asp.language import parse_description
@@ -39,10 +39,12 @@ def test_decisions_are_those_of_the_whole_task(
     initial: int, goal: list[str], wishes: dict[int, Wish]
 ) -> None:
     whole = live(IntentionalRobot(), initial, goal, wishes, steps=20, where=PLACE)
-    lean = live(LeanRobot(IntentionalRobot()), initial, goal, wishes, steps=20, where=PLACE)
-    assert [_shown(d) for d in lean.decisions] == [_shown(d) for d in whole.decisions]
-    leaned = Leaned(_task(goal, [*WORLD.true_atoms(initial)]))
-    assert _explained(lean.decisions, leaned) == _explained(whole.decisions, leaned)
+    abstracting = live(
+        AbstractingRobot(IntentionalRobot()), initial, goal, wishes, steps=20, where=PLACE
+    )
+    assert [_shown(d) for d in abstracting.decisions] == [_shown(d) for d in whole.decisions]
+    abstract = AbstractTask(_task(goal, [*WORLD.true_atoms(initial)]))
+    assert _explained(abstracting.decisions, abstract) == _explained(whole.decisions, abstract)
 
 
 def _shown(decision: Decision) -> tuple[object, ...]:
@@ -56,7 +58,7 @@ def _shown(decision: Decision) -> tuple[object, ...]:
     )
 
 
-def _explained(decisions: Sequence[Decision], leaned: Leaned) -> list[Assumed]:
+def _explained(decisions: Sequence[Decision], abstract: AbstractTask) -> list[Assumed]:
     """What is assumed at each step, as far as it is about what is left of the task.
 
     Only the whole robot has to explain the news of things that are left out.
@@ -67,8 +69,8 @@ def _explained(decisions: Sequence[Decision], leaned: Leaned) -> list[Assumed]:
         explanation = decision.trace.explanation
         if explanation is not None:
             held = (
-                [event for event in explanation.unobserved if leaned.is_about(event.action)],
-                [report for report in explanation.distrusted if leaned.is_about(report.action)],
+                [event for event in explanation.unobserved if abstract.is_about(event.action)],
+                [report for report in explanation.distrusted if abstract.is_about(report.action)],
             )
         found.append(held)
     return found
@@ -92,15 +94,15 @@ AT_HOME = [f"loc({thing},room1)" for thing in ("rob1", "object1", "object2", "ob
 
 
 def test_what_the_goal_does_not_name_is_left_out() -> None:
-    leaned = Leaned(_task(["loc(object3,room2)"], AT_HOME))
-    assert leaned.task.goal == ["loc(object1,room2)"]
-    assert parse_description(leaned.task.source).sorts["object"] == ("object1",)
-    assert leaned.back(["pickup(rob1,object1)"]) == ["pickup(rob1,object3)"]
+    abstract = AbstractTask(_task(["loc(object3,room2)"], AT_HOME))
+    assert abstract.task.goal == ["loc(object1,room2)"]
+    assert parse_description(abstract.task.source).sorts["object"] == ("object1",)
+    assert abstract.back(["pickup(rob1,object1)"]) == ["pickup(rob1,object3)"]
 
 
 def test_what_the_robot_holds_is_kept() -> None:
-    leaned = Leaned(_task(["loc(object3,room2)"], [*AT_HOME, "in_hand(rob1,object4)"]))
-    assert leaned.seen(["loc(object3,room1)", "loc(object4,room1)", "loc(object1,room1)"]) == [
+    abstract = AbstractTask(_task(["loc(object3,room2)"], [*AT_HOME, "in_hand(rob1,object4)"]))
+    assert abstract.seen(["loc(object3,room1)", "loc(object4,room1)", "loc(object1,room1)"]) == [
         "loc(object1,room1)",
         "loc(object2,room1)",
     ]
@@ -109,14 +111,14 @@ def test_what_the_robot_holds_is_kept() -> None:
 def test_what_may_be_in_the_hand_is_kept() -> None:
     task = _task(["loc(object3,room2)"], AT_HOME)
     known = [literal for literal in task.initial if "in_hand(rob1,object2)" not in literal]
-    leaned = Leaned(structs.replace(task, initial=known))
-    assert leaned.is_about("loc(object2,room1)")
-    assert not leaned.is_about("loc(object1,room1)")
+    abstract = AbstractTask(structs.replace(task, initial=known))
+    assert abstract.is_about("loc(object2,room1)")
+    assert not abstract.is_about("loc(object1,room1)")
 
 
 def test_tasks_that_differ_in_names_are_one() -> None:
-    one = Leaned(_task(["loc(object2,room2)"], AT_HOME)).task
-    other = Leaned(_task(["loc(object4,room2)"], AT_HOME)).task
+    one = AbstractTask(_task(["loc(object2,room2)"], AT_HOME)).task
+    other = AbstractTask(_task(["loc(object4,room2)"], AT_HOME)).task
     assert one == other
 
 
@@ -124,12 +126,12 @@ def test_nothing_is_left_out_where_others_can_put_it_in_the_way() -> None:
     source = SOURCE + "\nactions\n  exogenous hand_over(robot, object).\n"
     source += "laws\n  hand_over(R, O) causes in_hand(R, O).\n"
     place = replace(PLACE, source=source, world=world_of(parse_description(source, "more.al")))
-    leaned = Leaned(_task(["loc(object3,room2)"], AT_HOME, place))
-    assert leaned.task.source == source
+    abstract = AbstractTask(_task(["loc(object3,room2)"], AT_HOME, place))
+    assert abstract.task.source == source
 
 
 @pytest.mark.parametrize("goal", ["loc(book1,library)", "in_hand(rob1,book2)"])
 def test_scenarios_and_costs_are_no_part_of_what_is_left(goal: str) -> None:
     task = _task([goal], ["loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,office1)"], OFFICE)
     assert "scenarios" in task.source
-    assert "scenarios" not in Leaned(task).task.source
+    assert "scenarios" not in AbstractTask(task).task.source
