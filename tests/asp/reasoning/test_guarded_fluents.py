@@ -6,7 +6,7 @@ import pytest
 
 from asp.language import analyse, syntax
 from asp.language import variable_sorts as roles
-from asp.reasoning.guarded_fluents import comes_true_only_while
+from asp.reasoning.relevance import comes_true_only_while
 
 HAND = """
 sorts
