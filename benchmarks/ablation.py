@@ -19,7 +19,9 @@ from asp.reasoning.planning import IncrementalPlanner
 from asp.refinement import Refinement
 from benchmarks import fine_problems, problems
 from benchmarks.measuring import within
+from benchmarks.offices import book_names, office
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
+from benchmarks.sieges import besiege
 from testbed.config import load_config
 from testbed.experiment.plan import TrialSpec, plan_trials
 from testbed.experiment.robots import make_robot
@@ -30,6 +32,7 @@ SWITCHES: Mapping[str, tuple[str, object]] = {
     "state_sets": ("asp.reasoning.planning.incremental.STATE_SET_SEARCH", False),
     "problem_programs": ("asp.reasoning.fine_planning.incremental.LARGEST_SESSION", math.inf),
     "landmarks": ("asp.reasoning.fine_planning.incremental.LANDMARKS", False),
+    "history_compression": ("asp.reasoning.diagnosis.incremental.COMPRESSION", None),
     "task_abstraction": ("agents.intentional.abstraction.TASK_ABSTRACTION", False),
 }
 """Of each part what is set to leave it out."""
@@ -37,7 +40,8 @@ SWITCHES: Mapping[str, tuple[str, object]] = {
 ROUNDS = {"small": 1, "full": 3}
 LIMIT_S = {"small": math.inf, "full": 120.0}
 TABLE1 = {"small": (), "full": (4,)}
-LEVELS = {"small": (), "full": (("L1", "L2", "L3", "L4"), ("L5", "L6"), ("L7", "L8"))}
+LEVELS = {"small": (), "full": (("L1", "L2", "L3", "L4"), ("L5", "L6"), ("L7",), ("L8",))}
+LIVES = {"small": (), "full": (50, 200, 500)}
 OFFICES = {
     "small": ((2, 4, "row", 1),),
     "full": ((4, 8, "row", 2), (16, 8, "row", 3), (16, 16, "grid", 3), (16, 32, "grid", 4)),
@@ -65,11 +69,10 @@ def _works(size: str) -> Iterator[tuple[str, Work]]:
         specs = plan_trials(load_config("table1", [f"limit={limit}"]))
         yield f"Table 1, {len(specs)} trials", partial(_played, specs)
     for levels in LEVELS[size]:
-        given = [f"levels=[{','.join(levels)}]", "limit=1"]
-        yield (
-            f"levels {levels[0]} to {levels[-1]}",
-            partial(_played, plan_trials(load_config("levels", given))),
-        )
+        specs = plan_trials(load_config("levels", [f"levels=[{','.join(levels)}]", "limit=2"]))
+        yield f"levels, {', '.join(levels)}, {len(specs)} trials", partial(_played, specs)
+    for steps in LIVES[size]:
+        yield f"a life of {steps} steps", partial(_lived, steps)
     for books, rooms, shape, wanted in OFFICES[size]:
         asked = list(problems.drawn(books, rooms, shape, wanted, 1, 2))
         name = f"{wanted} of {books} books, {rooms} rooms in a {shape}"
@@ -91,6 +94,14 @@ def _played(specs: list[TrialSpec]) -> Answer:
             raise RuntimeError(result.details)
         found.append([each.action for each in result.record.actions])
     return found
+
+
+def _lived(steps: int) -> Answer:
+    """The decisions of a life with an event now and then that nobody reports."""
+    initial = problems.placed({"book1": "kitchen", "book2": "office1"}, "kitchen")
+    goal = problems.delivered(book_names(2))
+    life = besiege(office(), initial, goal, steps, silent=range(20, steps, 40))
+    return [(each.action, str(each.trace.explanation)) for each in life.decisions]
 
 
 def _coarse(asked: list[problems.Problem]) -> Answer:
