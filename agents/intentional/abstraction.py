@@ -32,6 +32,7 @@ from asp.solving import deciding, preparation
 from testbed.protocol import Decision, Percept, Robot, Task
 
 TASK_ABSTRACTION = True
+"""Whether anything is left out: it pays at L8, with 24 objects, 1.5 to 2 times as long without."""
 
 _SECTIONS: Mapping[type[syntax.Statement], str] = {
     syntax.SortDefinition: "sorts",

@@ -36,10 +36,17 @@ from asp.solving import Recent
 from asp.translation import NotCompactError
 
 LARGEST_SESSION: float = 2_000
-"""Constants times steps of a session: problems beyond get programs for themselves; inf: none do."""
+"""Constants times steps of a session: problems beyond get programs for themselves; inf: none do.
+
+It pays from rooms of 64 cells on, where planning takes 1.5 times as long without, and 6 times as
+long in rooms of 400.
+"""
 
 LANDMARKS = True
-"""Whether programs for single problems are told where plans can pass."""
+"""Whether programs for single problems are told where plans can pass.
+
+Without, planning takes 1.3 times as long in rooms of 64 cells, 2.3 times in rooms of 400.
+"""
 
 MOST_STEPS = 100_000
 """Constants times steps of all sessions: memory grows with that, 100,000 take some 500 MB."""

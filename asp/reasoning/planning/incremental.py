@@ -29,6 +29,7 @@ from asp.solving import Recent, State, preparation
 from asp.translation import translate_source
 
 STATE_SET_SEARCH = True
+"""Whether states are searched: without, Table 1 takes 1.8 times as long, 3 of 16 books 95 times."""
 
 MOST_STATES = 2**29
 """The largest number of states that are searched: up to 600 MB of memory were measured."""

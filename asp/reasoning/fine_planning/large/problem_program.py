@@ -3,7 +3,7 @@
 The rules are those of `asp.reasoning.fine_planning.horizon`, but start and goal are part of the
 program, and functions are confined to the values that can lead to the goal
 (`asp.reasoning.fine_planning.large.value_pruning`). So clingo grounds what is about states on the
-way only, and not each step for all of the description.
+way only, and not each step for all of the description. That pays from rooms of 64 cells on.
 
 Constants that a plan has nothing to do with are not even instantiated. A constant is out of play if
 nothing that names it can be true on the way, nor an action that names it occur. What a rule says of

@@ -1,4 +1,7 @@
-"""Shortest plans by breadth-first search over sets of states, without logic."""
+"""Shortest plans by breadth-first search over sets of states, without logic.
+
+It pays from the office of Table 1 on, whose trials take 1.8 times as long without.
+"""
 
 from __future__ import annotations
 
