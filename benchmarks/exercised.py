@@ -9,13 +9,13 @@ _PREFERENCES = "tests/agents/intentional/test_preferences.py"
 _REPORTS = "tests/agents/intentional/test_reports.py"
 _AXIOMS = "tests/asp/theories/test_axioms.py"
 _EXPLANATIONS = "tests/asp/reasoning/diagnosis/test_explanations.py"
-_FOLDING = "tests/agents/shared/test_folding.py"
+_COMPRESSION = "tests/asp/reasoning/diagnosis/test_history_compression.py"
 _GOES_ON = "test_it_goes_on_where_some_smallest_explanation_lets_it"
 _JOINT = "tests/agents/intentional/test_joint.py"
 _JOINT_LIVES = "tests/agents/intentional/test_joint_lives.py"
 _PLANS = "tests/asp/reasoning/planning/test_plans.py"
 _PLANS_KEPT = "tests/asp/reasoning/planning/test_incremental_plans.py"
-_THE_END = f"{_FOLDING}::test_the_end_of_a_history_is_explained_without_what_was_folded"
+_THE_END = f"{_COMPRESSION}::test_the_end_of_a_history_is_explained_without_what_was_compressed"
 _REASONS = "tests/agents/intentional/test_reasons.py"
 
 EXERCISED: Mapping[str, tuple[str, ...]] = {
@@ -32,7 +32,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
         "tests/asp/reasoning/fine_planning/test_fine_plans.py",
     ),
     "history": (_AXIOMS, _REPORTS),
-    "incremental_diagnosis": (_REPORTS, _THE_END, _PREFERENCES, _FOLDING, _LIVES),
+    "incremental_diagnosis": (_REPORTS, _THE_END, _PREFERENCES, _COMPRESSION, _LIVES),
     "incremental_fine_planning": (
         "tests/asp/reasoning/fine_planning/test_incremental_fine_plans.py",
         "tests/asp/reasoning/fine_planning/test_problem_program.py",
