@@ -42,4 +42,6 @@ def sessions_of(knowledge: Knowledge) -> Sessions:
 def _made(knowledge: Knowledge) -> Sessions:
     description, program = knowledge.description, knowledge.program
     plans = IncrementalPlanner(description.source, f"{description.name}.al")
-    return Sessions(DiagnosisSessions(knowledge), plans, Reachability(description, program, plans))
+    return Sessions(
+        DiagnosisSessions(knowledge), plans, Reachability(description, program, plans.reachable)
+    )

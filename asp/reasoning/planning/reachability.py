@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import clingo
 from clingo import Symbol
 
 from asp.language import Causal, Constraint, Description, atom, is_positive
-from asp.reasoning.planning.incremental import IncrementalPlanner
 from asp.solving import (
     Answers,
     Session,
@@ -24,6 +23,9 @@ from asp.solving import (
 
 _MOST_STATES = 2_000
 
+Searched = Callable[[State, tuple[str, ...]], bool | None]
+"""Whether a state that satisfies a goal can be reached; None: not known."""
+
 MOST_ANSWERS, MOST_ORIGINS = 1_000, 16
 """How many answers are remembered, and of how many states what can be reached from there."""
 
@@ -33,15 +35,16 @@ class Reachability:
 
     It is out of reach if no state satisfies it, or if one of its literals can never become true
     even where laws ask for no more than each condition by itself. Else every state that can be
-    reached is looked at: by the search that bounds plans where there is one, else one by one, where
+    reached is looked at: by a search where there is one, else one by one, where
     nothing is said of a state with more than some thousand of those.
     """
 
-    def __init__(self, description: Description, program: str, plans: IncrementalPlanner) -> None:
+    def __init__(self, description: Description, program: str, searched: Searched) -> None:
+        """`program` is the description's translation, `searched` an answer by search, if any."""
         self._fluents = description.fluents
         self._laws = list(_laws(description))
         self._program = program
-        self._plans = plans
+        self._searched = searched
         self._kept: Session | None = None
         self._answers: Answers[tuple[State, tuple[str, ...]], bool | None] = Answers(MOST_ANSWERS)
         self._all_from: Answers[State, frozenset[State] | None] = Answers(MOST_ORIGINS)
@@ -101,7 +104,7 @@ class Reachability:
         return any(shown for shown in found)
 
     def _looked(self, state: State, goal: tuple[str, ...]) -> bool | None:
-        reachable = self._plans.reachable(state, goal)
+        reachable = self._searched(state, goal)
         if reachable is not None:
             return reachable
         states = self._all_from.get(state, lambda: self._explore(state))

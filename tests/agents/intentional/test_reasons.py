@@ -234,7 +234,7 @@ def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
 ) -> None:
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     plans = IncrementalPlanner(CART.description.source, "cart.al")
-    reach = Reachability(CART.description, CART.program, plans)
+    reach = Reachability(CART.description, CART.program, plans.reachable)
     assert reach.out_of_reach(frozenset(["at(left)"]), goal) is provable
 
 
@@ -242,7 +242,7 @@ def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     moved = knowledge("cart", CART.description.source.replace("if lit, -shut", "if at(left)"))
     plans = IncrementalPlanner(moved.description.source, "cart.al")
-    reach = Reachability(moved.description, moved.program, plans)
+    reach = Reachability(moved.description, moved.program, plans.reachable)
     assert not reach.out_of_reach(frozenset(["at(left)", "safe"]), ("-safe",))
 
 
