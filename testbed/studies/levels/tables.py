@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import msgspec
 
 from testbed.studies.charts import Chart, Colour, Key, Point, Series, points, published
 from testbed.studies.levels.measures import Level, Levels, Reasoning, Spread
-from testbed.studies.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM, Paper
-from testbed.studies.study import Numbers, Section
+from testbed.studies.levels.published import FIRST, NO_ZOOM, PARTS, ZOOM
+from testbed.studies.study import Section
 from testbed.studies.tables import Cell, Cells, Line, Sheet, Value, View, effect
 
 CONDITIONS = {ZOOM: "zoom", NO_ZOOM: "no zoom"}
@@ -237,54 +234,3 @@ def _beside(cells: list[tuple[str, Cell]]) -> list[Series]:
     ours = points((level, cell.ours) for level, cell in cells)
     theirs = ((level, cell.published.value) for level, cell in cells if cell.published)
     return [Series(RATIO, "second", ours, "s"), *published(theirs)]
-
-
-def numbers(found: Levels) -> Numbers:
-    """The columns of each level; `published` values, and whether they lie in our intervals.
-
-    These are `completed` by robot, `ratios` by part of the time, and `growth` by both: `published`
-    and `inside`; `seconds` by both: `mean` and `sd`. What was not published is absent.
-    """
-    beside = {name: _published(name, found) for name in found.levels}
-    return {
-        "levels": {
-            name: msgspec.to_builtins(level) | ({"published": beside[name]} if beside[name] else {})
-            for name, level in found.levels.items()
-        }
-    }
-
-
-def _published(level: str, found: Levels) -> dict[str, Any]:
-    def own(rows: Iterable[Row]) -> dict[str, Row]:
-        return {row.robot: row for row in rows if row.level == level}
-
-    robots = found.levels[level].reasoning
-    return _without_nothing(
-        {
-            "completed": {r: _number(row.cells[0]) for r, row in own(shares(found)).items()},
-            "ratios": {p: n for row in own(ratios(found)).values() for p, n in _parts(row).items()},
-            "growth": {robot: _parts(row) for robot, row in own(growth(found)).items()},
-            "seconds": {robot: _seconds(level, robot, found.paper) for robot in robots},
-        }
-    )
-
-
-def _parts(row: Row) -> dict[str, Any]:
-    return {part: _number(cell) for part, cell in zip(PARTS, row.cells, strict=True)}
-
-
-def _number(cell: Cell) -> dict[str, Any]:
-    if cell.published is None:
-        return {}
-    return {"published": cell.published.value, "inside": cell.inside}
-
-
-def _seconds(level: str, robot: str, paper: Paper) -> dict[str, Any]:
-    known = {part: paper.seconds(level, robot, part) for part in PARTS}
-    return {p: {"mean": own[0], "sd": own[1]} for p, own in known.items() if own is not None}
-
-
-def _without_nothing(values: dict[str, Any]) -> dict[str, Any]:
-    """The same without empty parts, also inside of parts."""
-    inner = {k: _without_nothing(v) if isinstance(v, dict) else v for k, v in values.items()}
-    return {key: value for key, value in inner.items() if value != {}}

@@ -2,7 +2,8 @@
 
 from testbed.studies.study import Study
 from testbed.studies.table1.measures import Analysis, measures
-from testbed.studies.table1.tables import numbers, sections
+from testbed.studies.table1.numbers import numbers
+from testbed.studies.table1.tables import sections
 
 __all__ = ["STUDY"]
 

@@ -1,16 +1,13 @@
-"""Table 1 beside the published one, for the terminal, the report, and other programs."""
+"""Table 1 beside the published one, for the terminal and the report."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
-from testbed.analysis.statistics import Estimate, Test
 from testbed.experiment.wording import counted, in_words
 from testbed.studies.charts import Chart, Key, Series, points, published
-from testbed.studies.pairs import Ratio
-from testbed.studies.study import Numbers, Section
+from testbed.studies.study import Section
 from testbed.studies.table1.load import MEETINGS
 from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
@@ -221,80 +218,3 @@ def _series(ways: Mapping[str, Mapping[str, Cell]]) -> list[Series]:
         Series(WAYS["random"], "second", ours["random"], "s"),
         *published(theirs.items()),
     ]
-
-
-def numbers(analyses: Iterable[Analysis]) -> Numbers:
-    """By the robot that is compared with the traditional one: both tables, and what became what."""
-    return {
-        "table1": {
-            own.mind: {
-                **dict.fromkeys(WAYS),
-                **{way: _table(table, own) for way, table in own.tables.items()},
-                "became": {name: dict(counts) for name, counts in own.became.items()},
-            }
-            for own in analyses
-        }
-    }
-
-
-def _table(table: Table, of: Analysis) -> Numbers:
-    rows = {row.name: _row(row, cells(table, row), of) for row in table.rows}
-    return {"rows": rows, "apart": dict(table.apart)}
-
-
-def _row(row: Row, beside: Mapping[str, Cell], of: Analysis) -> Numbers:
-    robots = {"baseline": of.base, "intentional": of.mind}
-    return {
-        "pairs": row.pairs,
-        "failed": row.lost,
-        "deadline": row.late,
-        "unsolvable": row.unsolvable,
-        "undecided": row.undecided,
-        "out_of_reach": row.out_of_reach,
-        "meetings": dict(row.meetings),
-        "accuracy": {
-            robot: _interval(beside[key].ours, "value") | _published(beside[key])
-            for key, robot in robots.items()
-        },
-        "difference": _interval(row.advantage, "value") | _test(row.accuracy),
-        "ratios": {
-            name: _ratio(own) | _test(own.test) | _published(beside[name])
-            for name, own in row.ratios.items()
-        },
-        "optimum": {robot: own.values() for robot, own in row.optimum.items()},
-        "times": {
-            name: {
-                "seconds": {of.base: own.baseline, of.mind: own.intentional},
-                **_ratio(own.ratio),
-            }
-            for name, own in row.times.items()
-        },
-    }
-
-
-def _ratio(own: Ratio) -> dict[str, Any]:
-    return {
-        "pairs": own.pairs,
-        **_interval(own.mean, "mean"),
-        **_interval(own.median, "median", "median_"),
-        "of_sums": own.of_sums,
-    }
-
-
-def _interval(own: Estimate | None, name: str, prefix: str = "") -> dict[str, Any]:
-    """A value under its name, and the ends of its interval."""
-    ends = (None, None) if own is None or own.single else (own.low, own.high)
-    value = None if own is None else own.value
-    return {name: value, f"{prefix}low": ends[0], f"{prefix}high": ends[1]}
-
-
-def _test(test: Test | None) -> dict[str, Any]:
-    return {key: None if test is None else getattr(test, key) for key in ("p", "holm", "effect")}
-
-
-def _published(cell: Cell) -> dict[str, Any]:
-    """The published value, and whether it lies in our interval as far as it was rounded."""
-    return {
-        "published": None if cell.published is None else cell.published.value,
-        "inside": cell.inside,
-    }

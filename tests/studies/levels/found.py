@@ -6,8 +6,9 @@ from typing import Any
 from testbed.experiment.record import TrialRecord
 from testbed.studies.levels.load import outlines_of
 from testbed.studies.levels.measures import Levels, analyse
+from testbed.studies.levels.numbers import numbers
 from testbed.studies.levels.published import OWN, Paper
-from testbed.studies.levels.tables import numbers, sections
+from testbed.studies.levels.tables import sections
 from testbed.studies.tables import View
 
 
