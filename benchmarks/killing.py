@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from testbed import cli
-from testbed.experiment import runner
+from testbed.experiment import resume
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.store import TRIALS, TrialWriter
 
@@ -66,7 +66,7 @@ def main() -> None:
     """The command line with a writer that stands still."""
     _, records, *arguments = sys.argv
     sys.argv = ["testbed", *arguments]
-    runner.TrialWriter = _held_at(int(records))  # type: ignore[attr-defined]
+    resume.TrialWriter = _held_at(int(records))  # type: ignore[attr-defined]
     cli.main()
 
 
