@@ -69,7 +69,7 @@ def write_report(folder: Path, config: ExperimentConfig) -> Tables:
 
 def _grids(sections: Sequence[Section]) -> Iterator[Grid]:
     for section in sections:
-        for view in section.views:
+        for view in (own for own in section.views if own.lines):
             yield grid(view, f"{section.title}: {view.title}")
 
 

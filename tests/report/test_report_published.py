@@ -9,14 +9,15 @@ from testbed.analysis.statistics import Estimate, Test
 from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.resume import RunStatus, play_missing
-from testbed.experiment.store import read_records
+from testbed.experiment.store import TrialWriter, read_records
+from testbed.report import write_report
 from testbed.studies import Ratio, Value, View, results_of
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
 from testbed.studies.levels.tables import ratio_charts
 from testbed.studies.table1.measures import Analysis, Row, Table
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import COLUMNS, charts, sections
-from tests.experiment.samples import a_level_record
+from tests.experiment.samples import a_level_record, a_record
 from tests.studies.levels.found import found, views
 
 ALWAYS = Estimate(1.0, 0.98, 1.0)
@@ -102,6 +103,17 @@ def test_only_the_protocol_has_the_table(small: Path) -> None:
     (own,) = results_of(Run(small, load_config("table1"), {}, records))
     assert own.numbers["table1"]["intentional"]["triggered"] is not None
     assert results_of(Run(small, load_config("office"), {}, records)) == []
+
+
+def test_a_run_in_which_no_pair_counts_has_a_report_that_says_why(tmp_path: Path) -> None:
+    lost = {"outcome": "robot_lost", "achieved": False, "scenario": "3", "pair": "p"}
+    with TrialWriter(tmp_path) as writer:
+        for robot in ("intentional", "traditional"):
+            writer.append(a_record(robot, robot=robot, **lost))
+    tables = write_report(tmp_path, load_config("table1", ["scenarios=[3]"]))
+    assert tables.grids == []
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "1 pair with a lost trial" in page
 
 
 def _views(*times: tuple[str, float]) -> dict[str, View]:
