@@ -10,7 +10,7 @@ from agents.intentional.controller import IntentionalRobot
 from agents.intentional.history import History
 from agents.intentional.incremental import IncrementalReasoner
 from agents.shared.thought import Intention, Reasoner
-from asp.language import parse_description
+from asp.language import Literal, parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation
 from benchmarks.measuring import forget, timed
 from testbed.environment import NONE, Core, Observability, Rules
@@ -143,7 +143,7 @@ def _task(world: World, state: int, source: str, goal: Sequence[str]) -> Task:
         robot="intentional",
         domain="office",
         source=source,
-        goal=list(goal),
+        goal=[*map(Literal.parse, goal)],
         initial=list(world.literals(state)),
         plan_limit=30,
         seed=0,

@@ -10,6 +10,7 @@ from agents.intentional.reasons import IntentionalReasons
 from agents.shared.relevance import goal_fluents, relevant_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
+from asp.language import Literal
 from asp.reasoning.diagnosis import GOAL, Diagnosis
 from testbed.protocol import Percept, Task, Trace
 
@@ -80,7 +81,7 @@ class IntentionalRobot(ReasoningRobot[History]):
     def _trace(self, thought: Thought) -> Trace:
         intention, diagnosis = thought.intention, thought.diagnosis
         trace = Trace(
-            belief=sorted(self._believed[1]),
+            belief=sorted(map(Literal.parse, self._believed[1])),
             reason=thought.limit,
             activity=None if diagnosis is None else max(diagnosis.indices, default=None),
             plans=len(self._history.activities),

@@ -12,7 +12,7 @@ from agents.intentional.executor.belief import Mind
 from agents.intentional.executor.coarse import CoarseDiagram, Outcome, Reporter
 from agents.intentional.executor.execution import Execution, Steps
 from agents.intentional.executor.trace import Calendar
-from asp.language import is_positive
+from asp.language import Literal, is_positive
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
 from testbed.protocol import Decision, Percept, Robot, Task, Trace
@@ -141,7 +141,7 @@ class RefinedRobot:
         decision = Decision(
             trial=percept.trial,
             step=percept.step,
-            action=action,
+            action=Literal.parse(action),
             believes_goal=False,
             trace=Trace(),
         )

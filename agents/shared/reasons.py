@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from agents.shared.sessions import sessions_of
-from asp.language import complement
+from asp.language import Literal, complement
 from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import UNLIMITED, LimitError, Limits, State, deciding
@@ -38,7 +38,7 @@ class Reasons:
             step=step,
             unobserved=_events(explanation.unobserved),
             distrusted=_events((*explanation.distrusted, *misread)),
-            exceptions=self._knowledge.against(explanation.exceptions),
+            exceptions=[*map(Literal.parse, self._knowledge.against(explanation.exceptions))],
             minimal="proved" if explanation.proved else "unproved",
         )
 
@@ -96,7 +96,7 @@ class Reasons:
 
 
 def _events(happenings: Collection[Happening]) -> list[Event]:
-    return [Event(step=step, action=action) for step, action in happenings]
+    return [Event(step=step, action=Literal.parse(action)) for step, action in happenings]
 
 
 def _result(attempt: str, expected: bool, step: int) -> Contradiction:

@@ -10,7 +10,7 @@ from msgspec import structs
 
 from agents.shared.reasons import Reasons
 from agents.shared.thought import Intention, Reasoner, Thought
-from asp.language import is_positive
+from asp.language import Literal, is_positive
 from asp.reasoning.diagnosis import (
     GOAL,
     Diagnosis,
@@ -79,7 +79,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         return Decision(
             trial=percept.trial,
             step=percept.step,
-            action="wait" if intention is None else self._physical(intention),
+            action=Literal.parse("wait" if intention is None else self._physical(intention)),
             believes_goal=intention is not None and GOAL in intention.believed,
             trace=structs.replace(trace, deadline=decision.late),
         )

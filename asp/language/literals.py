@@ -94,7 +94,8 @@ def _made(name: str, arguments: tuple[str, ...], is_positive: bool) -> Literal:
 def _parsed(text: str) -> Literal:
     found = _FORM.fullmatch(text)
     if found is None:
-        raise ValueError(f"{text!r} is not a ground literal")
+        shown = repr(text if len(text) < 80 else f"{text[:77]}...")
+        raise ValueError(f"{shown} is not a ground literal")
     sign, name, inside = found.groups()
     return _made(name, tuple(inside.split(",")) if inside else (), not sign)
 

@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from asp.language import Literal
 from testbed.environment.errors import IllegalActionError, NotResetError
 from testbed.environment.execution import Execution
 from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
@@ -114,8 +115,8 @@ class Core:
         return Percept(
             trial=now.trial,
             step=now.step,
-            visible=list(self.visible),
-            attempted=now.answer if attempted else None,
+            visible=[*map(Literal.parse, self.visible)],
+            attempted=Literal.parse(now.answer) if attempted and now.answer else None,
             happened=now.happened,
             events=list(now.told),
             goal_holds=now.goal_holds,

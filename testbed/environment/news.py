@@ -8,6 +8,7 @@ from itertools import islice
 
 import numpy as np
 
+from asp.language import Literal
 from asp.language import literals as text
 from testbed.environment.execution import Execution
 from testbed.environment.rules import Observability
@@ -44,7 +45,7 @@ class News:
         told = [played.event] if self._is_told(played, rules, random) and played.event else []
         for action in (*told, *self._false_reports(played, rules, random)):
             late = rules[text.name(action)].delay
-            yield played.step + 1 + late, Event(step=played.step, action=action)
+            yield played.step + 1 + late, Event(step=played.step, action=Literal.parse(action))
 
     def _is_told(
         self, played: Played, rules: Mapping[str, Observability], random: np.random.Generator

@@ -165,7 +165,7 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
     return Explained(
         step,
         [At(event.step, event.action) for event in explanation.unobserved],
-        explanation.exceptions,
+        list[str](explanation.exceptions),
         distrusted=[At(event.step, event.action) for event in explanation.distrusted],
         contradictions=[Contradicted(c.step, c.observed, c.believed) for c in trace.contradictions],
         alternatives=len(trace.alternatives),

@@ -7,7 +7,7 @@ from functools import lru_cache
 import msgspec
 
 from agents.adversary import Adversary, Game
-from asp.language import arguments, complement
+from asp.language import Literal, arguments, complement
 from testbed.config import Ground, ground_of_files, ground_of_size
 from testbed.environment import Core, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
@@ -55,7 +55,7 @@ class TrialSetup:
             robot=spec.robot,
             domain=spec.domain,
             source=self._source,
-            goal=list(setting.goal),
+            goal=[*map(Literal.parse, setting.goal)],
             initial=list(world.literals(state) if complete else world.visible(state, robot)),
             plan_limit=setting.plan_limit,
             seed=seed,

@@ -5,6 +5,7 @@ driver's side (:func:`read_decision`) accepts nothing but the decision it asked 
 and over zenoh both are the same.
 """
 
+from asp.language import Literal
 from testbed.protocol import (
     MOST_BYTES,
     Decision,
@@ -90,7 +91,7 @@ def _stopped(percept: Percept, reason: str) -> Decision:
     return Decision(
         trial=percept.trial,
         step=percept.step,
-        action="finish",
+        action=Literal.parse("finish"),
         believes_goal=False,
         trace=Trace(),
         stopped=reason,

@@ -7,6 +7,8 @@ from typing import Annotated, TypeAlias, TypeVar
 
 from msgspec import Meta
 
+from asp.language import Literal
+
 MOST_BYTES = 4 * 2**20
 """Of one message."""
 MOST_CHARACTERS = 10_000
@@ -23,6 +25,15 @@ Mental: TypeAlias = Annotated[str, Meta(pattern=r"\A(start|stop)\([0-9]{1,9}\)\Z
 
 T = TypeVar("T")
 Items: TypeAlias = Annotated[list[T], Meta(max_length=MOST_ITEMS)]
+
+
+def literal_within_bounds(_kind: type, value: object) -> Literal:
+    """The literal of a text that came in. Raises ValueError where it is too long, or none."""
+    if not isinstance(value, str):
+        raise ValueError(f"expected the text of a literal, got {type(value).__name__}")
+    if len(value) > MOST_CHARACTERS:
+        raise ValueError(f"a literal of {len(value)} characters; {MOST_CHARACTERS} are the most")
+    return Literal.parse(value)
 
 
 def shortened(text: str, most: int = MOST_CHARACTERS) -> str:

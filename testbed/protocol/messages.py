@@ -2,25 +2,28 @@
 
 A driver sends a :class:`Question`, the robot answers it with a :class:`Decision`. Everything
 logical is ASP text as in the documents: an atom is ``"loc(book1,kitchen)"``, its negation
-``"-loc(book1,kitchen)"``. Steps are the environment's and the history's alike (D 2.3): 0 is the
-selection of the goal, the first decision is the one of step 1.
+``"-loc(book1,kitchen)"``; a message that is decoded has it parsed (:class:`asp.language.Literal`).
+Steps are the environment's and the history's alike (D 2.3): 0 is the selection of the goal, the
+first decision is the one of step 1.
 """
 
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
+from typing import Literal as Choice
 
 import msgspec
 
-from testbed.protocol.bounds import Count, Items, Mental, Seconds, Text
+from asp.language import Action, Literal
+from testbed.protocol.bounds import Count, Items, Mental, Seconds, Text, literal_within_bounds
 from testbed.protocol.errors import LinkError
 
 PROTOCOL_VERSION = 1
 
-NoPlan: TypeAlias = Literal["out of reach", "beyond the limit", "not known"]
+NoPlan: TypeAlias = Choice["out of reach", "beyond the limit", "not known"]
 """Why a robot has no plan: no plan of any length exists, only a longer one, or neither is proved.
 
 It is from what the robot believes, which need not be so.
 """
-Minimality: TypeAlias = Literal["proved", "unproved"]
+Minimality: TypeAlias = Choice["proved", "unproved"]
 """Whether it is proved that no explanation is smaller than an adopted one."""
 
 
@@ -51,8 +54,8 @@ class Task(Part, frozen=True, kw_only=True):
     robot: str
     domain: str
     source: str
-    goal: list[str]
-    initial: list[str]
+    goal: list[Literal]
+    initial: list[Literal]
     plan_limit: int
     seed: int
     decision_s: float | None = None
@@ -60,14 +63,14 @@ class Task(Part, frozen=True, kw_only=True):
     ground_rules: int | None = None
     expansions: int | None = None
     refinement: str = ""
-    initial_fine: list[str] = []
+    initial_fine: list[Literal] = []
 
 
 class Event(Part, frozen=True, kw_only=True):
     """An action at a step of the history."""
 
     step: Count
-    action: Text
+    action: Literal
 
 
 class Percept(Part, frozen=True, kw_only=True):
@@ -84,9 +87,9 @@ class Percept(Part, frozen=True, kw_only=True):
 
     trial: str
     step: int
-    visible: list[str]
-    doubtful: list[str] = []
-    attempted: str | None = None
+    visible: list[Literal]
+    doubtful: list[Literal] = []
+    attempted: Action | None = None
     happened: bool | None = None
     failing: bool = False
     events: list[Event] = []
@@ -111,7 +114,7 @@ class Explanation(Part, frozen=True, kw_only=True):
 
     step: Count
     unobserved: Items[Event]
-    exceptions: Items[Text]
+    exceptions: Items[Literal]
     distrusted: Items[Event] = []
     minimal: Minimality = "proved"
 
@@ -148,14 +151,14 @@ class FineTrace(Part, frozen=True, kw_only=True):
     abstract: Text = ""
     begun: Count | None = None
     zoomed: Items[Text] = []
-    plan: Items[Text] = []
+    plan: Items[Action] = []
     plans: Count = 0
     actions: Count = 0
     tests: Count = 0
-    committed: Items[Text] = []
+    committed: Items[Literal] = []
     failed: Text = ""
     ended: Text = ""
-    inferred: Items[Text] = []
+    inferred: Items[Literal] = []
     happened: bool | None = None
     planning_time_s: Seconds = 0.0
     infer_time_s: Seconds = 0.0
@@ -188,8 +191,8 @@ class Trace(Part, frozen=True, kw_only=True):
     mental: Mental | None = None
     intention: Text = ""
     activity: Count | None = None
-    plan: Items[Text] = []
-    belief: Items[Text] = []
+    plan: Items[Action] = []
+    belief: Items[Literal] = []
     explanation: Explanation | None = None
     contradictions: Items[Contradiction] = []
     alternatives: Items[Explanation] = []
@@ -215,7 +218,7 @@ class Decision(Message, frozen=True, kw_only=True):
 
     trial: Text
     step: Count
-    action: Text
+    action: Action
     believes_goal: bool
     trace: Trace
     stopped: Text | None = None
@@ -234,7 +237,8 @@ _envelope = msgspec.msgpack.Decoder(_Envelope)
 # Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
 # once end the interpreter.
 _decoders: dict[type[Message], msgspec.msgpack.Decoder[Any]] = {
-    kind: msgspec.msgpack.Decoder(kind) for kind in Message.__subclasses__()
+    kind: msgspec.msgpack.Decoder(kind, dec_hook=literal_within_bounds)
+    for kind in Message.__subclasses__()
 }
 
 

@@ -345,7 +345,7 @@ def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
         (2, "stop(1)"),
         (4, "start(2)"),
     ]
-    assert msgspec.to_builtins(record.explanations) == [
+    assert msgspec.to_builtins(record.explanations, enc_hook=str) == [
         {
             "step": 3,
             "unobserved": [{"step": 1, "action": "e"}],

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from asp.language import Literal
 from testbed.protocol import (
     PROTOCOL_VERSION,
     Decision,
@@ -25,7 +26,12 @@ from tests.link.scripted import percept
 pytestmark = pytest.mark.versions
 
 TEXT = st.text()
-TEXTS = st.lists(TEXT)
+LITERALS = st.from_regex(
+    r"-?[a-z]\w{0,3}(\([a-z0-9](,[a-z]\w{0,2})?\))?",
+    fullmatch=True,
+    alphabet=st.characters(codec="ascii"),
+)
+LISTS = st.lists(LITERALS)
 WHOLE = st.integers(-(2**63), 2**64 - 1)
 COUNT = st.integers(0, 2**31 - 1)
 SECONDS = st.floats(0.0, 1e9)
@@ -40,29 +46,29 @@ TASKS = st.builds(
     robot=TEXT,
     domain=TEXT,
     source=TEXT,
-    goal=TEXTS,
-    initial=TEXTS,
+    goal=LISTS,
+    initial=LISTS,
     plan_limit=WHOLE,
     seed=WHOLE,
 )
-EVENTS = st.builds(Event, step=COUNT, action=TEXT)
+EVENTS = st.builds(Event, step=COUNT, action=LITERALS)
 PERCEPTS = st.builds(
     Percept,
     trial=TEXT,
     step=COUNT,
-    visible=TEXTS,
-    attempted=st.none() | TEXT,
+    visible=LISTS,
+    attempted=st.none() | LITERALS,
     happened=MAYBE,
     events=st.lists(EVENTS),
     goal_holds=MAYBE,
 )
 QUESTIONS = st.builds(Question, percept=PERCEPTS, task=st.none() | TASKS)
-EXPLANATIONS = st.builds(Explanation, step=COUNT, unobserved=st.lists(EVENTS), exceptions=TEXTS)
+EXPLANATIONS = st.builds(Explanation, step=COUNT, unobserved=st.lists(EVENTS), exceptions=LISTS)
 FINE = st.builds(
     FineTrace,
     abstract=TEXT,
     begun=st.none() | COUNT,
-    plan=TEXTS,
+    plan=LISTS,
     plans=COUNT,
     happened=MAYBE,
     planning_time_s=SECONDS,
@@ -73,8 +79,8 @@ TRACES = st.builds(
     mental=st.none() | MENTAL,
     intention=TEXT,
     activity=st.none() | COUNT,
-    plan=TEXTS,
-    belief=TEXTS,
+    plan=LISTS,
+    belief=LISTS,
     explanation=st.none() | EXPLANATIONS,
     futile_at=st.none() | COUNT,
     reason=TEXT,
@@ -83,13 +89,31 @@ TRACES = st.builds(
     diagnosis_time_s=SECONDS,
 )
 DECISIONS = st.builds(
-    Decision, trial=TEXT, step=COUNT, action=TEXT, believes_goal=st.booleans(), trace=TRACES
+    Decision, trial=TEXT, step=COUNT, action=LITERALS, believes_goal=st.booleans(), trace=TRACES
 )
 
 
 @given(QUESTIONS | DECISIONS)
 def test_decoding_undoes_encoding(message: Message) -> None:
     assert decode(encode(message), type(message)) == message
+
+
+def test_literals_are_parsed_where_a_message_comes_in() -> None:
+    told = decode(encode(Question(percept=percept())), Question).percept
+    (seen,) = told.visible
+    assert isinstance(seen, Literal)
+    assert (seen.name, seen.arguments, seen.is_positive) == ("lit", ("lamp",), False)
+
+
+@pytest.mark.parametrize("text", ["", "lit lamp", "lit(lamp", "Lit", "x" * 10_001, 3, None])
+def test_what_is_no_literal_is_refused_where_it_stands(text: object) -> None:
+    trace = Trace(belief=["lit(lamp)", text])  # type: ignore[list-item]
+    sent = encode(Decision(trial="t", step=1, action="wait", believes_goal=False, trace=trace))
+    with pytest.raises(LinkError) as refused:
+        decode(sent, Decision)
+    (line,) = str(refused.value).splitlines()
+    assert "trace.belief[" in line
+    assert len(line) < 300
 
 
 @given(st.binary())

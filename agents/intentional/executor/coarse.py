@@ -9,7 +9,7 @@ from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import Mind
 from agents.intentional.executor.trace import Calendar
 from agents.shared.sessions import sessions_of
-from asp.language import atom, complement
+from asp.language import Literal, atom, complement
 from asp.reasoning.knowledge import knowledge
 from asp.solving import State
 from testbed.protocol import Event, Percept
@@ -92,13 +92,13 @@ class Reporter:
         coarse = self._coarse
         expected = coarse.after(believed, action, at_last) or believed
         soon = coarse.news(expected, None, self._later)
-        told = list(self._contrary(coarse.after(expected, None, soon) or expected))
+        told = [*map(Literal.parse, self._contrary(coarse.after(expected, None, soon) or expected))]
         return Percept(
             trial=percept.trial,
             step=self._calendar.step + 1,
             visible=told,
             doubtful=[literal for literal in told if self._mind.is_doubtful(literal)],
-            attempted=None if outcome is None else outcome.action,
+            attempted=None if outcome is None else Literal.parse(outcome.action),
             happened=None if outcome is None else outcome.happened,
             failing=outcome is not None and not outcome.happened,
             events=events,
@@ -149,8 +149,10 @@ class Reporter:
         recent = [*self._later, *(event for step, event in heard if step == latest)]
         possible = self._coarse.news(believed, action, recent)
         self._later = self._after(believed, action, recent, possible)
-        earlier = [Event(step=step, action=event) for step, event in heard if step < latest]
-        return [*earlier, *(Event(step=latest, action=event) for event in possible)]
+        earlier = [
+            Event(step=step, action=Literal.parse(event)) for step, event in heard if step < latest
+        ]
+        return [*earlier, *(Event(step=latest, action=Literal.parse(event)) for event in possible)]
 
     def _after(
         self, believed: State, action: str | None, recent: list[str], possible: list[str]
