@@ -24,7 +24,6 @@ from agents.traditional import TraditionalRobot
 from asp.language import Description
 from asp.reasoning.diagnosis import GOAL
 from papers.table1.runs import told_name
-from testbed.analysis.counting import BASELINE
 from testbed.config import ConfigError, ExperimentConfig
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
@@ -42,6 +41,7 @@ from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Percept, Task
 from testbed.studies.table1.measures import RANDOM
+from testbed.studies.table1.published import BASELINE
 
 BAD_INPUT = 2
 

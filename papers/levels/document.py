@@ -12,7 +12,7 @@ from papers.levels.differing import differences, growth
 from papers.levels.pairing import MEETINGS
 from papers.levels.runs import Run
 from papers.text import render
-from testbed.experiment.coverage import coverage_of
+from testbed.experiment.coverage import coverage_of, places_of
 from testbed.experiment.digest import digest
 from testbed.experiment.store import read_records
 from testbed.studies import Line, rows_of
@@ -26,7 +26,7 @@ def document(run: Run) -> str:
         "commands": commands(run.folder, run.config),
         "digest": digest(read_records(run.folder)),
         "workers": workers_of(run.folder),
-        "notice": coverage_of(read_records(run.folder), run.config).notice(),
+        "notice": coverage_of(places_of(run.folder), run.config).notice(),
         "place": place(run.config),
         "first": FIRST,
         **_compared(run),

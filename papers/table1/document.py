@@ -20,7 +20,7 @@ from papers.table1.released import released
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run, released_weights, told_order
 from papers.text import render
-from testbed.experiment.coverage import coverage_of
+from testbed.experiment.coverage import coverage_of, places_of
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
@@ -73,7 +73,7 @@ def document(sources: Sources) -> str:
 
 
 def _notice(run: Run) -> str | None:
-    return coverage_of(read_records(run.folder), run.config).notice()
+    return coverage_of(places_of(run.folder), run.config).notice()
 
 
 def _tests(analysis: Analysis) -> str:

@@ -11,7 +11,7 @@ from statistics import fmean
 import numpy as np
 from scipy.optimize import nnls  # type: ignore[import-untyped]  # scipy ships no types
 
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import Row, Table
 from testbed.studies.table1.published import (

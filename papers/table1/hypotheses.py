@@ -9,7 +9,7 @@ from papers.table1 import evidence
 from papers.table1.released import NAMES, PAIRS
 from papers.table1.weighing import Weighing, weighing
 from papers.text import percent, render
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS

@@ -7,7 +7,7 @@ from math import exp, log
 from statistics import fmean
 
 from papers.text import render
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.measures import Analysis, Row
 from testbed.studies.table1.published import PLANNING, PUBLISHED, SCENARIOS
 from testbed.studies.table1.tables import (

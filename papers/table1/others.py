@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from papers.table1 import evidence
 from papers.table1.runs import Run
 from papers.text import percent, render
-from testbed.analysis.counting import NO_EVENT, NOTHING_TO_DO, Apart, eventful
+from testbed.analysis.comparison import Apart, eventful
 from testbed.experiment.domains import load_world
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM, Row
@@ -81,7 +81,7 @@ def _reasons(run: Run) -> dict[str, Apart]:
     """Why pairs are in no row, by the baseline's trial: no event, or nothing to do."""
     sure = eventful(run.config)
     reasons = {pair.base.trial: pair.apart(sure) for pair in run.pairs[run.minds[0]]}
-    return {t: reason for t, reason in reasons.items() if reason in (NO_EVENT, NOTHING_TO_DO)}
+    return {trial: reason for trial, reason in reasons.items() if reason is not None}
 
 
 def _place(pair: Pair) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from papers.table1 import evidence
 from papers.table1.weighing import Weighing
 from papers.text import percent, render
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.measures import Row
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS, Published
 

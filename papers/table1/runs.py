@@ -6,15 +6,18 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import polars as pl
+
 from papers.table1.redrawing import as_stated, passed_on, weight
-from testbed.analysis.counting import BASELINE, INTENTIONAL, eventful
+from testbed.analysis import load_run
+from testbed.analysis.comparison import eventful
 from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
-from testbed.experiment.record import TrialRecord
-from testbed.experiment.store import read_config, read_records
+from testbed.experiment.store import read_config
 from testbed.studies.table1.load import Pair, pairs_of
 from testbed.studies.table1.measures import RANDOM, Analysis, analyse, minds_of
+from testbed.studies.table1.published import BASELINE, INTENTIONAL
 
 PROTOCOL = "table1"
 TOLD = "told"
@@ -45,17 +48,14 @@ def read_run(folder: Path) -> Run:
     config = read_config(folder)
     if config.protocol != PROTOCOL:
         raise StoreError(f"{folder}: its configuration has no `protocol: {PROTOCOL}`")
-    pairs = {mind: _pairs(read_records(folder), config, mind) for mind in minds_of(config)}
+    trials, world = load_run(folder).trials, load_world(config.domain)
+    pairs = {mind: list(pairs_of(trials, world, mind, BASELINE)) for mind in minds_of(config)}
     if not any(pairs.values()):
         robots = f"{INTENTIONAL} and {BASELINE}"
         raise StoreError(f"{folder}: has no pairs of {robots} on record")
     sure = eventful(config)
     analyses = {mind: analyse(own, mind, BASELINE, sure) for mind, own in pairs.items()}
     return Run(folder, config, pairs, analyses)
-
-
-def _pairs(records: Iterable[TrialRecord], config: ExperimentConfig, mind: str) -> list[Pair]:
-    return list(pairs_of(records, load_world(config.domain), mind, BASELINE))
 
 
 def released_weights(run: Run, mind: str) -> dict[str, float]:
@@ -68,7 +68,7 @@ def released_weights(run: Run, mind: str) -> dict[str, float]:
         return {}
     world, rate = load_world(run.config.domain), run.config.adversary.rate
     played, other = as_stated(world, RANDOM, rate), passed_on(world, RANDOM, rate)
-    own = (r for r in read_records(run.folder) if r.scenario == RANDOM and r.robot == mind)
+    own = load_run(run.folder).records(pl.col("scenario") == RANDOM, pl.col("robot") == mind)
     return {record.trial: weight(record, world, played, other) for record in own}
 
 

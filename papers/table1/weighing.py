@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
-
-from testbed.analysis.resampling import BATCH, CONFIDENCE, RESAMPLES, SEED, Values
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate, exact, mean
 from testbed.studies import Ratio
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import Row, Table
@@ -84,16 +80,7 @@ def _share(own: Sequence[Weighed], right: Callable[[Pair], bool]) -> Estimate | 
     estimate = _mean(own, right)
     if estimate is None or estimate.low < estimate.high:
         return estimate
-    return _exact(estimate.value, _effective(_by_state(own).values()))
-
-
-def _exact(share: float, trials: float) -> Estimate:
-    """The exact (Clopper-Pearson) interval of a share of trials, whose number need not be whole."""
-    tail, right = (1 - CONFIDENCE) / 2, min(share, 1.0) * trials
-    wrong = trials - right
-    low = float(stats.beta.ppf(tail, right, wrong + 1)) if right else 0.0
-    high = float(stats.beta.ppf(1 - tail, right + 1, wrong)) if wrong else 1.0
-    return Estimate(share, low, high)
+    return exact(estimate.value, _effective(_by_state(own).values()))
 
 
 def _by_state(own: Iterable[Weighed]) -> dict[str, float]:
@@ -111,38 +98,10 @@ def _effective(weights: Iterable[float]) -> float:
 
 def _ratio(own: Sequence[Weighed], measure: str) -> Ratio:
     known = [(pair, weight) for pair, weight in own if pair.mind.measures[measure]]
-    mean = _mean(known, lambda pair: pair.base.measures[measure] / pair.mind.measures[measure])
-    return Ratio(len(known), mean, None, None)
+    ratio = _mean(known, lambda pair: pair.base.measures[measure] / pair.mind.measures[measure])
+    return Ratio(len(known), ratio, None, None)
 
 
 def _mean(own: Sequence[Weighed], value: Callable[[Pair], float]) -> Estimate | None:
-    values = np.array([value(pair) for pair, _ in own], dtype=float)
-    weights = np.array([weight for _, weight in own], dtype=float)
-    return weighted_mean(values, weights, [pair.state for pair, _ in own])
-
-
-def weighted_mean(values: Values, weights: Values, clusters: Sequence[Hashable]) -> Estimate | None:
-    """The weighted mean, with its bootstrap interval over clusters; None of nothing.
-
-    Each value has the label of its cluster. A resample draws clusters, each with all it has.
-    """
-    if not len(values):
-        return None
-    labels = {label: number for number, label in enumerate(dict.fromkeys(clusters))}
-    places = np.array([labels[label] for label in clusters], dtype=np.int64)
-    sums, sizes = np.bincount(places, weights * values), np.bincount(places, weights)
-    mean = float(sums.sum() / sizes.sum())
-    if len(labels) == 1 or np.ptp(values) == 0:
-        return Estimate(mean, mean, mean)
-    interval = stats.bootstrap(
-        (sums, sizes),
-        lambda above, below, axis: above.sum(axis=axis) / below.sum(axis=axis),
-        paired=True,
-        vectorized=True,
-        n_resamples=RESAMPLES,
-        batch=BATCH,
-        confidence_level=CONFIDENCE,
-        method="percentile",
-        rng=np.random.default_rng(SEED),
-    ).confidence_interval
-    return Estimate(mean, float(interval.low), float(interval.high))
+    values, weights = [value(pair) for pair, _ in own], [weight for _, weight in own]
+    return mean(values, weights, [pair.state for pair, _ in own])

@@ -1,4 +1,7 @@
-"""Estimates with their uncertainty, paired tests, effect sizes, and Holm's correction of them."""
+"""Paired tests, effect sizes, and Holm's correction of p-values."""
+
+# What a command refuses at once needs no scipy, which takes a second to import.
+# ruff: noqa: PLC0415
 
 from __future__ import annotations
 
@@ -7,86 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
 
-from testbed.analysis.resampling import (
-    CONFIDENCE,
-    Clusters,
-    Labels,
-    Sample,
-    Statistic,
-    Strata,
-    Values,
-    bootstrap,
-    cluster_means,
-    means,
-    medians,
-    sample_of,
-)
+from testbed.analysis.bootstrap import Labels, Values, numbered
 
-__all__ = [
-    "Clusters",
-    "Estimate",
-    "Strata",
-    "Test",
-    "Values",
-    "holm",
-    "mcnemar",
-    "mean",
-    "median",
-    "proportion",
-    "signed_rank",
-]
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """A value, and the interval in which it lies with 95% confidence.
-
-    One that is `single` is of one independent observation alone, and has no interval: its ends are
-    the value.
-    """
-
-    value: float
-    low: float
-    high: float
-    single: bool = False
-
-    def covers(self, other: float, half_digit: float) -> bool | None:
-        """Whether a value, rounded to twice `half_digit`, may lie in the interval, if any."""
-        if self.single:
-            return None
-        return self.low - half_digit <= other <= self.high + half_digit
-
-
-def mean(strata: Strata, clusters: Clusters | None = None) -> Estimate | None:
-    """The mean with its bootstrap interval; None of nothing."""
-    return _estimate(sample_of(strata, clusters), means)
-
-
-def median(strata: Strata, clusters: Clusters | None = None) -> Estimate | None:
-    """The median with its bootstrap interval; None of nothing."""
-    return _estimate(sample_of(strata, clusters), medians)
-
-
-def proportion(strata: Strata, clusters: Clusters | None = None) -> Estimate | None:
-    """The share of ones among zeros and ones; where no resample differs, the exact interval.
-
-    Its number of trials is that of the clusters: what a cluster repeats says nothing new there.
-    """
-    sample = sample_of(strata, clusters)
-    estimate = _estimate(sample, means)
-    if estimate is None or estimate.single or estimate.low < estimate.high:
-        return estimate
-    exact = stats.binomtest(round(estimate.value * sample.clusters), sample.clusters)
-    interval = exact.proportion_ci(CONFIDENCE, method="exact")
-    return Estimate(estimate.value, float(interval.low), float(interval.high))
-
-
-def _estimate(sample: Sample, statistic: Statistic) -> Estimate | None:
-    if not len(sample.values):
-        return None
-    return Estimate(*bootstrap(sample, statistic), single=sample.clusters == 1)
+DIGITS = 12
+"""Decimals of a mean of differences: what comes behind them is rounding."""
 
 
 @dataclass(frozen=True)
@@ -112,6 +40,8 @@ def signed_rank(
     Pairs without a difference are left out; None where there is no other. With labels both are of
     the clusters' mean differences, which are independent; in these means the weights count.
     """
+    from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
+
     if not differences.any():
         return None
     tested = cluster_means(differences, clusters, weights)
@@ -134,6 +64,8 @@ def mcnemar(
     None where no pair differs. With labels the test counts the clusters in which one of the two is
     right more often than the other, by weight where there are weights.
     """
+    from scipy import stats
+
     differences = first.astype(float) - second.astype(float)
     if not differences.any():
         return None
@@ -142,6 +74,16 @@ def mcnemar(
     number = only_first + only_second
     p = float(stats.binomtest(only_first, number).pvalue) if number else 1.0
     return Test(p, float(np.average(differences, weights=weights)))
+
+
+def cluster_means(values: Values, clusters: Labels | None, weights: Values | None = None) -> Values:
+    """The mean of each cluster, weighted if there are weights; without labels the values."""
+    if clusters is None:
+        return values
+    cluster = numbered(clusters)
+    own = np.ones(len(values)) if weights is None else weights
+    means: Values = np.bincount(cluster, own * values) / np.bincount(cluster, own)
+    return np.round(means, DIGITS)
 
 
 def holm(p_values: Sequence[float]) -> list[float]:

@@ -14,8 +14,10 @@ import polars as pl
 from msgspec import inspect
 
 from testbed.config import ExperimentConfig
+from testbed.experiment.conformity import planned_records
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import PROVENANCE, naming, read_config, read_records
 
 PARQUET, CSV = "trials.parquet", "trials.csv"
@@ -51,17 +53,25 @@ class Run:
         return records_of(self.trials.filter(*conditions))
 
 
-def load_run(folder: str | Path) -> Run:
+def load_run(
+    folder: str | Path,
+    config: ExperimentConfig | None = None,
+    specs: Iterable[TrialSpec] | None = None,
+) -> Run:
     """Read a run folder, each record once; also while the run goes on.
+
+    `config` is in place of the stored configuration. With `specs` each record is checked to be that
+    of one of these trials.
 
     Raises:
         StoreError: for a folder without a run, and for a damaged record, with its line.
         ConfigError: where the stored configuration is not valid any more.
     """
     folder = Path(folder)
-    config, provenance = read_config(folder), folder / PROVENANCE
+    config, provenance = config or read_config(folder), folder / PROVENANCE
     known = msgspec.json.decode(provenance.read_bytes()) if provenance.is_file() else {}
-    return Run(folder, config, known, table_of(read_records(folder)))
+    records = read_records(folder) if specs is None else planned_records(folder, specs)
+    return Run(folder, config, known, table_of(records))
 
 
 def table_of(records: Iterable[TrialRecord]) -> pl.DataFrame:

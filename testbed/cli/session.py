@@ -8,7 +8,6 @@ from pathlib import Path
 from textwrap import wrap
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.conformity import check_planned
 from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
@@ -58,9 +57,8 @@ def run_session(
 def report_again(folder: Path, config: ExperimentConfig) -> None:
     """Table, summary and report of a run, made again. Raises StoreError."""
     say = Printer()
-    if not config.is_fine:  # to draw levels again takes long
-        check_planned(folder, plan_trials(config))
-    _show(say, write_report(folder, config))
+    specs = None if config.is_fine else plan_trials(config)  # to draw levels again takes long
+    _show(say, write_report(folder, config, specs))
     say(f"report: {folder / REPORT}")
 
 

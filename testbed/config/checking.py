@@ -36,7 +36,11 @@ def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> 
 
     `checks` are further ones, which do not need the domain.
     """
-    findings = [*_twice(config), *(found for own in checks for found in own(config))]
+    findings = [
+        *_twice(config),
+        *_compared(config),
+        *(found for own in checks for found in own(config)),
+    ]
     if config.is_fine:
         lines = [*lines_of(findings, places), *_of_the_levels(config, places)]
     else:
@@ -114,10 +118,28 @@ def _owners(
 
 
 def _twice(config: ExperimentConfig) -> Iterator[Finding]:
-    for key, names in (("scenarios", config.scenarios), ("robots", config.robots)):
+    for key, names in (
+        ("scenarios", config.scenarios),
+        ("robots", config.robots),
+        ("treatment", config.treatment),
+    ):
         for index, name in enumerate(names):
             if name in names[:index]:
                 yield (key, index), f"'{name}' is listed twice; keep one of the two"
+
+
+def _compared(config: ExperimentConfig) -> Iterator[Finding]:
+    """Robots are compared that play, and none with itself."""
+    named = [(("treatment", index), name) for index, name in enumerate(config.treatment)]
+    for key, name in [*((("baseline",), own) for own in [config.baseline] if own), *named]:
+        if name not in config.robots:
+            yield key, f"'{name}' is none of the robots; {suggestion(name, config.robots)}"
+        elif key != ("baseline",) and name == config.baseline:
+            yield key, f"'{name}' is the baseline; name another one of the robots"
+        elif key == ("baseline",) and len(config.robots) == 1:
+            yield key, "compares two robots, and there is one"
+    if set(config.robots) <= set(config.treatment):
+        yield ("treatment",), "should leave one of the robots as the baseline"
 
 
 def _observability(config: ExperimentConfig, description: Description) -> Iterator[Finding]:

@@ -20,6 +20,7 @@ from testbed.config.values import (
     Flag,
     Literals,
     Name,
+    Names,
     Probability,
     Scenarios,
     Seconds,
@@ -36,6 +37,8 @@ FINE_STEPS = 5000
 """Environment steps of a trial at the fine resolution, unless given."""
 TRIGGERS = "triggers"
 """The strategy of an adversary that plays the domain's triggers."""
+TREATMENT, BASELINE = "intentional", "traditional"
+"""The robots that are compared unless others are named: those of the published study."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
 """How a goal is written."""
 
@@ -168,7 +171,9 @@ class ExperimentConfig(Section):
     levels: tuple[Name, ...] = ()
     level_sizes: Annotated[dict[str, LevelSettings], ByName] = Field(default_factory=dict)
     draw: Drawing = Drawing()
-    robots: Annotated[tuple[Name, ...], Field(min_length=1)] = ("intentional", "traditional")
+    robots: Annotated[tuple[Name, ...], Field(min_length=1)] = (TREATMENT, BASELINE)
+    baseline: Name | None = None
+    treatment: Names = ()
     repeats: Count = 1
     limit: Count | None = None
     link: LinkKind = "zenoh"
@@ -208,6 +213,20 @@ class ExperimentConfig(Section):
         """Whether in every scenario a robot is told that it finished without its goal."""
         own = (settings.goal_feedback for settings in self.scenario_settings.values())
         return self.goal_feedback and False not in own
+
+    @property
+    def comparisons(self) -> tuple[tuple[str, str], ...]:
+        """Which robots are compared: a baseline and a treatment each, the main comparison first.
+
+        What is not given is as in the published study, where that robot plays, else the first that
+        is left over. None where a single robot plays.
+        """
+        rest = [name for name in self.robots if name != self.baseline]
+        treatments = self.treatment or ((TREATMENT,) if TREATMENT in rest else ())
+        others = [name for name in self.robots if name not in treatments]
+        baseline = self.baseline or (BASELINE if BASELINE in others else next(iter(others), None))
+        treatments = treatments or tuple(name for name in self.robots if name != baseline)[:1]
+        return tuple((baseline, name) for name in treatments) if baseline is not None else ()
 
     def rules_of_news(self) -> dict[str, environment.Observability]:
         """`observability` as the environment has it, by the name of the exogenous action."""

@@ -42,6 +42,11 @@ def _scenarios(value: object) -> object:
     return () if value is None else [NONE] if value in ([], NONE) else value
 
 
+def _listed(value: object) -> object:
+    """A name by itself is a list of one; null is none."""
+    return () if value is None else (value,) if isinstance(value, str | int) else value
+
+
 def _named_keys(value: object) -> object:
     return (
         {_named(key): item for key, item in value.items()} if isinstance(value, Mapping) else value
@@ -56,5 +61,6 @@ Seconds = Annotated[float, Field(strict=True, gt=0.0, le=LONGEST_S)]
 Probability = Annotated[float, Field(strict=True, ge=0.0, le=1.0)]
 Flag = Annotated[bool, Field(strict=True)]
 Scenarios = Annotated[tuple[Name, ...], BeforeValidator(_scenarios)]
+Names = Annotated[tuple[Name, ...], BeforeValidator(_listed)]
 ByName = BeforeValidator(_named_keys)
 """Of a mapping whose keys are names."""

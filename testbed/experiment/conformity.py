@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from testbed.experiment.record import TrialRecord
@@ -14,13 +14,20 @@ GIVEN = ("pair", "scenario", "seed", "robot", "domain", "level", "initial", "goa
 """Keys of a record that follow from the plan."""
 
 
-def check_planned(folder: Path, specs: Iterable[TrialSpec]) -> None:
-    """Raise StoreError, with its line, for a record that is not one of the plan's trials."""
+def planned_records(folder: Path, specs: Iterable[TrialSpec]) -> Iterator[TrialRecord]:
+    """As `read_records`; raises StoreError also for a record that is not of one of these trials."""
     planned = {spec.trial: spec for spec in specs}
     for number, record in numbered_records(folder):
         strange = strangeness(record, planned.get(record.trial))
         if strange is not None:
             raise damaged(folder, number, strange)
+        yield record
+
+
+def check_planned(folder: Path, specs: Iterable[TrialSpec]) -> None:
+    """Raise StoreError, with its line, for a record that is not of one of these trials."""
+    for _ in planned_records(folder, specs):
+        pass
 
 
 def strangeness(record: TrialRecord, spec: TrialSpec | None) -> str | None:

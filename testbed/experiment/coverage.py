@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import planned_trials
-from testbed.experiment.record import TrialRecord
+from testbed.experiment.store import read_records
 from testbed.experiment.wording import listed, place
 
 
@@ -49,8 +50,13 @@ class Coverage:
         return f"{planned - missing} of {planned} of {self.noun} {name}"
 
 
-def coverage_of(records: Iterable[TrialRecord], config: ExperimentConfig) -> Coverage:
-    """How much of the plan of a configuration these records are."""
-    on_record = Counter(place(record.scenario, record.level) for record in records)
+def places_of(folder: Path) -> Iterator[tuple[str, str]]:
+    """Scenario and level of each trial on record in a run folder. Raises StoreError."""
+    return ((record.scenario, record.level) for record in read_records(folder))
+
+
+def coverage_of(trials: Iterable[tuple[str, str]], config: ExperimentConfig) -> Coverage:
+    """How much of the plan of a configuration these trials are: scenario and level of each."""
+    on_record = Counter(place(scenario, level) for scenario, level in trials)
     noun = "level" if config.is_fine else "scenario"
     return Coverage(noun, planned_trials(config), on_record)

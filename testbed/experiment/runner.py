@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.coverage import coverage_of
+from testbed.experiment.coverage import coverage_of, places_of
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.resume import Notify, RunStatus, play_missing
@@ -16,7 +16,6 @@ from testbed.experiment.store import (
     choose_folder,
     holds_run,
     locked,
-    read_records,
     refuse_second_run,
     write_config,
 )
@@ -80,7 +79,7 @@ def run_in(
 
 
 def _not_played(folder: Path, config: ExperimentConfig) -> RunStatus:
-    covered = coverage_of(read_records(folder), config)
+    covered = coverage_of(places_of(folder), config)
     planned = sum(covered.planned.values())
     done = planned - sum(covered.missing.values())
     return RunStatus(planned, done, failed=0, workers=0, interrupted=True)

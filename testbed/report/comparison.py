@@ -2,26 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from testbed.analysis.counting import BASELINE, INTENTIONAL
-from testbed.analysis.optimum import COMPARED
-from testbed.analysis.outline import MEASURES, Outline
-from testbed.analysis.pairwise import ACCURACY, COUNTS
-from testbed.analysis.statistics import Estimate
-from testbed.experiment.record import COARSE, TrialRecord
-from testbed.experiment.wording import chance, in_words, place
-from testbed.studies import Chart, Colour, Sample, Series, joined, points
+import polars as pl
 
-ROBOTS = (INTENTIONAL, BASELINE)
-OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in COMPARED))
+from testbed.analysis.bootstrap import Estimate, mean, proportion
+from testbed.analysis.comparison import (
+    ACCURACY,
+    COUNTS,
+    MEASURES,
+    OTHER,
+    Compared,
+    pairs_of,
+)
+from testbed.analysis.comparison import LEAST as MINIMAL
+from testbed.experiment.record import COARSE
+from testbed.experiment.wording import chance, in_words
+from testbed.studies import Chart, Colour, Series, points
+
+OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in MINIMAL))
 LEAST = 2
 """Pairs from which on a test, or an interval, says something."""
-Pair = tuple[Outline, Outline]
-"""The trial of the first robot, and that of the second."""
 
 
 @dataclass(frozen=True)
@@ -50,16 +54,18 @@ def comparisons(summary: Mapping[str, Any]) -> list[Comparison]:
     if len(groups) > 1:
         levels = summary["levels"]
         groups |= {"all" if len(levels) == 1 else f"all, {name}": levels[name] for name in levels}
-    if not any(set(ROBOTS) <= set(group["accuracy"]) for group in groups.values()):
+    robots = (summary["treatment"], summary["baseline"])
+    if not any(set(robots) <= set(group["accuracy"]) for group in groups.values()):
         return []
-    return [Comparison(name, tuple(_cells(group))) for name, group in groups.items()]
+    return [Comparison(name, tuple(_cells(group, robots))) for name, group in groups.items()]
 
 
-def _cells(group: Mapping[str, Any]) -> Iterator[Cell]:
+def _cells(group: Mapping[str, Any], robots: tuple[str, str]) -> Iterator[Cell]:
+    """Of both robots, the one first whose effects are told."""
     yield Cell("pairs", str(group["pairs"]), ", ".join(_apart(group)))
-    for robot in ROBOTS:
+    for robot in robots:
         share = group["accuracy"].get(robot)
-        notes = [_test(group, ACCURACY)] if robot == INTENTIONAL else []
+        notes = [_test(group, ACCURACY)] if robot == robots[0] else []
         undecided = group["undecided"].get(robot)  # of a robot that has played
         notes += [f"{undecided} not decided"] * bool(undecided)
         value = "-" if share is None else f"{100 * share:.1f} %"
@@ -87,7 +93,7 @@ def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
     levels = [name for name in summary["levels"] if name != COARSE]
     groups = summary["levels" if levels else "scenarios"].items()
     return [
-        (name, robot, str(own["trials"]), *(_number(own[measure]) for measure in COMPARED))
+        (name, robot, str(own["trials"]), *(_number(own[measure]) for measure in MINIMAL))
         for name, group in groups
         for robot, own in sorted(group["optimum"].items())
         if own["trials"]
@@ -98,54 +104,53 @@ def _number(value: float | None) -> str:
     return "-" if value is None else f"{value:.2f}"
 
 
-def charts(records: Iterable[TrialRecord], apart: Collection[str]) -> list[Chart]:
+def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
     """The accuracies and each ratio by scenario or level; none without pairs to compare.
 
-    The pairs that are `apart` do not count.
+    `trials` are those of the main comparison, with the column `apart`.
     """
-    groups: dict[str, list[Pair]] = {}
-    for first, second in joined((own for own in records if own.pair not in apart), ROBOTS):
-        name = place(first.scenario, first.level)
-        groups.setdefault(name, []).append((Outline(first), Outline(second)))
-    samples = {
-        name: Sample(pairs, cluster=lambda pair: pair[0].state)
-        for name, pairs in groups.items()
-        if len(pairs) >= LEAST
+    robots = Compared(summary["baseline"], summary["treatment"])
+    where = pl.when(pl.col("level") == COARSE).then("scenario").otherwise("level")
+    pairs = pairs_of(trials.filter(pl.col("apart").is_null()), robots).with_columns(place=where)
+    groups = {
+        str(name): own
+        for (name,), own in pairs.partition_by("place", as_dict=True).items()
+        if len(own) >= LEAST
     }
-    if not samples:
+    if not groups:
         return []
     shares = [
-        _series(ROBOTS[0], "first", samples, partial(_share, 0)),
-        _series(ROBOTS[1], "second", samples, partial(_share, 1), "s"),
+        _series(robots.treatment, "first", groups, partial(_share, "correct" + OTHER)),
+        _series(robots.baseline, "second", groups, partial(_share, "correct"), "s"),
     ]
     ratios = [
         Chart(
             f"compared-{name}",
             f"{in_words(name)}, ratio",
-            list(samples),
-            [_series("ratio", "first", samples, partial(_mean, measure))],
+            list(groups),
+            [_series("ratio", "first", groups, partial(_mean, name))],
         )
-        for name, measure in MEASURES.items()
+        for name in MEASURES
     ]
-    return [Chart("compared-correct", "correct", list(samples), shares, "shares"), *ratios]
+    return [Chart("compared-correct", "correct", list(groups), shares, "shares"), *ratios]
 
 
 def _series(
     label: str,
     colour: Colour,
-    samples: Mapping[str, Sample[Pair]],
-    estimate: Callable[[Sample[Pair]], Estimate | None],
+    groups: Mapping[str, pl.DataFrame],
+    estimate: Callable[[pl.DataFrame], Estimate | None],
     marker: str = "o",
 ) -> Series:
-    drawn = points((name, estimate(sample)) for name, sample in samples.items())
+    drawn = points((name, estimate(pairs)) for name, pairs in groups.items())
     return Series(label, colour, drawn, marker)
 
 
-def _share(robot: int, sample: Sample[Pair]) -> Estimate | None:
-    known = sample.where(lambda pair: pair[robot].decided)
-    return known.share(lambda pair: pair[robot].correct)
+def _share(correct: str, pairs: pl.DataFrame) -> Estimate | None:
+    known = pairs.drop_nulls(correct)
+    return proportion(known[correct].cast(pl.Float64), clusters=known["state"])
 
 
-def _mean(measure: Callable[[Outline], float], sample: Sample[Pair]) -> Estimate | None:
-    known = sample.where(lambda pair: all(own.ended for own in pair) and measure(pair[0]))
-    return known.mean(lambda pair: measure(pair[1]) / measure(pair[0]))
+def _mean(measure: str, pairs: pl.DataFrame) -> Estimate | None:
+    known = pairs.filter("ended", "ended" + OTHER, pl.col(measure + OTHER) != 0)
+    return mean(known[measure] / known[measure + OTHER], clusters=known["state"])

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import polars as pl
+
 from asp.language import read_domain, scenario_notes
-from testbed.analysis import Run
+from testbed.analysis import Run, load_run
+from testbed.analysis.comparison import compared, eventful, measured, with_apart
 from testbed.analysis.condition import condition
-from testbed.analysis.counting import Apart, eventful, pairs_apart
 from testbed.analysis.summary import write_summary
-from testbed.analysis.table import table_of
 from testbed.config import ExperimentConfig
 from testbed.experiment.coverage import coverage_of
-from testbed.experiment.store import REPORT, read_records, replace_text
+from testbed.experiment.record import FAILURES
+from testbed.experiment.specs import TrialSpec
+from testbed.experiment.store import REPORT, replace_text
 from testbed.report.comparison import OPTIMUM, charts, comparisons, optima
 from testbed.report.rendering import environment, rendered
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
@@ -23,6 +26,9 @@ from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Results, Section, grid, left_out, results_of
 from testbed.text.grid import Grid
 
+PLACE = ("scenario", "level")
+WRONG = pl.col("correct").fill_null(True).not_() | pl.col("outcome").is_in(FAILURES)
+"""Of the trials that are told as failures: all others are passed over."""
 COUNTED = ("achieved", "failed", "lost")
 SAID = ("digest", "notice", "condition", "left_out")
 
@@ -46,24 +52,29 @@ class Tables:
     left_out: str | None = None
 
 
-def write_report(folder: Path, config: ExperimentConfig) -> Tables:
-    """Write `summary.json` and `report.html` from the records of a run; its tables."""
-    run = Run(folder, config, {}, table_of(read_records(folder)))
-    found, sure = results_of(run), eventful(config)
-    covered = coverage_of(read_records(folder), config)
-    summary = write_summary(folder, covered.numbers(), sure, [own.numbers for own in found])
-    apart = pairs_apart(read_records(folder), sure)
+def write_report(
+    folder: Path, config: ExperimentConfig, specs: Iterable[TrialSpec] | None = None
+) -> Tables:
+    """Write `summary.json` and `report.html` from the records of a run; its tables.
+
+    With `specs` records are to be those of these trials. Raises StoreError for one that is not.
+    """
+    run = load_run(folder, config, specs)
+    found, covered = results_of(run), coverage_of(run.trials.select(*PLACE).iter_rows(), config)
+    summary = write_summary(run, covered.numbers(), [own.numbers for own in found])
+    main, *_ = compared(config)
+    rows = with_apart(measured(run.trials), main, eventful(config))
     sections = [section for own in found for section in own.sections]
     tables = Tables(
         summary["digest"],
-        sum(record.deadline for record in read_records(folder)),
+        summary["deadline"],
         covered.notice(),
-        rows_of(read_records(folder), apart),
+        rows_of(run.records(), dict(rows.select("pair", "apart").iter_rows())),
         list(_grids(sections)),
         condition(config),
         left_out(config),
     )
-    _write_page(folder, config, tables, sections, _compared(folder, found, summary, apart))
+    _write_page(run, tables, sections, _compared(rows, found, summary))
     return tables
 
 
@@ -74,22 +85,21 @@ def _grids(sections: Sequence[Section]) -> Iterator[Grid]:
 
 
 def _write_page(
-    folder: Path,
-    config: ExperimentConfig,
+    run: Run,
     tables: Tables,
     sections: Sequence[Section],
     compared: Mapping[str, Any],
 ) -> None:
     parts = {
-        **_heading(config, tables),
+        **_heading(run.config, tables),
         "columns": headings(tables.rows),
         "rows": tables.rows,
         "sections": [(section, rendered(section)) for section in sections],
         **compared,
-        **_trials(folder, config),
-        "replay": lambda trial: command_of(folder, trial),
+        **_trials(run),
+        "replay": lambda trial: command_of(run.folder, trial),
     }
-    replace_text(folder / REPORT, environment().get_template("page.html.j2").render(parts))
+    replace_text(run.folder / REPORT, environment().get_template("page.html.j2").render(parts))
 
 
 def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
@@ -103,7 +113,7 @@ def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
 
 
 def _compared(
-    folder: Path, found: Sequence[Results], summary: Mapping[str, Any], apart: Mapping[str, Apart]
+    trials: pl.DataFrame, found: Sequence[Results], summary: Mapping[str, Any]
 ) -> dict[str, Any]:
     """How the robots compare, unless a study has that."""
     own = not any(finding.study.compares for finding in found)
@@ -111,19 +121,20 @@ def _compared(
     several = any(group["pairs"] > 1 for group in summary["scenarios"].values())
     return {
         "comparisons": rows,
-        "compared_charts": charts(read_records(folder), apart) if rows and several else [],
+        "compared_charts": charts(trials, summary) if rows and several else [],
         "optimum_columns": OPTIMUM,
         "optima": optima(summary) if own else [],
     }
 
 
-def _trials(folder: Path, config: ExperimentConfig) -> dict[str, Any]:
-    source = reversed(read_domain(config.domain))
-    told = list(chapters(folder, scenario_notes(*source) if config.plays_triggers else {}))
+def _trials(run: Run) -> dict[str, Any]:
+    source = reversed(read_domain(run.config.domain))
+    notes = scenario_notes(*source) if run.config.plays_triggers else {}
+    told = list(chapters(run.trials, notes))
     return {
-        "accounts": accounts_of(read_records(folder)),
-        "slowest": slowest(read_records(folder), folder),
-        "failures": failures(read_records(folder), folder),
+        "accounts": accounts_of(run.records(pl.col("explanations").list.len() > 0)),
+        "slowest": slowest(run.trials, run.folder),
+        "failures": failures(run.records(WRONG), run.folder),
         "told": sum(len(chapter.stories) for chapter in told),
         "chapters": told,
     }

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import heapq
 import shlex
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import polars as pl
+
+from testbed.analysis.table import records_of
 from testbed.experiment.record import COARSE, FAILURES, Explained, TrialRecord
-from testbed.experiment.store import read_records
 from testbed.experiment.timeline import Step, timeline
 from testbed.experiment.wording import exception, in_words, of_place
 
@@ -39,10 +40,10 @@ class Chapter:
     stories: tuple[Story, ...]
 
 
-def chapters(folder: Path, notes: Mapping[str, str]) -> Iterator[Chapter]:
+def chapters(trials: pl.DataFrame, notes: Mapping[str, str]) -> Iterator[Chapter]:
     """The told trials of a run by scenario or level; `notes` are the domain's, by scenario."""
     stories: dict[tuple[str, str], list[Story]] = {}
-    for record in _worth_telling(folder):
+    for record in records_of(_worth_telling(trials)):
         story = Story(record, tuple(timeline(record)))
         stories.setdefault((record.scenario, record.level), []).append(story)
     for (scenario, level), told in stories.items():
@@ -50,20 +51,12 @@ def chapters(folder: Path, notes: Mapping[str, str]) -> Iterator[Chapter]:
         yield Chapter(of_place(scenario, level), note, tuple(told))
 
 
-def _worth_telling(folder: Path) -> list[TrialRecord]:
-    """At most `SHOWN` records, in their order: what went wrong first, then the others."""
-    wrong = _some(r for r in read_records(folder) if _went_wrong(r))
-    others = _some(r for r in read_records(folder) if not _went_wrong(r))
-    chosen = {record.trial for record in [*wrong, *others][:SHOWN]}
-    return [record for record in read_records(folder) if record.trial in chosen]
-
-
-def _some(records: Iterable[TrialRecord]) -> list[TrialRecord]:
-    return [record for record, _ in zip(records, range(SHOWN), strict=False)]
-
-
-def _went_wrong(record: TrialRecord) -> bool:
-    return record.outcome in FAILURES or not record.achieved
+def _worth_telling(trials: pl.DataFrame) -> pl.DataFrame:
+    """At most `SHOWN` trials, in their order: what went wrong first, then the others."""
+    wrong = pl.col("outcome").is_in(FAILURES) | ~pl.col("achieved")
+    numbered = trials.with_row_index("number")
+    chosen = pl.concat([numbered.filter(wrong), numbered.filter(~wrong)]).head(SHOWN)
+    return chosen.sort("number").drop("number")
 
 
 @dataclass(frozen=True)
@@ -95,9 +88,9 @@ def command_of(folder: Path, trial: str) -> str:
     return f"testbed replay {shlex.quote(str(folder))} --trial {trial}"
 
 
-def slowest(records: Iterable[TrialRecord], folder: Path) -> list[Slow]:
+def slowest(trials: pl.DataFrame, folder: Path) -> list[Slow]:
     """The trials with most reasoning, the slowest first."""
-    chosen = heapq.nlargest(SLOWEST, records, key=lambda record: record.reasoning_time_s)
+    chosen = trials.sort("reasoning_time_s", descending=True, maintain_order=True).head(SLOWEST)
     return [
         Slow(
             place=of_place(record.scenario, record.level),
@@ -108,7 +101,7 @@ def slowest(records: Iterable[TrialRecord], folder: Path) -> list[Slow]:
             seconds=record.reasoning_time_s,
             command=command_of(folder, record.trial),
         )
-        for record in chosen
+        for record in records_of(chosen)
     ]
 
 

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from testbed.analysis.counting import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.analysis.comparison import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
 from testbed.experiment.record import COARSE, OUTCOMES, Outcome, TrialRecord
 from testbed.experiment.wording import counted, exception, in_words, of_place, place
 from testbed.text.grid import Grid

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 
 Colour = Literal["first", "second", "paper"]
 

@@ -9,8 +9,9 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from testbed.analysis import statistics
-from testbed.analysis.statistics import Clusters, Estimate, Strata, Test, holm, mcnemar, signed_rank
+from testbed.analysis import bootstrap
+from testbed.analysis.bootstrap import Estimate, Values
+from testbed.analysis.statistics import Test, holm, mcnemar, signed_rank
 from testbed.experiment.record import TrialRecord
 
 Pair = TypeVar("Pair")
@@ -65,11 +66,11 @@ class Sample(Generic[Pair]):
 
     def mean(self, value: Callable[[Pair], float]) -> Estimate | None:
         """The mean of a value of pairs."""
-        return statistics.mean(*self._drawn(value))
+        return bootstrap.mean(*self._drawn(value))
 
     def share(self, holds: Callable[[Pair], float]) -> Estimate | None:
         """The share of the pairs for which this holds."""
-        return statistics.proportion(*self._drawn(holds))
+        return bootstrap.proportion(*self._drawn(holds))
 
     def ratio(self, above: Callable[[Pair], float], below: Callable[[Pair], float]) -> Ratio:
         """One measure divided by another."""
@@ -80,8 +81,8 @@ class Sample(Generic[Pair]):
         whole = sum(weight * below(pair) for weight, pair in weighed)
         return Ratio(
             pairs=len(known.pairs),
-            mean=statistics.mean(*own),
-            median=statistics.median(*own),
+            mean=bootstrap.mean(*own),
+            median=bootstrap.median(*own),
             test=signed_rank(differences, self._clusters(), self._weights()),
             of_sums=sum(w * above(pair) for w, pair in weighed) / whole if whole else None,
         )
@@ -98,23 +99,16 @@ class Sample(Generic[Pair]):
     def _weight(self, pair: Pair) -> float:
         return self.weights[self.stratum(pair)]
 
-    def _weights(self) -> statistics.Values:
+    def _weights(self) -> Values:
         return np.array([self._weight(pair) for pair in self.pairs], dtype=float)
 
     def _clusters(self) -> list[Hashable] | None:
         return None if self.cluster is None else [self.cluster(pair) for pair in self.pairs]
 
-    def _drawn(self, value: Callable[[Pair], float]) -> tuple[Strata, Clusters | None]:
-        strata: dict[str, list[Pair]] = {}
-        for pair in self.pairs:
-            strata.setdefault(self.stratum(pair), []).append(pair)
-        values = [
-            (np.array([float(value(pair)) for pair in own]), self.weights[name])
-            for name, own in strata.items()
-        ]
-        if self.cluster is None:
-            return values, None
-        return values, [[self.cluster(pair) for pair in own] for own in strata.values()]
+    def _drawn(
+        self, value: Callable[[Pair], float]
+    ) -> tuple[list[float], Values, list[Hashable] | None]:
+        return [float(value(pair)) for pair in self.pairs], self._weights(), self._clusters()
 
 
 def corrected(found: Found) -> Found:

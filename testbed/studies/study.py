@@ -12,15 +12,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from testbed.analysis import Run
 from testbed.analysis.condition import deviations
 from testbed.config import ExperimentConfig, Finding, load_config
 from testbed.experiment.wording import listed
 from testbed.registry import Registry, RegistryError
 from testbed.studies.charts import Chart, Key
 from testbed.studies.tables import Sheet, View
+
+if TYPE_CHECKING:  # which loads polars
+    from testbed.analysis import Run
 
 Numbers = Mapping[str, Any]
 Found = TypeVar("Found")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from testbed.analysis.statistics import Estimate, Test
+from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.statistics import Test
 from testbed.experiment.wording import chance
 from testbed.text.grid import Grid
 

@@ -1,8 +1,11 @@
 """Records and types that the tests of this folder share."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any
 
+from testbed.analysis.comparison import Compared
+from testbed.analysis.summary import summarise
+from testbed.analysis.table import table_of
 from testbed.config import ExperimentConfig
 from testbed.experiment.record import Attempt, FineCounts, TrialRecord
 
@@ -56,3 +59,13 @@ def a_level_record(trial: str, robot: str, level: str = "L3", **values: object) 
 def ids(records: Sequence[TrialRecord]) -> list[str]:
     """The trial ids of records, in their order."""
     return [record.trial for record in records]
+
+
+def summary_of(
+    records: Iterable[TrialRecord],
+    sure: Collection[str] = (),
+    treatments: Sequence[str] = ("intentional",),
+) -> Any:
+    """The summary of records, in which these robots are compared with the traditional one."""
+    robots = [Compared("traditional", name) for name in treatments]
+    return summarise(table_of(records), robots, sure)

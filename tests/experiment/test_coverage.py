@@ -15,7 +15,6 @@ from testbed.experiment.plan import plan_trials, planned_trials
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import write_config
 from testbed.experiment.wording import listed, place
-from tests.experiment.samples import a_level_record, a_record
 
 LEVELS = ["levels=[L3,L1]", "limit=3"]
 TABLE1 = ["limit=2", "repeats=1", "scenario_settings={}", "link=inprocess"]
@@ -59,11 +58,11 @@ def test_a_complete_run_has_no_notice() -> None:
 
 
 def test_records_count_where_they_were_played() -> None:
-    fine = coverage_of([a_level_record("p", "intentional", "L3")], load_config("levels", LEVELS))
+    fine = coverage_of([("levels", "L3")], load_config("levels", LEVELS))
     assert fine.numbers() == {"planned": 12, "missing": {"L3": 5, "L1": 6}}
     assert fine.notice() == ("1 of 12 trials are on record: 1 of 6 of level L3, none of level L1")
     config = load_config("quickstart", ["scenarios=[6,2]"])
-    coarse = coverage_of([a_record(scenario="2"), a_record(scenario="6")], config)
+    coarse = coverage_of([("2", "coarse"), ("6", "coarse")], config)
     assert coarse.missing == {"6": 1, "2": 1}
 
 

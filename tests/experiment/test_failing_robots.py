@@ -10,7 +10,7 @@ import polars as pl
 import pytest
 from typer.testing import CliRunner
 
-from testbed.analysis.summary import summarise
+from testbed.analysis.table import table_of
 from testbed.cli import app
 from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
@@ -21,7 +21,7 @@ from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, RobotGone, RobotStops, Task
 from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import analyse
-from tests.experiment.samples import Configure, a_level_record
+from tests.experiment.samples import Configure, a_level_record, summary_of
 
 PAIRS = 4
 FAILURES: dict[str, Callable[[], Exception]] = {
@@ -102,12 +102,12 @@ def test_a_robots_own_error_is_in_no_ratio(failing: Any) -> None:
 def test_table_1_counts_it_as_the_summary_does(failing: Any) -> None:
     folder, own = failing
     records = list(read_records(folder))
-    pairs = pairs_of(records, load_world("office"), "intentional", "traditional")
+    pairs = pairs_of(table_of(records), load_world("office"), "intentional", "traditional")
     analysis = analyse(pairs, "intentional", "traditional", ())
     assert analysis.triggered is not None
     row = next(row for row in analysis.triggered.rows if row.name == "1")
     assert row.intentional is not None
-    group: Any = summarise(records)["scenarios"]
+    group: Any = summary_of(records)["scenarios"]
     assert row.intentional.value == group["1"]["accuracy"]["intentional"]
     assert (row.pairs, row.lost) == ((PAIRS, 0) if own else (PAIRS - 1, 1))
 
@@ -117,7 +117,7 @@ def test_levels_count_it_as_not_completed(cause: str, trials: int) -> None:
     correct = False if cause == "robot" else None
     failed = {"achieved": False, "outcome": "error", "cause": cause, "correct": correct}
     records = [a_level_record("p", "intentional"), a_level_record("q", "intentional", **failed)]
-    group: Any = summarise(records)["levels"]
+    group: Any = summary_of(records)["levels"]
     reasoning = group["L3"]["reasoning"]["intentional"]
     assert (reasoning["trials"], reasoning["completed"]) == (trials, 1 / trials)
     assert group["L3"]["accuracy"]["intentional"] == 1 / trials

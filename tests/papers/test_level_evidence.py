@@ -4,7 +4,7 @@ import pytest
 
 from papers.levels import evidence
 from papers.levels.pairing import Meeting, Pair, pairs_of
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 from testbed.experiment.record import Attempt, Explained, Occurrence, TrialRecord
 from testbed.studies import Cell, Rounded
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM

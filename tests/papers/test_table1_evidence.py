@@ -7,7 +7,7 @@ from papers.table1.evidence import (
     published_failures,
     published_weights,
 )
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.measures import Ratio, Row, Table
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED, SCENARIOS
 

@@ -1,9 +1,8 @@
 """A table of pairs that weigh differently, worked out by hand."""
 
-import numpy as np
 import pytest
 
-from papers.table1.weighing import Weighing, weighing, weighted_mean
+from papers.table1.weighing import Weighing, weighing
 from testbed.studies.table1.measures import Row, analyse
 from testbed.studies.table1.published import MEASURES
 from tests.studies.table1.made import a_pair, a_side
@@ -97,20 +96,3 @@ def test_equal_weights_give_the_table_itself() -> None:
             assert (ours is None) == (theirs is None)
             if ours is not None and theirs is not None:
                 assert ours.value == pytest.approx(theirs.value)
-
-
-def test_an_interval_is_one_over_clusters() -> None:
-    values, weights = np.array([0.0, 1.0, 1.0, 0.0] * 5), np.ones(20)
-    labels = list(range(20))
-    once = weighted_mean(values, weights, labels)
-    twice = weighted_mean(np.tile(values, 2), np.tile(weights, 2), labels * 2)
-    assert once is not None
-    assert once.low < once.value == 0.5 < once.high
-    assert twice == once
-
-
-def test_where_all_are_alike_there_is_nothing_to_resample() -> None:
-    same = weighted_mean(np.ones(3), np.array([1.0, 2.0, 3.0]), ["a", "b", "c"])
-    assert same is not None
-    assert (same.low, same.value, same.high) == (1.0, 1.0, 1.0)
-    assert weighted_mean(np.array([]), np.array([]), []) is None

@@ -4,10 +4,9 @@ from typing import Any
 
 import pytest
 
-from testbed.analysis.summary import summarise
 from testbed.experiment.record import Outcome, TrialRecord
 from testbed.report.comparison import Cell, comparisons, optima
-from tests.experiment.samples import a_record
+from tests.experiment.samples import a_record, summary_of
 
 
 def _pairs(scenario: str, count: int, actions: int) -> list[TrialRecord]:
@@ -27,7 +26,7 @@ def _pairs(scenario: str, count: int, actions: int) -> list[TrialRecord]:
 
 
 def test_shares_ratios_and_chances_have_one_precision() -> None:
-    (row,) = comparisons(summarise(_pairs("2", 12, 3)))
+    (row,) = comparisons(summary_of(_pairs("2", 12, 3)))
     cells = {cell.label: cell for cell in row.cells}
     assert cells["pairs"].value == "12"
     assert cells["intentional correct"] == Cell(
@@ -40,7 +39,7 @@ def test_shares_ratios_and_chances_have_one_precision() -> None:
 
 
 def test_a_single_pair_has_no_chance() -> None:
-    (row,) = comparisons(summarise(_pairs("2", 1, 5)))
+    (row,) = comparisons(summary_of(_pairs("2", 1, 5)))
     assert {cell.label: cell for cell in row.cells}["actions"] == Cell("actions", "2.00")
 
 
@@ -61,8 +60,8 @@ def test_a_pair_with_a_failure_counts_apart(robot: str, outcome: Outcome) -> Non
         )
         for kind in ("intentional", "traditional")
     ]
-    summary: Any = summarise([*ended, *failed])
-    without: Any = summarise(ended)
+    summary: Any = summary_of([*ended, *failed])
+    without: Any = summary_of(ended)
     group, same = summary["scenarios"]["2"], without["scenarios"]["2"]
     assert (group["pairs"], group["failed_pairs"]) == (3, 1)
     assert (same["pairs"], same["failed_pairs"]) == (3, 0)
@@ -72,7 +71,7 @@ def test_a_pair_with_a_failure_counts_apart(robot: str, outcome: Outcome) -> Non
 
 
 def test_a_last_row_is_about_all_scenarios() -> None:
-    rows = comparisons(summarise([*_pairs("2", 1, 5), *_pairs("random", 2, 10)]))
+    rows = comparisons(summary_of([*_pairs("2", 1, 5), *_pairs("random", 2, 10)]))
     assert [(row.scenario, row.cells[0].value) for row in rows] == [
         ("2", "1"),
         ("random", "2"),
@@ -85,12 +84,12 @@ def test_how_far_from_the_optimum_is_told_of_each_robot() -> None:
     for record in records:
         record.minimal_units, record.execution_units = 10, 15
         record.achieved = record.trial != "traditional 2 0"
-    assert optima(summarise(records)) == [
+    assert optima(summary_of(records)) == [
         ("2", "intentional", "2", "1.50", "4.00"),
         ("2", "traditional", "1", "1.50", "11.00"),
     ]
 
 
 def test_one_robot_alone_is_not_compared() -> None:
-    assert comparisons(summarise([a_record("a")])) == []
-    assert comparisons(summarise([])) == []
+    assert comparisons(summary_of([a_record("a")])) == []
+    assert comparisons(summary_of([])) == []

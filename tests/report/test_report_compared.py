@@ -1,8 +1,9 @@
 """Accuracy and ratios with intervals of a run of one's own."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from testbed.analysis.outline import MEASURES
+from testbed.analysis.comparison import MEASURES, Compared, measured, with_apart
+from testbed.analysis.table import table_of
 from testbed.experiment.record import TrialRecord
 from testbed.report.comparison import charts
 from testbed.studies import Chart, Point
@@ -15,9 +16,13 @@ def _pair(name: str, scenario: str = "1", **baseline: object) -> list[TrialRecor
     return [mind, a_record(f"{name} t", robot="traditional", **(own | baseline))]
 
 
+def _drawn(records: Iterable[TrialRecord]) -> list[Chart]:
+    robots = Compared("traditional", "intentional")
+    return charts(with_apart(measured(table_of(records)), robots, ()), robots._asdict())
+
+
 def _charts(*pairs: list[TrialRecord]) -> Mapping[str, Chart]:
-    found = charts((record for pair in pairs for record in pair), ())
-    return {chart.name: chart for chart in found}
+    return {chart.name: chart for chart in _drawn(record for pair in pairs for record in pair)}
 
 
 def test_every_measure_is_drawn_for_the_scenarios_with_several_pairs() -> None:
@@ -29,15 +34,15 @@ def test_every_measure_is_drawn_for_the_scenarios_with_several_pairs() -> None:
 
 
 def test_there_is_nothing_to_draw_of_single_pairs_and_single_robots() -> None:
-    assert charts(_pair("a"), ()) == []
+    assert _drawn(_pair("a")) == []
     alone = [record for name in "abc" for record in _pair(name)[:1]]
-    assert charts(alone, ()) == []
+    assert _drawn(alone) == []
 
 
 def test_pairs_that_are_apart_do_not_count() -> None:
     lost = _pair("a", outcome="robot_lost", correct=False)
-    assert charts([*lost, *_pair("b")], {"a"}) == []
-    assert charts([*lost, *_pair("b"), *_pair("c")], {"a"}) != []
+    assert _drawn([*lost, *_pair("b")]) == []
+    assert _drawn([*lost, *_pair("b"), *_pair("c")]) != []
 
 
 def _actions(*pairs: list[TrialRecord]) -> Point:

@@ -3,6 +3,7 @@
 import shlex
 from pathlib import Path
 
+from testbed.analysis.table import table_of
 from testbed.experiment.record import Occurrence
 from testbed.report.stories import SLOWEST, failures, slowest
 from tests.experiment.samples import a_record
@@ -13,7 +14,7 @@ RUN = Path("runs/o'clock")
 def test_the_slowest_come_first() -> None:
     seconds = [(7 * number) % 23 / 10 for number in range(SLOWEST + 5)]
     records = [a_record(f"t{n}", reasoning_time_s=own) for n, own in enumerate(seconds)]
-    told = slowest(records, RUN)
+    told = slowest(table_of(records), RUN)
     assert [trial.seconds for trial in told] == sorted(seconds, reverse=True)[:SLOWEST]
     first = f"t{seconds.index(max(seconds))}"
     assert shlex.split(told[0].command) == ["testbed", "replay", str(RUN), "--trial", first]

@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from testbed.analysis import Run
-from testbed.analysis.statistics import Estimate, Test
+from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.statistics import Test
 from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.resume import RunStatus, play_missing

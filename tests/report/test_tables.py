@@ -5,11 +5,10 @@ from typing import Any
 
 import pytest
 
-from testbed.analysis.counting import NO_EVENT, NOTHING_TO_DO, Apart
-from testbed.analysis.summary import summarise
+from testbed.analysis.comparison import NO_EVENT, NOTHING_TO_DO, Apart
 from testbed.experiment.record import At, Explained, Occurrence, TrialRecord
 from testbed.report.tables import COLUMNS, explained, rows_of
-from tests.experiment.samples import a_record
+from tests.experiment.samples import a_record, summary_of
 
 GAVE_UP: dict[str, Any] = {"achieved": False, "outcome": "gave_up"}
 
@@ -26,7 +25,7 @@ def _pair(
 
 
 def _group(records: Sequence[TrialRecord], scenario: str = "1", sure: Collection[str] = ()) -> Any:
-    summary: Any = summarise(records, sure)
+    summary: Any = summary_of(records, sure)
     return summary["scenarios"][scenario]
 
 
@@ -287,7 +286,7 @@ def test_p_values_stand_beside_holms_over_the_whole_summary() -> None:
             {"scenario": "ab"[number % 2]},
         )
     ]
-    summary: Any = summarise(records)
+    summary: Any = summary_of(records)
     one, both = summary["scenarios"]["a"], summary["levels"]["coarse"]
     assert one["p_values"]["actions"] == pytest.approx(2 / 2**8)
     assert both["p_values"]["actions"] < 1e-3
@@ -300,7 +299,7 @@ def test_p_values_stand_beside_holms_over_the_whole_summary() -> None:
 
 def test_a_scenario_that_is_the_only_one_is_tested_once() -> None:
     records = [r for n in range(8) for r in _pair(n, {"action_count": 1 + n}, {})]
-    summary: Any = summarise(records)
+    summary: Any = summary_of(records)
     for group in (summary["scenarios"]["1"], summary["levels"]["coarse"]):
         assert group["holm"]["actions"] == pytest.approx(2 / 2**8)
 
@@ -319,7 +318,7 @@ def test_p_values_are_the_exact_ones() -> None:
 
 
 def test_a_summary_tells_scenarios_and_levels_apart() -> None:
-    summary: Any = summarise([a_record("a"), a_record("b", scenario="2")])
+    summary: Any = summary_of([a_record("a"), a_record("b", scenario="2")])
     assert summary["trials"] == 2
     assert set(summary["scenarios"]) == {"1", "2"}
     assert summary["levels"]["coarse"]["pairs"] == 2

@@ -8,8 +8,9 @@ from statistics import fmean, median, stdev
 
 import numpy as np
 
-from testbed.analysis import Run, quotient
-from testbed.analysis.statistics import Estimate, Test, Values
+from testbed.analysis import Run
+from testbed.analysis.bootstrap import Estimate, Values, ratio_of_means, ratio_of_medians
+from testbed.analysis.statistics import Test
 from testbed.studies.levels.load import FineOutline, outlines_of
 from testbed.studies.levels.published import FIRST, NO_ZOOM, OWN, PAPER, PARTS, ZOOM, Paper
 from testbed.studies.pairs import Ratio, Sample, corrected
@@ -194,4 +195,4 @@ def _played(outlines: Outlines, part: str) -> Values:
 
 
 def _times(above: Values, below: Values) -> Growth:
-    return Growth(quotient.of_means(above, below), quotient.of_medians(above, below))
+    return Growth(ratio_of_means(above, below), ratio_of_medians(above, below))

@@ -7,7 +7,7 @@ first of them.
 from __future__ import annotations
 
 from asp.language import literals as text
-from testbed.analysis.counting import NOTHING_TO_DO, is_idle
+from testbed.analysis.comparison import NOTHING_TO_DO
 from testbed.experiment.record import Activity, TrialRecord
 from testbed.world import World
 
@@ -22,7 +22,7 @@ def classify(record: TrialRecord, world: World) -> str:
 
     The record is that of a robot with activities, at the coarse resolution.
     """
-    if is_idle(record):
+    if record.achieved and not (record.activities or record.actions or record.failed):
         return NOTHING_TO_DO
     if not record.activities:
         return UNCLASSIFIED

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from testbed.analysis.counting import (
-    NOTHING_TO_DO,
-    Apart,
-    Standing,
-    is_solvable,
-    why_apart,
-)
-from testbed.analysis.outline import DIVIDED, Outline, state_of
-from testbed.experiment.record import FAILURES, Occurrence, TrialRecord
+import polars as pl
+
+from testbed.analysis.comparison import DIVIDED, LEAST, NO_EVENT, NOTHING_TO_DO, Apart, measured
+from testbed.analysis.table import records_of
+from testbed.experiment.record import Occurrence, TrialRecord
 from testbed.studies.pairs import joined
 from testbed.studies.table1.classify import classify, state_at
 from testbed.world import World
@@ -96,14 +92,12 @@ class Pair:
         return self.mind.late or self.base.late
 
     def apart(self, sure: Collection[str]) -> Apart | None:
-        """Why the pair is not counted under the scenario that was played; `sure` as `why_apart`."""
-        ended = self.mind.ended
-        idle, quiet = ended and self.happened == NOTHING_TO_DO, ended and self.mind.event is None
-        mind, base = (
-            Standing(side.lost, side.late, self.solvable, idle, quiet)
-            for side in (self.mind, self.base)
-        )
-        return why_apart(self.intended, (mind, base), (mind,), sure)
+        """Why a pair that was played is not of the scenario; `sure` are the eventful ones."""
+        if not (self.played and self.mind.ended):
+            return None
+        if self.happened == NOTHING_TO_DO:
+            return NOTHING_TO_DO
+        return NO_EVENT if self.mind.event is None and self.intended in sure else None
 
     @property
     def meeting(self) -> Meeting:
@@ -118,29 +112,33 @@ class Pair:
         return "other at once" if alike else "other"
 
 
-def pairs_of(records: Iterable[TrialRecord], world: World, mind: str, base: str) -> Iterator[Pair]:
-    """The pairs of two robots, as they become complete; others' records are passed over."""
-    for minds, bases in joined(records, (mind, base)):
+def pairs_of(trials: pl.DataFrame, world: World, mind: str, base: str) -> Iterator[Pair]:
+    """The pairs of two robots, as they become complete; others' trials are passed over."""
+    own = trials.filter(pl.col("robot").is_in([mind, base]))
+    rows = {row["trial"]: row for row in measured(own).iter_rows(named=True)}
+    for minds, bases in joined(records_of(own), (mind, base)):
+        row = rows[minds.trial]
+        least = {name: row[column] for name, column in LEAST.items()}
         yield Pair(
             intended=minds.scenario,
             happened=classify(minds, world),
-            solvable=is_solvable(minds),
-            mind=_side(minds, world),
-            base=_side(bases, world),
-            state=state_of(minds),
-            minimal=Outline(minds).minimal,
+            solvable=row["solvable"],
+            mind=_side(minds, row, world),
+            base=_side(bases, rows[bases.trial], world),
+            state=row["state"],
+            minimal={name: value for name, value in least.items() if value is not None},
         )
 
 
-def _side(record: TrialRecord, world: World) -> Side:
+def _side(record: TrialRecord, row: Mapping[str, Any], world: World) -> Side:
+    """`row` is the measured trial."""
     event = record.exogenous[0] if record.exogenous else None
     until = record.steps if event is None else event.step
-    row = Outline(record)
     return Side(
         trial=record.trial,
-        lost=record.lost,
-        ended=record.outcome not in FAILURES,
-        late=record.deadline,
+        lost=row["lost"],
+        ended=row["ended"],
+        late=row["late"],
         achieved=record.achieved,
         correct=record.correct is True,
         decided=record.correct is not None,
@@ -149,7 +147,7 @@ def _side(record: TrialRecord, world: World) -> Side:
         event=None if event is None else event.action,
         undone=event is not None and undone(record, event, world),
         before=tuple(a.action for a in record.actions if a.step <= until),
-        measures={name: measure(row) for name, measure in DIVIDED.items()},
+        measures={name: row[name] for name in DIVIDED},
     )
 
 

@@ -8,18 +8,20 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, field
 from math import lcm
 from statistics import fmean
+from typing import TypeAlias
 
 from testbed.analysis import Run
-from testbed.analysis.counting import BASELINE, INTENTIONAL, NO_EVENT, NOTHING_TO_DO, eventful
-from testbed.analysis.optimum import Needed, Optimum, optimum
-from testbed.analysis.outline import TIMES
-from testbed.analysis.statistics import Estimate, Test
+from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.comparison import LEAST, TIMES, eventful
+from testbed.analysis.statistics import Test
 from testbed.config import ExperimentConfig
 from testbed.experiment.domains import load_world
 from testbed.studies.pairs import Ratio, Sample, corrected
 from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of
 from testbed.studies.table1.published import (
     ALL,
+    BASELINE,
+    INTENTIONAL,
     MEASURES,
     NO_FAILURES,
     PUBLISHED,
@@ -28,6 +30,8 @@ from testbed.studies.table1.published import (
 )
 
 RANDOM = "random"
+Optimum: TypeAlias = Mapping[str, float | None]
+"""What a robot needed over the least that achieves the goal, by measure; of how many `trials`."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +112,7 @@ def measures(run: Run, as_published: bool) -> list[Analysis]:
     """
     world, sure = load_world(run.config.domain), eventful(run.config)
     found = [
-        analyse(pairs_of(run.records(), world, mind, BASELINE), mind, BASELINE, sure)
+        analyse(pairs_of(run.trials, world, mind, BASELINE), mind, BASELINE, sure)
         for mind in minds_of(run.config)
     ]
     whole = set(SCENARIOS) <= set(run.config.scenarios)
@@ -162,8 +166,7 @@ def _as_triggered(pair: Pair, sure: Collection[str]) -> str:
 
     Failures and goals that nothing achieves are told in the row of their scenario.
     """
-    reason = pair.apart(sure)
-    return reason if reason in (NO_EVENT, NOTHING_TO_DO) else pair.intended
+    return pair.apart(sure) or pair.intended
 
 
 def _table(
@@ -243,12 +246,19 @@ def _seconds(sample: Sample[Pair], name: str) -> Seconds:
 
 def _optima(sample: Sample[Pair]) -> tuple[Optimum, Optimum]:
     """How far both robots are from the least that achieves the goal."""
+    return _optimum(sample, lambda pair: pair.mind), _optimum(sample, lambda pair: pair.base)
 
-    def of(side: Callable[[Pair], Side]) -> Optimum:
-        return optimum(
-            Needed(side(pair).measures, pair.minimal, sample.weights[pair.intended])
-            for pair in sample.pairs
-            if side(pair).achieved
-        )
 
-    return of(lambda pair: pair.mind), of(lambda pair: pair.base)
+def _optimum(sample: Sample[Pair], side: Callable[[Pair], Side]) -> Optimum:
+    known = [
+        (side(pair).measures, pair.minimal, sample.weights[pair.intended])
+        for pair in sample.pairs
+        if side(pair).achieved and all(pair.minimal.get(name) for name in LEAST)
+    ]
+    weights = [weight for _, _, weight in known]
+    means = {
+        name: fmean([own[name] / least[name] for own, least, _ in known], weights=weights)
+        for name in LEAST
+        if known
+    }
+    return {"trials": len(known), **dict.fromkeys(LEAST), **means}

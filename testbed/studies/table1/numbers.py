@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from testbed.analysis.statistics import Estimate, Test
+from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.statistics import Test
 from testbed.studies.pairs import Ratio
 from testbed.studies.study import Numbers
 from testbed.studies.table1.measures import Analysis, Row, Table
@@ -51,7 +52,7 @@ def _row(row: Row, beside: Mapping[str, Cell], of: Analysis) -> Numbers:
             name: _ratio(own) | _test(own.test) | _published(beside[name])
             for name, own in row.ratios.items()
         },
-        "optimum": {robot: own.values() for robot, own in row.optimum.items()},
+        "optimum": {robot: dict(own) for robot, own in row.optimum.items()},
         "times": {
             name: {
                 "seconds": {of.base: own.baseline, of.mind: own.intentional},

@@ -9,6 +9,8 @@ PLANNING = "planning_time"
 MEASURES = ("total_time", "plans", PLANNING, "execution_units", "actions")
 """What is divided in each pair, in the order of the published columns."""
 
+INTENTIONAL, BASELINE = "intentional", "traditional"
+"""The robots whose figures were published: ATI and TP."""
 SCENARIOS = ("1", "2", "3", "4", "5")
 ALL = "all"
 NO_FAILURES = ", no failures"

@@ -153,7 +153,7 @@ def optimum_rows(table: Table, mind: str, base: str) -> Iterator[Cells]:
     for row in table.rows:
         if row.pairs and {mind, base} <= set(row.optimum):
             both = (row.optimum[robot] for robot in (base, mind))
-            yield (row.name, *(text for own in both for text in _optimum(own.values())))
+            yield (row.name, *(text for own in both for text in _optimum(own)))
 
 
 def _optimum(own: Mapping[str, float | None]) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 import pytest
 
-from testbed.analysis.statistics import Estimate
+from testbed.analysis.bootstrap import Estimate
 from testbed.experiment.record import TrialRecord
 from testbed.report.tables import headings
 from testbed.report.tables import rows_of as trials_of

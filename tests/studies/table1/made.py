@@ -1,6 +1,6 @@
 """Pairs made by hand, from which the numbers of a page can be worked out on paper."""
 
-from testbed.analysis.outline import TIMES
+from testbed.analysis.comparison import TIMES
 from testbed.studies.table1.load import Pair, Side
 from testbed.studies.table1.published import MEASURES
 

@@ -5,8 +5,9 @@ from itertools import count
 
 import pytest
 
-from testbed.analysis.outline import DIVIDED
-from testbed.analysis.outline import MEASURES as COMPUTED
+from testbed.analysis.comparison import DIVIDED
+from testbed.analysis.comparison import MEASURES as COMPUTED
+from testbed.analysis.table import table_of
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.studies import rows_of
@@ -250,13 +251,13 @@ def test_pairs_are_joined_in_any_order_and_others_are_passed_over() -> None:
     mind.actions = [Attempt(2, "move(rob1,library)", True)]
     base, third = _record("traditional"), _record("intentional-checking")
     for records in ([mind, third, base], [base, mind]):
-        (pair,) = pairs_of(records, WORLD, "intentional", "traditional")
+        (pair,) = pairs_of(table_of(records), WORLD, "intentional", "traditional")
         assert (pair.happened, pair.mind.trial, pair.base.trial) == (
             "1",
             "intentional",
             "traditional",
         )
-    assert list(pairs_of([mind, third], WORLD, "intentional", "traditional")) == []
+    assert list(pairs_of(table_of([mind, third]), WORLD, "intentional", "traditional")) == []
 
 
 @pytest.mark.parametrize(

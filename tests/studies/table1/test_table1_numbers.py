@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from testbed.analysis import load_run
-from testbed.analysis.summary import summarise
+from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
@@ -19,7 +19,7 @@ from testbed.report import write_report
 from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import Analysis, Row, analyse, measures
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED
-from tests.experiment.samples import a_record
+from tests.experiment.samples import a_record, summary_of
 
 CONFIG = load_config("table1", ["limit=16", "repeats=2", "scenario_settings={}"])
 INTENDED = ("1", "2", "3", "4", "5")
@@ -69,7 +69,7 @@ def test_a_scenario_has_the_numbers_of_its_row(summary: Any, analysis: Analysis)
         for measure, test in tests.items():
             found = group["p_values"][measure], group["effects"][measure]
             assert found == ((test.p, test.effect) if test else (None, None))
-        assert group["optimum"] == {robot: own.values() for robot, own in row.optimum.items()}
+        assert group["optimum"] == row.optimum
 
 
 def test_what_is_in_no_row_is_counted_apart_in_the_summary(summary: Any, folder: Path) -> None:
@@ -195,8 +195,8 @@ def _trials(draw: st.DrawFn) -> list[TrialRecord]:
 def test_whatever_comes_of_pairs_both_count_the_same(trials: list[list[TrialRecord]]) -> None:
     both = [a_record("i", scenario="6"), a_record("t", scenario="6", robot="traditional")]
     records = [*both, *(record for pair in trials for record in pair)]
-    summary: Any = summarise(records, SURE)
-    pairs = list(pairs_of(records[2:], WORLD, "intentional", "traditional"))
+    summary: Any = summary_of(records, SURE)
+    pairs = list(pairs_of(table_of(records[2:]), WORLD, "intentional", "traditional"))
     table = analyse(pairs, "intentional", "traditional", SURE).triggered
     rows = {} if table is None else {row.name: row for row in table.rows}
     apart = {"no event": 0, "nothing to do": 0} | dict({} if table is None else table.apart)

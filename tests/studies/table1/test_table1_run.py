@@ -8,6 +8,7 @@ import pytest
 
 from benchmarks.killing import killed_at
 from papers.table1.__main__ import main
+from testbed.analysis import load_run
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.domains import load_world
@@ -44,8 +45,8 @@ def test_the_intentional_robot_never_fails_with_feedback(here: Path) -> None:
 
 
 def test_the_traditional_robot_fails_where_the_goal_was_undone(here: Path) -> None:
-    records = read_records(here)
-    pairs = list(pairs_of(records, load_world("office"), "intentional", "traditional"))
+    trials = load_run(here, _config()).trials
+    pairs = list(pairs_of(trials, load_world("office"), "intentional", "traditional"))
     assert len(pairs) == 6 * 4
     assert any(pair.base.undone for pair in pairs)
     for pair in pairs:

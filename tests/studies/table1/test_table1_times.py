@@ -4,12 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from testbed.analysis.outline import Outline
-from testbed.analysis.pairwise import Played, group
 from testbed.experiment.record import TrialRecord
 from testbed.studies.table1.measures import Analysis, Row, analyse
 from testbed.studies.table1.tables import times_rows
-from tests.experiment.samples import a_record
+from tests.experiment.samples import a_record, summary_of
 from tests.studies.table1.made import a_pair, a_side
 
 
@@ -80,8 +78,6 @@ def _trial(robot: str, cpu: float, wall: float) -> TrialRecord:
 @pytest.mark.parametrize("load", [1.0, 50.0])
 def test_ratios_come_from_process_time(load: float) -> None:
     records = [_trial("traditional", 1.0, 1.0), _trial("intentional", 4.0, 4.0 * load)]
-    played = Played("p", "1", {record.robot: Outline(record) for record in records})
-    found = group([played], ["intentional", "traditional"], ())
+    times = summary_of(records)["scenarios"]["1"]["times"]
     names = ("planning_time", "diagnosis_time", "reasoning_time")
-    assert [found.ratios[name] for name in names] == [0.25] * 3
-    assert [found.of_sums[name] for name in names] == [0.25] * 3
+    assert times == {name: {"ratio": 0.25, "of_sums": 0.25} for name in names}

@@ -1,0 +1,199 @@
+"""The bootstrap: means, medians, shares and their ratios with intervals, of values in clusters.
+
+Each value has a weight, 1 unless given, and belongs to a cluster: values that are not independent
+of each other (repeats from one initial state) have the same label. A resample draws clusters with
+replacement, each with all of its values; without labels each value is a cluster of its own.
+"""
+
+# What a command refuses at once needs no scipy, which takes a second to import.
+# ruff: noqa: PLC0415
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+CONFIDENCE = 0.95
+RESAMPLES = 1000
+BATCH = 50
+SEED = 1
+TIE = 1e-9
+"""Parts of a whole weight that differ by less are the same: what lies between is rounding."""
+
+Values: TypeAlias = NDArray[np.float64]
+Counts: TypeAlias = NDArray[np.int64]
+Labels: TypeAlias = Iterable[Hashable]
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A value, and the interval in which it lies with 95% confidence.
+
+    One that is `single` is of one independent observation alone, and has no interval: its ends are
+    the value.
+    """
+
+    value: float
+    low: float
+    high: float
+    single: bool = False
+
+    def covers(self, other: float, half_digit: float) -> bool | None:
+        """Whether a value, rounded to twice `half_digit`, may lie in the interval, if any."""
+        if self.single:
+            return None
+        return self.low - half_digit <= other <= self.high + half_digit
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Values in ascending order, their weights, and the number of the cluster of each."""
+
+    values: Values
+    weights: Values
+    cluster: Counts
+    clusters: int
+
+
+Statistic: TypeAlias = Callable[[Sample, Counts], Values]
+"""Of a sample, and of how often each cluster is in each resample (one row each): its values."""
+
+
+def sample_of(
+    values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
+) -> Sample:
+    """The sample of values with these weights and labels of clusters, one each per value."""
+    known = np.asarray(values, dtype=np.float64)
+    weighed = np.ones(len(known)) if weights is None else np.asarray(weights, dtype=np.float64)
+    cluster = np.arange(len(known)) if clusters is None else numbered(clusters)
+    order = np.argsort(known, kind="stable")
+    return Sample(known[order], weighed[order], cluster[order], len(np.unique(cluster)))
+
+
+def numbered(labels: Labels) -> Counts:
+    """Numbers from 0 on in place of labels, in the order in which they first come."""
+    numbers: dict[Hashable, int] = {}
+    return np.array([numbers.setdefault(label, len(numbers)) for label in labels], dtype=np.int64)
+
+
+def means(sample: Sample, drawn: Counts) -> Values:
+    """The weighted mean of each resample."""
+    counts = np.bincount(sample.cluster, sample.weights, sample.clusters)
+    sums = np.bincount(sample.cluster, sample.weights * sample.values, sample.clusters)
+    found: Values = (drawn @ sums) / (drawn @ counts)
+    return found
+
+
+def medians(sample: Sample, drawn: Counts) -> Values:
+    """The value of each resample at which half of the weight is reached.
+
+    Where a value ends just there, the mean of it and the next: as in the median of so many copies.
+    """
+    until = np.cumsum(drawn[:, sample.cluster] * sample.weights, axis=1)
+    half = until[:, -1:] / 2
+    lower = np.argmax(until > half * (1 - TIE), axis=1)
+    upper = np.argmax(until > half * (1 + TIE), axis=1)
+    found: Values = (sample.values[lower] + sample.values[upper]) / 2
+    return found
+
+
+def mean(
+    values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
+) -> Estimate | None:
+    """The weighted mean with its interval; None of nothing."""
+    return bootstrap(means, sample_of(values, weights, clusters))
+
+
+def median(
+    values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
+) -> Estimate | None:
+    """The weighted median with its interval; None of nothing."""
+    return bootstrap(medians, sample_of(values, weights, clusters))
+
+
+def proportion(
+    values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
+) -> Estimate | None:
+    """The share of ones among zeros and ones; where no resample differs, the exact interval.
+
+    Its number of trials is that of the clusters: what a cluster repeats says nothing new there.
+    """
+    sample = sample_of(values, weights, clusters)
+    estimate = bootstrap(means, sample)
+    if estimate is None or estimate.single or estimate.low < estimate.high:
+        return estimate
+    return exact(estimate.value, sample.clusters)
+
+
+def ratio_of_means(above: ArrayLike, below: ArrayLike) -> Estimate | None:
+    """The mean of one sample divided by that of another; None where one of them is empty."""
+    return bootstrap(means, sample_of(above), sample_of(below))
+
+
+def ratio_of_medians(above: ArrayLike, below: ArrayLike) -> Estimate | None:
+    """The median of one sample divided by that of another; None where one of them is empty."""
+    return bootstrap(medians, sample_of(above), sample_of(below))
+
+
+def exact(share: float, trials: float) -> Estimate:
+    """The exact (Clopper-Pearson) interval of a share of trials, whose number need not be whole."""
+    from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
+
+    tail, right = (1 - CONFIDENCE) / 2, min(share, 1.0) * trials
+    wrong = trials - right
+    low = float(stats.beta.ppf(tail, right, wrong + 1)) if right else 0.0
+    high = float(stats.beta.ppf(1 - tail, right + 1, wrong)) if wrong else 1.0
+    return Estimate(share, low, high)
+
+
+def bootstrap(statistic: Statistic, *samples: Sample) -> Estimate | None:
+    """The statistic of a sample, or its ratio of the first of two to the second; None of nothing.
+
+    The interval has the percentiles over resamples, each sample being resampled by itself.
+    """
+    from scipy import stats
+
+    if not all(sample.clusters for sample in samples):
+        return None
+    value = float(_of_all(statistic, samples, [_once(sample) for sample in samples])[0])
+    varying = [sample.clusters for sample in samples if sample.clusters > 1]
+    if not varying or all(own.values[0] == own.values[-1] for own in samples):
+        return Estimate(value, value, value, single=not varying)
+
+    def of_resamples(*indices: Counts, axis: int = -1) -> Values:
+        del axis
+        drawn = iter(map(_times_drawn, indices))
+        counts = [next(drawn) if own.clusters > 1 else _once(own) for own in samples]
+        return _of_all(statistic, samples, counts).reshape(indices[0].shape[:-1])
+
+    interval = stats.bootstrap(
+        [np.arange(size) for size in varying],
+        of_resamples,
+        n_resamples=RESAMPLES,
+        batch=BATCH,
+        confidence_level=CONFIDENCE,
+        method="percentile",
+        rng=np.random.default_rng(SEED),
+    ).confidence_interval
+    return Estimate(value, float(interval.low), float(interval.high))
+
+
+def _of_all(statistic: Statistic, samples: tuple[Sample, ...], drawn: list[Counts]) -> Values:
+    own = [statistic(sample, counts) for sample, counts in zip(samples, drawn, strict=True)]
+    return own[0] if len(own) == 1 else own[0] / own[1]
+
+
+def _once(sample: Sample) -> Counts:
+    return np.ones((1, sample.clusters), dtype=np.int64)
+
+
+def _times_drawn(indices: Counts) -> Counts:
+    """Of indices below their number, one row per resample: how often each of them is there."""
+    number = indices.shape[-1]
+    rows = indices.reshape(-1, number).astype(np.int64)
+    places = rows + number * np.arange(len(rows))[:, None]
+    return np.bincount(places.ravel(), minlength=rows.size).reshape(rows.shape)

@@ -1,0 +1,258 @@
+"""Two robots of a run compared: which pairs count, their accuracy, ratios and tests."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+import polars as pl
+
+from testbed.analysis.statistics import Test, holm, mcnemar, signed_rank
+from testbed.config import ExperimentConfig
+from testbed.experiment.domains import load_world
+from testbed.experiment.record import FAILURES
+
+Apart: TypeAlias = Literal[
+    "incomplete", "lost", "deadline", "unsolvable", "nothing to do", "no event"
+]
+INCOMPLETE: Apart = "incomplete"
+LOST: Apart = "lost"
+DEADLINE: Apart = "deadline"
+UNSOLVABLE: Apart = "unsolvable"
+NOTHING_TO_DO: Apart = "nothing to do"
+NO_EVENT: Apart = "no event"
+COUNTS: Mapping[Apart, str] = {
+    INCOMPLETE: "incomplete",
+    LOST: "failed_pairs",
+    DEADLINE: "deadline",
+    UNSOLVABLE: "unsolvable",
+    NOTHING_TO_DO: "nothing_to_do",
+    NO_EVENT: "without_event",
+}
+"""The keys under which pairs are counted apart."""
+ACCURACY = "accuracy"
+CERTAIN = 1.0
+NOBODY = ""
+
+MEASURES: Mapping[str, pl.Expr] = {
+    "total_time": pl.col("planning_cpu_s") + pl.col("execution_units"),
+    "plans": pl.col("plans"),
+    "planning_time": pl.col("planning_cpu_s"),
+    "execution_units": pl.col("execution_units"),
+    "actions": pl.col("action_count"),
+}
+"""What the tests compare; times are process time, which a loaded machine does not stretch."""
+TIMES: Mapping[str, pl.Expr] = {
+    "planning_time": pl.col("planning_cpu_s"),
+    "diagnosis_time": pl.col("diagnosis_cpu_s"),
+    "reasoning_time": pl.col("planning_cpu_s") + pl.col("diagnosis_cpu_s"),
+}
+"""Planning, diagnosis, and both."""
+DIVIDED: Mapping[str, pl.Expr] = {**MEASURES, **TIMES}
+"""What is divided in a pair; of these the tests compare `MEASURES` alone."""
+LEAST: Mapping[str, str] = {"execution_units": "minimal_units", "actions": "minimal_actions"}
+"""The measures of which the least that achieves the goal is known, and the column that has it."""
+OTHER = " of the treatment"
+"""The end of a column's name in `pairs_of` that is of the treatment's trial."""
+
+
+class Compared(NamedTuple):
+    """The two robots of a comparison: ratios are those of the baseline to the treatment."""
+
+    baseline: str
+    treatment: str
+
+
+def compared(config: ExperimentConfig) -> tuple[Compared, ...]:
+    """The comparisons of a configuration, the main one first; of a single robot one with none."""
+    asked = tuple(Compared(*robots) for robots in config.comparisons)
+    return asked or (Compared(NOBODY, config.robots[0]),)
+
+
+def measured(trials: pl.DataFrame) -> pl.DataFrame:
+    """Of each trial of a table what comparisons need, by columns.
+
+    `lost`: something other than its robot ended it; `late`: a decision was cut off by the clock;
+    `ended`: it came to its end without an error; `solvable`: some plan achieves the goal, or none
+    is known not to; `idle`: the goal held from the start on, and nothing was done; `quiet`: nothing
+    exogenous happened. A trial that the robot's own error ended is neither idle nor quiet: what it
+    would have been is not known. `state` names the initial state. The other columns are `DIVIDED`.
+    """
+    failure, own = pl.col("outcome").is_in(FAILURES), pl.col("cause").eq_missing("robot")
+    still = (pl.col("activities").list.len() == 0) & (pl.col("actions").list.len() == 0)
+    failed = failure & own
+    return trials.select(
+        "trial",
+        "pair",
+        "scenario",
+        "level",
+        "robot",
+        "achieved",
+        "correct",
+        *LEAST.values(),
+        lost=failure & ~own,
+        late=pl.col("deadline"),
+        ended=~failure,
+        solvable=pl.col("minimal_actions").is_not_null()
+        | pl.col("minimal_reason").eq_missing("budget"),
+        idle=pl.col("achieved") & still & ~failed,
+        quiet=(pl.col("exogenous").list.len() == 0) & ~failed,
+        state=pl.col("initial").list.join(" "),
+        **{name: measure.cast(pl.Float64) for name, measure in DIVIDED.items()},
+    )
+
+
+def eventful(config: ExperimentConfig) -> frozenset[str]:
+    """The scenarios in which something exogenous is to happen: a pair without it is not theirs.
+
+    These are the scenarios with a script that is not empty, and those with a trigger that the
+    domain does not leave to chance; in one that it does, nothing is among what may happen.
+    """
+    if config.is_fine:
+        return frozenset()
+    triggers = load_world(config.domain).description.triggers
+    certain = {trigger.scenario for trigger in triggers if trigger.probability == CERTAIN}
+    sure: set[str] = certain if config.plays_triggers else set()
+    scripts = {name: config.settings(name).script for name in config.scenarios}
+    return frozenset(
+        n for n, script in scripts.items() if (n in sure if script is None else script)
+    )
+
+
+def with_apart(trials: pl.DataFrame, robots: Compared, sure: Collection[str]) -> pl.DataFrame:
+    """Measured trials with the column `apart`: why their pair is not compared; null if it is.
+
+    A pair must have the trials of both robots, as far as these are on record at all. The
+    treatment's trial says whether there was something to do, and whether the event fired: others
+    see the same events only as long as they act like it. Without it all trials of the pair do.
+    `sure` are the eventful scenarios.
+    """
+    known = trials["robot"].unique().to_list()
+    needed = [name for name in robots if name in known] or known
+    own, judge = pl.col("robot").is_in(needed), pl.col("robot") == robots.treatment
+
+    def judged(name: str) -> pl.Expr:
+        return pl.when(judge.any()).then((pl.col(name) & judge).any()).otherwise(pl.col(name).all())
+
+    reasons = {
+        INCOMPLETE: own.sum() < len(needed),
+        LOST: (pl.col("lost") & own).any(),
+        DEADLINE: (pl.col("late") & own).any(),
+        UNSOLVABLE: (~pl.col("solvable") & own).any(),
+        NOTHING_TO_DO: judged("idle"),
+        NO_EVENT: judged("quiet") & pl.col("scenario").first().is_in(list(sure)),
+    }
+    told = [pl.when(holds).then(pl.lit(reason)) for reason, holds in reasons.items()]
+    pairs = trials.group_by("pair").agg(apart=pl.coalesce(*told, pl.lit(None, pl.String)))
+    return trials.join(pairs, on="pair", maintain_order="left")
+
+
+def pairs_of(trials: pl.DataFrame, robots: Compared) -> pl.DataFrame:
+    """One row per pair of trials: the columns of the baseline's, then with `OTHER` the others."""
+    base, own = (trials.filter(pl.col("robot") == name) for name in robots)
+    return base.join(own, on="pair", suffix=OTHER, maintain_order="left")
+
+
+@dataclass(frozen=True)
+class Group:
+    """What the trials of a scenario or level come to.
+
+    `pairs` are the ids of the pairs that count, `values` the keys of a summary but those of the
+    tests. Tests are by measure, of the baseline's less the treatment's; of `accuracy` the other way
+    round.
+    """
+
+    robots: Compared
+    pairs: frozenset[str]
+    values: Mapping[str, object]
+    tests: Mapping[str, Test | None]
+
+    def summary(self) -> dict[str, Any]:
+        """As in a summary."""
+        keys = {"p_values": "p", "holm": "holm", "effects": "effect"}
+        of_tests = {
+            key: {name: getattr(test, own, None) for name, test in self.tests.items()}
+            for key, own in keys.items()
+        }
+        return {**self.values, **of_tests}
+
+
+def group(trials: pl.DataFrame, robots: Compared, names: Iterable[str]) -> Group:
+    """Of the trials of a scenario or level, `with_apart`; `names` are the run's robots in order."""
+    reasons = Counter(trials.unique("pair")["apart"].drop_nulls().to_list())
+    counted = trials.filter(pl.col("apart").is_null())
+    played = set(trials["robot"].unique())
+    own = {name: counted.filter(pl.col("robot") == name) for name in names if name in played}
+    both = pairs_of(counted, robots)
+    ended = both.filter(pl.col("ended") & pl.col("ended" + OTHER))
+    ratios, of_sums = _ratios(ended), _ratios_of_sums(ended)
+    values = {
+        "pairs": counted["pair"].n_unique(),
+        **{key: reasons[reason] for reason, key in COUNTS.items()},
+        "robot_errors": {name: (~rows["ended"]).sum() for name, rows in own.items()},
+        "accuracy": {name: rows["correct"].mean() for name, rows in own.items()},
+        "undecided": {name: rows["correct"].null_count() for name, rows in own.items()},
+        "ratios": {name: ratios[name] for name in MEASURES},
+        "ratios_of_sums": {name: of_sums[name] for name in MEASURES},
+        "times": {name: {"ratio": ratios[name], "of_sums": of_sums[name]} for name in TIMES},
+        "optimum": {name: optimum(rows) for name, rows in own.items()},
+    }
+    return Group(robots, frozenset(counted["pair"]), values, dict(_tests(both, ended)))
+
+
+def _ratios(ended: pl.DataFrame) -> dict[str, Any]:
+    """The mean of the ratios of each measure, over pairs in which the treatment's is not 0."""
+    quotients = {name: pl.col(name) / pl.col(name + OTHER) for name in DIVIDED}
+    found = {
+        name: quotient.filter(pl.col(name + OTHER) != 0).mean()
+        for name, quotient in quotients.items()
+    }
+    return ended.select(**found).row(0, named=True)
+
+
+def _ratios_of_sums(ended: pl.DataFrame) -> dict[str, Any]:
+    below = {name: pl.col(name + OTHER).sum() for name in DIVIDED}
+    found = {name: pl.when(own != 0).then(pl.col(name).sum() / own) for name, own in below.items()}
+    return ended.select(**found).row(0, named=True)
+
+
+def _tests(both: pl.DataFrame, ended: pl.DataFrame) -> Iterator[tuple[str, Test | None]]:
+    for name in MEASURES:
+        differences = (ended[name] - ended[name + OTHER]).to_numpy()
+        yield name, signed_rank(differences, ended["state"])
+    decided = both.drop_nulls(["correct", "correct" + OTHER])
+    own, base = (decided[name].to_numpy() for name in ("correct" + OTHER, "correct"))
+    yield ACCURACY, mcnemar(own, base, decided["state"])
+
+
+def optimum(trials: pl.DataFrame) -> dict[str, Any]:
+    """How far trials are from the least that achieves the goal: what was needed divided by it.
+
+    Means by measure, over `trials` that achieved the goal. The least is what a search with complete
+    knowledge finds from the initial state where nothing exogenous happens: below 1 is who was
+    helped on the way. Trials whose least is not known, or 0, are left out.
+    """
+    known = trials.filter("achieved", "ended", *(pl.col(least) > 0 for least in LEAST.values()))
+    means = {name: (pl.col(name) / pl.col(least)).mean() for name, least in LEAST.items()}
+    return known.select(trials=pl.len(), **means).row(0, named=True)
+
+
+def corrected(groups: Sequence[Group]) -> list[Group]:
+    """The groups with Holm's correction over all of their tests.
+
+    Groups of the same robots and pairs, as of the only scenario of a level, are one.
+    """
+    distinct = {(own.robots, own.pairs): own for own in groups}
+    tests = [test for own in distinct.values() for test in own.tests.values() if test is not None]
+    found = iter(holm([test.p for test in tests]))
+    known = {
+        key: {
+            name: test and dataclasses.replace(test, holm=next(found))
+            for name, test in own.tests.items()
+        }
+        for key, own in distinct.items()
+    }
+    return [dataclasses.replace(own, tests=known[own.robots, own.pairs]) for own in groups]
