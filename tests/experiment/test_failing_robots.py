@@ -22,6 +22,7 @@ from testbed.protocol import Decision, Percept, RobotGone, RobotStops, Task
 from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import analyse
 from tests.experiment.samples import Configure, a_level_record, summary_of
+from tests.studies.levels.found import columns
 
 PAIRS = 4
 FAILURES: dict[str, Callable[[], Exception]] = {
@@ -118,7 +119,8 @@ def test_levels_count_it_as_not_completed(cause: str, trials: int) -> None:
     failed = {"achieved": False, "outcome": "error", "cause": cause, "correct": correct}
     records = [a_level_record("p", "intentional"), a_level_record("q", "intentional", **failed)]
     group: Any = summary_of(records)["levels"]
-    reasoning = group["L3"]["reasoning"]["intentional"]
-    assert (reasoning["trials"], reasoning["completed"]) == (trials, 1 / trials)
     assert group["L3"]["accuracy"]["intentional"] == 1 / trials
-    assert group["L3"]["compared"]["correct"]["intentional"]["value"] == 1 / trials
+    level = columns(records)["L3"]
+    reasoning = level["reasoning"]["intentional"]
+    assert (reasoning["trials"], reasoning["completed"]) == (trials, 1 / trials)
+    assert level["compared"]["correct"]["intentional"]["value"] == 1 / trials
