@@ -1,6 +1,6 @@
-"""`python -m testbed`."""
+"""`python -m testbed`: the module of the command line, which imports what a command needs."""
 
-from testbed.cli import main
+from runpy import run_module
 
 if __name__ == "__main__":
-    main()
+    run_module("testbed.cli", run_name="__main__", alter_sys=True)

@@ -7,7 +7,8 @@ from collections.abc import Callable, Collection, Mapping
 from agents.adversary import RANDOM_RATE
 from asp.language import read_domain
 from testbed.config import ExperimentConfig, Observability, ScenarioSettings
-from testbed.experiment.wording import in_words, listed
+from testbed.experiment.timeline import in_words
+from testbed.text.wording import listed
 
 NO_RESULT = {"answer_s"}
 """Limits on which no logical result depends."""

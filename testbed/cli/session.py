@@ -14,11 +14,11 @@ from testbed.experiment.progress import progress
 from testbed.experiment.resume import RunStatus
 from testbed.experiment.runner import run_in
 from testbed.experiment.store import CONFIG, REPORT, choose_folder, holds_run, locked
-from testbed.experiment.wording import counted
 from testbed.protocol import shortened
 from testbed.report import Tables, grid, write_report
 from testbed.text.grid import Grid
 from testbed.text.terminal import Printer, Say, columns
+from testbed.text.wording import counted
 
 MOST_OF_REASON = 200
 """Characters of a reason that are said on the terminal; the report has all of it."""

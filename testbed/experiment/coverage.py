@@ -10,7 +10,8 @@ from pathlib import Path
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import planned_trials
 from testbed.experiment.store import read_records
-from testbed.experiment.wording import listed, place
+from testbed.experiment.timeline import place
+from testbed.text.wording import listed
 
 
 @dataclass(frozen=True)

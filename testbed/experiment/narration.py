@@ -7,9 +7,9 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from testbed.environment import FINISH
 from testbed.experiment.domains import load_world
 from testbed.experiment.specs import Setting
+from testbed.experiment.timeline import explanation
 from testbed.experiment.trial import Moment
 from testbed.experiment.trial_setup import load_ground
-from testbed.experiment.wording import explanation
 from testbed.protocol import FineTrace, Trace
 from testbed.world import World, world_of
 

@@ -19,8 +19,8 @@ from rich.progress import (
 from rich.text import Text
 
 from testbed.experiment.resume import Notify, RunStatus
-from testbed.experiment.wording import counted
 from testbed.text.terminal import warn
+from testbed.text.wording import counted
 
 EVERY_S = 30.0
 

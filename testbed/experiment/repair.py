@@ -19,7 +19,7 @@ from testbed.experiment.retries import settle
 from testbed.experiment.run_config import read_config
 from testbed.experiment.run_folder import TRIALS, locked, replace_lines
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.wording import counted
+from testbed.text.wording import counted
 
 
 @dataclass(frozen=True)

@@ -16,11 +16,12 @@ from testbed.experiment.recorder import Result
 from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_config, read_records
+from testbed.experiment.timeline import in_words, of_place, place
 from testbed.experiment.trial import play_trial
-from testbed.experiment.wording import counted, in_words, of_place, place
 from testbed.link import InProcessRobot
 from testbed.text.grid import Grid
 from testbed.text.terminal import columns
+from testbed.text.wording import counted
 
 
 def replay(folder: Path, trial: str, say: Say) -> bool:

@@ -1,4 +1,4 @@
-"""A trial step by step, from its record: what the robot did, what others did, what it explained."""
+"""A record in words: where its trial stands, its explanations, and the trial step by step."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from testbed.experiment.record import TrialRecord
-from testbed.experiment.wording import explanation, in_words, of_place
+from testbed.experiment.record import COARSE, Explained, TrialRecord
+from testbed.protocol import Explanation
 
 _TRIAL = Markup(
     "<table><caption>{caption}</caption><thead><tr><th>step</th><th>robot</th><th>others</th>"
@@ -65,3 +65,30 @@ def html_of(record: TrialRecord) -> str:
     caption = f"{record.trial}: {record.robot} in {record.domain}, {where}; goal: {goal}; {outcome}"
     rows = Markup("").join(_ROW.format(step) for step in timeline(record))
     return str(_TRIAL.format(caption=caption, rows=rows))
+
+
+def place(scenario: str, level: str) -> str:
+    """What a trial is listed under: its scenario, or at the fine resolution its level."""
+    return scenario if level == COARSE else level
+
+
+def of_place(scenario: str, level: str) -> str:
+    """The same with the word for it."""
+    return f"scenario {scenario}" if level == COARSE else f"level {level}"
+
+
+def in_words(name: str) -> str:
+    """A name of the record as text: `false_finish` is `false finish`."""
+    return name.replace("_", " ")
+
+
+def exception(literal: str) -> str:
+    """What holds at step 0 against a default."""
+    return f"exception {literal}"
+
+
+def explanation(told: Explanation | Explained) -> str:
+    """An explanation as text: how it began, what others did, what is distrusted."""
+    events = [f"{event.action} at step {event.step}" for event in told.unobserved]
+    false = [f"distrusted {event.action} at step {event.step}" for event in told.distrusted]
+    return ", ".join([*map(exception, told.exceptions), *events, *false]) or "nothing unobserved"

@@ -16,7 +16,6 @@ from testbed.experiment.recorder import Recorder, Result, recorder_of
 from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import setup_of
-from testbed.experiment.wording import listed
 from testbed.protocol import (
     NOT_UNDERSTOOD,
     Decision,
@@ -27,6 +26,7 @@ from testbed.protocol import (
     RobotStopped,
     in_one_line,
 )
+from testbed.text.wording import listed
 
 
 @dataclass(frozen=True)

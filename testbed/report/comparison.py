@@ -20,8 +20,9 @@ from testbed.analysis.comparison import (
 )
 from testbed.analysis.comparison import LEAST as MINIMAL
 from testbed.experiment.record import COARSE
-from testbed.experiment.wording import chance, in_words
+from testbed.experiment.timeline import in_words
 from testbed.studies import Chart, Colour, Series, points
+from testbed.text.wording import chance
 
 OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in MINIMAL))
 LEAST = 2

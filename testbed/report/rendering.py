@@ -8,9 +8,10 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from testbed.experiment.wording import counted, in_words
+from testbed.experiment.timeline import in_words
 from testbed.studies import Chart, Section
 from testbed.text.terminal import plain
+from testbed.text.wording import counted
 
 
 def rendered(section: Section) -> Markup:

@@ -12,8 +12,7 @@ import polars as pl
 
 from testbed.analysis.table import records_of
 from testbed.experiment.record import COARSE, FAILURES, Explained, TrialRecord
-from testbed.experiment.timeline import Step, timeline
-from testbed.experiment.wording import exception, in_words, of_place
+from testbed.experiment.timeline import Step, exception, in_words, of_place, timeline
 
 SHOWN = 60
 """Trials told step by step; of a larger run those that failed come first."""

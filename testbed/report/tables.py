@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 
 from testbed.analysis.comparison import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
 from testbed.experiment.record import COARSE, OUTCOMES, Outcome, TrialRecord
-from testbed.experiment.wording import counted, exception, in_words, of_place, place
+from testbed.experiment.timeline import exception, in_words, of_place, place
 from testbed.text.grid import Grid
+from testbed.text.wording import counted
 
 COLUMNS = (
     "scenario",

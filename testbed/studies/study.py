@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from testbed.analysis.condition import deviations
 from testbed.config import ExperimentConfig, Finding, load_config
-from testbed.experiment.wording import listed
 from testbed.registry import Registry, RegistryError
 from testbed.studies.charts import Chart, Key
 from testbed.studies.tables import Sheet, View
+from testbed.text.wording import listed
 
 if TYPE_CHECKING:  # which loads polars
     from testbed.analysis import Run

@@ -14,7 +14,8 @@ from testbed.experiment.coverage import Coverage, coverage_of
 from testbed.experiment.plan import plan_trials, planned_trials
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import write_config
-from testbed.experiment.wording import listed, place
+from testbed.experiment.timeline import place
+from testbed.text.wording import listed
 
 LEVELS = ["levels=[L3,L1]", "limit=3"]
 TABLE1 = ["limit=2", "repeats=1", "scenario_settings={}", "link=inprocess"]

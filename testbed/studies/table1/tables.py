@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from testbed.experiment.wording import counted, in_words
+from testbed.experiment.timeline import in_words
 from testbed.studies.charts import Chart, Key, Series, points, published
 from testbed.studies.study import Section
 from testbed.studies.table1.load import MEETINGS
 from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
+from testbed.text.wording import counted
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
