@@ -8,10 +8,12 @@ from pathlib import Path
 
 import pytest
 
-HEAVY = {"gymnasium", "jinja2", "matplotlib", "pettingzoo", "polars", "rich", "scipy", "zenoh"}
+HEAVY = {
+    *("gymnasium", "jinja2", "matplotlib", "pettingzoo", "polars", "rich.console", "scipy", "zenoh")
+}
 LOADED = """
 import atexit, json, sys
-atexit.register(lambda: print(json.dumps(sorted({name.partition(".")[0] for name in sys.modules}))))
+atexit.register(lambda: print(json.dumps(sorted(sys.modules))))
 from testbed.cli import main
 sys.argv = ["testbed", *sys.argv[1:]]
 main()
@@ -47,7 +49,7 @@ def test_a_process_of_a_robot_loads_nothing_of_the_world_and_of_experiments(
 
 
 def _loaded(refused: str, folder: Path | None = None) -> set[str]:
-    """The packages that are imported when a command has been refused, by the first that tells."""
+    """The modules that are imported when a command has been refused, by the first that tells."""
     root = str(Path(__file__).parents[2])
     path = os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])
     command = [sys.executable, "-c", LOADED, *refused.split()]
