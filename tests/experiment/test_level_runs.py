@@ -134,7 +134,9 @@ def test_summary_and_report_have_the_columns_of_the_levels(here: Path) -> None:
     assert "Reasoning at each level" in page
     assert "<h3>Level L1</h3>" in page
     # The published rows are left out, since here events happen more often.
-    assert [row[0] for row in tables.levels[0].rows] == ["L1"] * 4 + ["L2"] * 4
+    firsts = {row[0] for grid in tables.grids for row in grid.rows if row is not None}
+    assert {"L1", "L2"} <= firsts
+    assert not any("published" in first for first in firsts)
 
 
 def test_a_replay_is_as_recorded(here: Path) -> None:

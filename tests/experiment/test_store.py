@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 import asp
-from testbed.config import ExperimentConfig, Limits, load_config
+from testbed.config import AdversarySettings, ExperimentConfig, Limits, load_config
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import decode, encode
@@ -40,7 +40,7 @@ def test_the_configuration_is_told_with_every_key(tmp_path: Path) -> None:
     assert told["initial"] is told["limit"] is told["script"] is None
     assert (told["seed"], told["robots"]) == (0, ["intentional", "traditional"])
     assert list(told["limits"]) == list(Limits.model_fields)
-    assert told["adversary"] == {"strategy": None, "rate": None, "pace": "concrete"}
+    assert list(told["adversary"]) == list(AdversarySettings.model_fields)
     assert told["scenario_settings"] == {"1": {"script": []}}
 
 

@@ -146,15 +146,16 @@ def test_the_table_shows_what_is_asked_of_each_row() -> None:
 
 
 def test_the_released_draw_stands_beside_the_published_rows_with_marks() -> None:
-    weighed = weigh([_as_published("1"), _as_published("2", 2.0)], lambda _: 1.0)
+    pairs = [_as_published(name, x, s) for name, x in (("1", 1.0), ("2", 2.0)) for s in ("s", "t")]
+    weighed = weigh(pairs, lambda _: 1.0)
     page = released(weighed, 0)
     lines = page.splitlines()
     first = next(n for n, line in enumerate(lines) if line.startswith("| 1 "))
-    assert lines[first].split(" | ")[1:3] == ["50%", "100.0 [2.5, 100.0]"]
+    assert lines[first].split(" | ")[1:3] == ["50%", "100.0 [15.8, 100.0]"]
     assert lines[first + 1] == "|   published | 7% | 100 | 1.00 | 1.00 | 1.00 |"
     assert lines[first + 3] == "|   published | 7% | 100 | 2.63 * | 5.10 * | 3.61 * |"
     assert "Of 1000 pairs so drawn 1000 are of scenarios 1 to 5." in page
-    assert "as certain as 2 pairs of equal weight" in " ".join(page.split())
+    assert "as certain as 4 pairs of equal weight" in " ".join(page.split())
     assert "did not meet the same" not in page
     assert "In 3 pairs they did not meet the same" in " ".join(released(weighed, 3).split())
 
