@@ -13,7 +13,7 @@ from benchmarks.sheets import Row, Sheet
 INCHES = 3.4
 SERIES = {
     "first_ms": "first, with grounding",
-    "fast_median_ms": "kept controls",
+    "fast_median_ms": "multi-shot sessions",
     "reference_ms": "from scratch",
 }
 

@@ -48,7 +48,7 @@ SIDES: Mapping[str, tuple[str, Make]] = {
     "ati_one_call": ("ATI, a call a phase", OneCallReasoner),
     "ti": ("TI, fewest events found before", JointReasoner),
     "ati": ("ATI, from scratch", ReferenceReasoner),
-    "kept": ("ATI, kept controls", IncrementalReasoner),
+    "kept": ("ATI, multi-shot sessions", IncrementalReasoner),
 }
 
 

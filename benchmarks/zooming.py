@@ -1,4 +1,4 @@
-"""Planning at the fine resolution with zooming and without, literally and with kept controls."""
+"""Planning at the fine resolution, zoomed or not: literally, and with multi-shot sessions."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def _objects(size: str) -> Iterator[Row]:
 
 
 def _engineered(level: LevelSize, count: int) -> dict[str, Value]:
-    """Both ways of planning with kept controls, each in a process of its own."""
+    """Both ways of planning with multi-shot sessions, each in a process of its own."""
     row: dict[str, Value] = {}
     found = {}
     for zoom in ("zoom", "whole"):

@@ -1,4 +1,4 @@
-"""The kept controls give the reference's answers in offices of other sizes and maps, too."""
+"""Multi-shot sessions give the answers of the reference in offices of other sizes, too."""
 
 from __future__ import annotations
 

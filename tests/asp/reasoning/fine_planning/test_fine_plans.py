@@ -1,4 +1,4 @@
-"""Plans at the fine resolution: kept controls against the literal translation, and both against
+"""Plans in cells: multi-shot sessions against the literal translation, and both against
 a search through states."""
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Plans from a control for one problem alone: the same as from kept controls, and as a search's."""
+"""Plans from a program for one problem: those of multi-shot sessions, and of a search."""
 
 from __future__ import annotations
 
