@@ -22,7 +22,7 @@ _RATE, _STATISTICS = 0.05, {"fine_move": 0.85, "test_fine_loc": 0.9}
 
 
 def main(size: str) -> list[Sheet]:
-    """A sheet with a row a level."""
+    """A sheet with one row per level."""
     names = ("L1", "L3") if size == "small" else tuple(LEVELS)
     rows = gathered(_row(name, LEVELS[name], size) for name in names)
     notes = (

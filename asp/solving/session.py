@@ -153,7 +153,7 @@ def core(
     if is_satisfiable(control, [*assumptions, *left]):
         return None
     while True:
-        # The shortest end of what is left that fails together with what was found: without its
+        # The shortest rest that fails together with the literals found: without its
         # first member it would not fail, so that this member belongs to the core.
         low, high = 0, len(left)
         while low < high:

@@ -12,7 +12,7 @@ from testbed.studies.table1.published import ALL, PUBLISHED, SCENARIOS
 
 
 def drawing(analysis: Analysis) -> str:
-    """The weights of the published row of all, distances of both tables, and what became what."""
+    """The weights of the published row of all, distances of both tables, changes of scenario."""
     weights, misfit = evidence.published_weights()
     ours = {name: evidence.shares(table) for name, table in analysis.tables.items()}
     near = {name: evidence.closeness(table) for name, table in analysis.tables.items()}

@@ -35,7 +35,7 @@ SAID = ("digest", "notice", "condition", "left_out")
 
 @dataclass(frozen=True)
 class Tables:
-    """What a run comes to: a row a scenario (or level) and robot, and the tables of its studies.
+    """What a run comes to: one row per scenario or level and robot, and the tables of studies.
 
     `digest` is the one number for all of its results but those of the `late` trials, which have a
     deadline; `notice` is what is to be known of a run that is not complete; `condition` is that of

@@ -99,7 +99,7 @@ class CompactPart:
         return "\n".join([self.worded(plain), f"#program {BASE}.", *facts])
 
     def worded(self, wording: Callable[[Rule], Iterable[str]]) -> str:
-        """The rules of the program, without what there is and what is stated of it."""
+        """The rules of the program, without the facts about constants and statics."""
         parts: dict[str, list[str]] = {BASE: [], OPEN: [], STATE: [], STEP: []}
         for rule in self.rules:
             parts[rule.part] += wording(rule)

@@ -68,7 +68,7 @@ class Row:
 
 
 def shares(found: Levels) -> Iterator[Row]:
-    """The shares of the trials that achieved their goal, a row a level and condition."""
+    """The shares of the trials that achieved their goal, one row per level and condition."""
     for name, level in found.levels.items():
         for robot, own in level.compared.completed.items():
             cell = Cell(own, published=found.paper.completed(name, robot), share=True)
@@ -76,7 +76,7 @@ def shares(found: Levels) -> Iterator[Row]:
 
 
 def ratios(found: Levels) -> Iterator[Row]:
-    """No zoom / zoom by part of the time, a row a level that has pairs."""
+    """No zoom / zoom by part of the time, one row per level that has pairs."""
     for name, level in found.levels.items():
         own = [level.compared.ratios[part] for part in PARTS]
         theirs = [found.paper.ratio(name, part) for part in PARTS]
@@ -87,7 +87,7 @@ def ratios(found: Levels) -> Iterator[Row]:
 
 
 def growth(found: Levels) -> Iterator[Row]:
-    """How many times a time is that at the first level, a row a level and condition."""
+    """How many times a time is that at the first level, one row per level and condition."""
     for name, level in found.levels.items():
         for robot, own in level.compared.growth.items():
             theirs = [found.paper.growth(name, robot, part) for part in PARTS]

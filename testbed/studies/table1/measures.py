@@ -1,4 +1,4 @@
-"""From pairs to Table 1: a row a scenario, all of them, and those in which nobody failed."""
+"""From pairs to Table 1: one row per scenario, all of them, and those in which nobody failed."""
 
 from __future__ import annotations
 

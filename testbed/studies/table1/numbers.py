@@ -15,7 +15,7 @@ from testbed.studies.tables import Cell
 
 
 def numbers(analyses: Iterable[Analysis]) -> Numbers:
-    """By the robot that is compared with the traditional one: both tables, and what became what."""
+    """By the robot compared with the traditional one: both tables, and changes of scenario."""
     return {
         "table1": {
             own.mind: {
