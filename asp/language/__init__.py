@@ -14,8 +14,7 @@ from asp.language.description import (
 )
 from asp.language.errors import Problems, SourceError, nearest, suggestion
 from asp.language.functions import Function, excluding_place, functions, subject
-from asp.language.grounding import ground_description
-from asp.language.instances import Instances
+from asp.language.grounding import Instances, ground_description
 from asp.language.literals import (
     Action,
     Fluent,

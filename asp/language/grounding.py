@@ -1,9 +1,14 @@
-"""From a checked source to the ground description."""
+"""From a checked source to the ground description: the instances of its statements.
+
+A variable takes the members of its sort, and the statics are those of the closed world.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields
 from itertools import product
+from typing import Any, TypeVar
 
 from asp.language import syntax
 from asp.language.description import (
@@ -17,151 +22,212 @@ from asp.language.description import (
     Shows,
     Trigger,
 )
-from asp.language.instances import Binding, Instances, atom_of, instances_of, literal_of, value_of
 from asp.language.literals import Fluent, Literal
 from asp.language.signature import Signature
 from asp.language.variable_sorts import variable_domains
 
+Binding = Mapping[str, str]
+G = TypeVar("G", Causal, Constraint, Executability, Sees, Shows)
+
 
 def ground_description(source: syntax.Source, signature: Signature, name: str) -> Description:
     """Instantiates every statement over the members of its variables' sorts."""
-    grounder = _Grounder(instances_of(source, signature))
+    instances = instances_of(source, signature)
+    on_fluents = (
+        law for law in source.each(syntax.StateConstraint) if not instances.is_static(law.head)
+    )
+    agent_actions = _symbols("agent", signature)
     return Description(
         name=name,
         source=source.text,
         sorts=dict(signature.sorts),
-        statics=grounder.instances.known_statics,
-        inertial=grounder.symbols("inertial"),
-        defined=grounder.symbols("defined"),
-        agent_actions=grounder.symbols("agent"),
-        exogenous_actions=grounder.symbols("exogenous"),
-        causal=grounder.causal(),
-        constraints=grounder.constraints(),
-        executability=grounder.executability(),
-        sees=grounder.sees(),
-        shows=grounder.shows(),
-        costs=grounder.costs(),
-        initially=grounder.initially(),
-        defaults=grounder.defaults(),
-        triggers=grounder.triggers(),
-        scenarios=grounder.scenarios(),
+        statics=instances.known_statics,
+        inertial=_symbols("inertial", signature),
+        defined=_symbols("defined", signature),
+        agent_actions=agent_actions,
+        exogenous_actions=_symbols("exogenous", signature),
+        causal=instances.ground(source.each(syntax.CausalLaw), Causal),
+        constraints=instances.ground(on_fluents, Constraint),
+        executability=instances.ground(source.each(syntax.ExecutabilityCondition), Executability),
+        sees=instances.ground(source.each(syntax.SeesStatement), Sees),
+        shows=instances.ground(source.each(syntax.ShowsStatement), Shows),
+        costs=dict.fromkeys(agent_actions, 0) | _costs(instances),
+        initially=_initially(instances),
+        defaults=_defaults(instances),
+        triggers=_triggers(instances),
+        scenarios=source.scenarios,
     )
 
 
 @dataclass(frozen=True)
-class _Grounder:
-    instances: Instances
+class Instances:
+    """The instances that the statics and comparisons of their bodies allow.
 
-    @property
-    def source(self) -> syntax.Source:
-        return self.instances.source
+    A positive static holds if it is among the known ones, a negated one if it is not among the
+    assumed ones; where both are all that is true (`instances_of`) this is the closed world.
+    """
 
-    def symbols(self, kind: syntax.SymbolKind) -> tuple[Literal, ...]:
+    source: syntax.Source
+    signature: Signature
+    known_statics: frozenset[Literal]
+    assumed_statics: frozenset[Literal]
+
+    def ground(self, statements: Iterable[syntax.Statement], kind: type[G]) -> tuple[G, ...]:
+        """The ground statements of a kind, whose fields are named as those of the statements."""
+        names = [field.name for field in fields(kind) if field.name != "body"]
         return tuple(
-            Literal.of(declaration.name, args)
-            for declaration in self.instances.signature.symbols.values()
-            if declaration.kind == kind
-            for args in product(
-                *(self.instances.signature.sorts[s.name] for s in declaration.sorts)
-            )
+            kind(**{n: instance(getattr(own, n), binding) for n in names}, body=body)
+            for own in statements
+            for binding, body in self.of(own)
         )
 
-    def causal(self) -> tuple[Causal, ...]:
-        return tuple(
-            Causal(atom_of(law.action, binding), literal_of(law.head, binding), body)
-            for law in self.source.each(syntax.CausalLaw)
-            for binding, body in self.instances.of(law)
-        )
+    def of(self, statement: syntax.Statement) -> Iterator[tuple[Binding, Literals]]:
+        """The bindings that the statics and comparisons allow, with what is left of the body."""
+        for binding in self.bindings(statement):
+            body = self.evaluate(getattr(statement, "body", ()), binding)
+            if body is not None:
+                yield binding, body
 
-    def constraints(self) -> tuple[Constraint, ...]:
-        return tuple(
-            Constraint(literal_of(law.head, binding), body)
-            for law in self.source.each(syntax.StateConstraint)
-            if not self.instances.on_statics(law)
-            for binding, body in self.instances.of(law)
-        )
+    def bindings(self, statement: syntax.Statement) -> Iterator[Binding]:
+        domains = variable_domains(statement, self.signature)
+        for values in product(*domains.values()):
+            yield dict(zip(domains, values, strict=True))
 
-    def executability(self) -> tuple[Executability, ...]:
-        return tuple(
-            Executability(tuple(atom_of(action, binding) for action in law.actions), body)
-            for law in self.source.each(syntax.ExecutabilityCondition)
-            for binding, body in self.instances.of(law)
-        )
+    def evaluate(self, body: Iterable[syntax.Condition], binding: Binding) -> Literals | None:
+        """The fluent literals of a body, or None if a static or a comparison fails."""
+        kept: dict[Literal, None] = {}
+        for condition in body:
+            holds = self._holds(condition, binding)
+            if holds is None:
+                kept[instance(condition, binding)] = None
+            elif not holds:
+                return None
+        return tuple(kept)
 
-    def sees(self) -> tuple[Sees, ...]:
-        return tuple(
-            Sees(value_of(statement.robot, binding), atom_of(statement.fluent, binding), body)
-            for statement in self.source.each(syntax.SeesStatement)
-            for binding, body in self.instances.of(statement)
-        )
+    def _holds(self, condition: syntax.Condition, binding: Binding) -> bool | None:
+        """Whether a comparison, a sort or a static holds; None for a fluent."""
+        if isinstance(condition, syntax.Comparison):
+            left, right = (binding.get(n, n) for n in (condition.left.name, condition.right.name))
+            return (left == right) == condition.equal
+        atom = condition.atom
+        if atom.name in self.signature.sorts:
+            return instance(atom.args[0], binding) in self.signature.sorts[atom.name]
+        if not self.is_static(condition):
+            return None
+        statics = self.known_statics if condition.positive else self.assumed_statics
+        return (instance(atom, binding) in statics) == condition.positive
 
-    def shows(self) -> tuple[Shows, ...]:
-        return tuple(
-            Shows(
-                atom_of(statement.action, binding),
-                atom_of(statement.fluent, binding),
-                body,
-            )
-            for statement in self.source.each(syntax.ShowsStatement)
-            for binding, body in self.instances.of(statement)
-        )
+    def is_static(self, literal: syntax.Literal) -> bool:
+        return self.signature.symbols[literal.atom.name].kind == "static"
 
-    def costs(self) -> dict[str, int]:
-        stated = {
-            atom_of(statement.action, binding): statement.units
-            for statement in self.source.each(syntax.CostStatement)
-            for binding in self.instances.bindings(statement)
-        }
-        return {action: stated.get(action, 0) for action in self.symbols("agent")}
 
-    def initially(self) -> tuple[tuple[Fluent, ...], ...]:
-        groups: dict[tuple[object, ...], list[Fluent]] = {}
-        for number, statement in enumerate(self.source.each(syntax.InitiallyStatement)):
-            for binding in self.instances.bindings(statement):
-                others = (v for name, v in binding.items() if name != statement.variable.name)
-                groups.setdefault((number, *others), []).append(atom_of(statement.fluent, binding))
-        return tuple(map(tuple, groups.values()))
+def instances_of(source: syntax.Source, signature: Signature) -> Instances:
+    """The instances in the closed world of the description's statics."""
+    statics, _ = static_truth(source, signature)
+    return Instances(source, signature, statics, statics)
 
-    def defaults(self) -> tuple[Default, ...]:
-        """The defaults but those to which an exception applies whatever the state."""
-        exceptions: dict[str, list[Literals]] = {}
-        for statement in self.source.each(syntax.ExceptionStatement):
-            for binding, body in self.instances.of(statement):
-                exceptions.setdefault(self._name(statement.of, binding), []).append(body)
-        return tuple(
-            Default(name, literal_of(statement.head, binding), body, tuple(known))
-            for statement in self.source.each(syntax.DefaultStatement)
-            for binding, body in self.instances.of(statement)
-            if () not in (known := exceptions.get(name := self._name(statement, binding), []))
-        )
 
-    def _name(self, default: syntax.DefaultStatement | None, binding: Binding) -> str:
+def static_truth(
+    source: syntax.Source, signature: Signature
+) -> tuple[frozenset[Literal], frozenset[Literal]]:
+    """The statics that are true, and those that the laws leave open (through their own negation).
+
+    The alternating fixpoint: what is surely true narrows down what may be, and the other way round.
+    """
+    bare = Instances(source, signature, frozenset(), frozenset())
+    facts = frozenset(
+        instance(fact.literal.atom, binding)
+        for fact in source.each(syntax.Fact)
+        for binding in bare.bindings(fact)
+    )
+    laws = [law for law in source.each(syntax.StateConstraint) if bare.is_static(law.head)]
+
+    def closed(assumed: frozenset[Literal]) -> frozenset[Literal]:
+        """The least set with the facts that is closed under the laws."""
+        known = facts
+        while True:
+            now = Instances(source, signature, known, assumed)
+            derived = known.union(instance(law.head, b) for law in laws for b, _ in now.of(law))
+            if derived == known:
+                return known
+            known = derived
+
+    true: frozenset[Literal] = frozenset()
+    while (surer := closed(possible := closed(true))) != true:
+        true = surer
+    return true, possible - true
+
+
+def instance(part: Any, binding: Binding) -> Any:
+    """A part of a statement with constants for its variables: ground, or a tuple of such parts."""
+    if isinstance(part, syntax.Literal):
+        atom = instance(part.atom, binding)
+        return atom if part.positive else atom.complement
+    if isinstance(part, syntax.Atom):
+        return Literal.of(part.name, [binding.get(term.name, term.name) for term in part.args])
+    if isinstance(part, syntax.Term):
+        return binding.get(part.name, part.name)
+    return tuple(instance(each, binding) for each in part) if isinstance(part, tuple) else part
+
+
+def _symbols(kind: syntax.SymbolKind, signature: Signature) -> tuple[Literal, ...]:
+    return tuple(
+        Literal.of(declaration.name, args)
+        for declaration in signature.symbols.values()
+        if declaration.kind == kind
+        for args in product(*(signature.sorts[sort.name] for sort in declaration.sorts))
+    )
+
+
+def _costs(instances: Instances) -> dict[str, int]:
+    return {
+        instance(statement.action, binding): statement.units
+        for statement in instances.source.each(syntax.CostStatement)
+        for binding in instances.bindings(statement)
+    }
+
+
+def _initially(instances: Instances) -> tuple[tuple[Fluent, ...], ...]:
+    groups: dict[tuple[object, ...], list[Fluent]] = {}
+    for number, statement in enumerate(instances.source.each(syntax.InitiallyStatement)):
+        for binding in instances.bindings(statement):
+            others = (v for name, v in binding.items() if name != statement.variable.name)
+            groups.setdefault((number, *others), []).append(instance(statement.fluent, binding))
+    return tuple(map(tuple, groups.values()))
+
+
+def _defaults(instances: Instances) -> tuple[Default, ...]:
+    """The defaults but those to which an exception applies whatever the state."""
+    exceptions: dict[str, list[Literals]] = {}
+
+    def name(default: syntax.DefaultStatement | None, binding: Binding) -> str:
         assert default is not None, "the checker has found every default"
-        variables = variable_domains(default, self.instances.signature)
+        variables = variable_domains(default, instances.signature)
         return Literal.of(default.name, (binding[variable] for variable in variables))
 
-    def triggers(self) -> tuple[Trigger, ...]:
-        return tuple(
-            Trigger(
-                scenario=statement.scenario,
-                event=atom_of(statement.event, binding),
-                upon=None if statement.upon is None else atom_of(statement.upon, binding),
-                drawn="" if statement.drawn is None else binding[statement.drawn.name],
-                pool=pool,
-                body=body,
-                probability=statement.probability,
-            )
-            for statement in self.source.each(syntax.TriggerStatement)
-            for binding in self.instances.bindings(statement)
-            if (pool := self.instances.evaluate(statement.pool, binding)) is not None
-            and (body := self.instances.evaluate(statement.body, binding)) is not None
-        )
+    for exception in instances.source.each(syntax.ExceptionStatement):
+        for binding, body in instances.of(exception):
+            exceptions.setdefault(name(exception.of, binding), []).append(body)
+    return tuple(
+        Default(of, instance(statement.head, binding), body, tuple(known))
+        for statement in instances.source.each(syntax.DefaultStatement)
+        for binding, body in instances.of(statement)
+        if () not in (known := exceptions.get(of := name(statement, binding), []))
+    )
 
-    def scenarios(self) -> tuple[str, ...]:
-        return tuple(
-            dict.fromkeys(
-                statement.scenario
-                for statement in self.source.statements
-                if isinstance(statement, syntax.TriggerStatement | syntax.QuietStatement)
-            )
+
+def _triggers(instances: Instances) -> tuple[Trigger, ...]:
+    return tuple(
+        Trigger(
+            scenario=statement.scenario,
+            event=instance(statement.event, binding),
+            upon=instance(statement.upon, binding),
+            drawn=instance(statement.drawn, binding) or "",
+            pool=pool,
+            body=body,
+            probability=statement.probability,
         )
+        for statement in instances.source.each(syntax.TriggerStatement)
+        for binding, body in instances.of(statement)
+        if (pool := instances.evaluate(statement.pool, binding)) is not None
+    )

@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from asp.language import syntax
 from asp.language import variable_sorts as roles
 from asp.language.errors import Problems
-from asp.language.instances import instances_of, literal_of, static_truth
+from asp.language.grounding import instance, instances_of, static_truth
 from asp.language.literals import Literal, atom, complement, is_positive, name
 from asp.language.signature import Signature
 
@@ -30,7 +30,7 @@ def check_cycles(source: syntax.Source, signature: Signature, problems: Problems
     instances = instances_of(source, signature)
     for law in source.each(syntax.StateConstraint):
         for binding, body in instances.of(law):
-            head = literal_of(law.head, binding)
+            head = instance(law.head, binding)
             literals.setdefault(head, set()).update(body)
             laws += [(law, head, condition) for condition in body]
             if is_positive(head):

@@ -207,3 +207,9 @@ class Source:
     def each(self, kind: type[S]) -> Iterator[S]:
         """The statements of one kind, in order."""
         return (s for s in self.statements if isinstance(s, kind))
+
+    @property
+    def scenarios(self) -> tuple[str, ...]:
+        """The names of the scenarios, also of those in which nothing happens, in order."""
+        own = (s for s in self.statements if isinstance(s, TriggerStatement | QuietStatement))
+        return tuple(dict.fromkeys(statement.scenario for statement in own))
