@@ -13,7 +13,7 @@ from asp.language.description import (
     Trigger,
 )
 from asp.language.errors import Problems, SourceError, nearest, suggestion
-from asp.language.functions import Function, excluding_place, functions, subject
+from asp.language.functions import Function, excluding_place, functions, schematic, subject
 from asp.language.grounding import Instances, ground_description
 from asp.language.literals import (
     Action,
@@ -108,6 +108,7 @@ __all__ = [
     "renamed",
     "restrict",
     "scenario_notes",
+    "schematic",
     "signature_of",
     "subject",
     "suggestion",

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from asp.language import literals, syntax
 from asp.language.signature import Signature
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -18,6 +21,10 @@ class Function:
 
     place: int
     total: bool
+
+    def others(self, items: Sequence[T]) -> list[T]:
+        """What stands in the other places, of one item per place."""
+        return [item for place, item in enumerate(items) if place != self.place]
 
 
 def functions(source: syntax.Source, signature: Signature) -> dict[str, Function]:
@@ -40,8 +47,7 @@ def subject(fluent: str, known: Mapping[str, Function]) -> tuple[str, ...] | Non
     function = known.get(literals.name(fluent))
     if function is None or not function.total:
         return None
-    others = [a for place, a in enumerate(literals.arguments(fluent)) if place != function.place]
-    return (literals.name(fluent), *others)
+    return (literals.name(fluent), *function.others(literals.arguments(fluent)))
 
 
 def excluding_place(law: syntax.Statement) -> int | None:
@@ -53,32 +59,27 @@ def excluding_place(law: syntax.Statement) -> int | None:
     if len(conditions) != 1 or len(comparisons) != 1 or comparisons[0].equal:
         return None
     head, body = law.head.atom, conditions[0].atom
-    if head.name != body.name or not conditions[0].positive or not _all_variables(head, body):
+    if (
+        head.name != body.name
+        or not conditions[0].positive
+        or not (schematic(head) and schematic(body))
+    ):
         return None
-    apart = [n for n, (a, b) in enumerate(_pairs(head, body)) if a != b]
+    pairs = [{a.name, b.name} for a, b in zip(head.args, body.args, strict=True)]
+    apart = [place for place, names in enumerate(pairs) if len(names) == 2]
     sides = {comparisons[0].left.name, comparisons[0].right.name}
-    if len(apart) != 1 or {head.args[apart[0]].name, body.args[apart[0]].name} != sides:
-        return None
-    return apart[0]
+    return apart[0] if [pairs[place] for place in apart] == [sides] else None
 
 
-def _all_variables(*atoms: syntax.Atom) -> bool:
-    """Whether the atoms have different variables for arguments, each in one place of an atom."""
-    return all(
-        all(term.is_variable for term in atom.args)
-        and len({term.name for term in atom.args}) == len(atom.args)
-        for atom in atoms
-    )
-
-
-def _pairs(one: syntax.Atom, other: syntax.Atom) -> Iterable[tuple[str, str]]:
-    return ((a.name, b.name) for a, b in zip(one.args, other.args, strict=True))
+def schematic(atom: syntax.Atom) -> bool:
+    """Whether an atom has different variables for its arguments."""
+    return len({term.name for term in atom.args if term.is_variable}) == len(atom.args)
 
 
 def _is_total(name: str, place: int, source: syntax.Source) -> bool:
     given = any(
         statement.fluent.name == name
-        and _all_variables(statement.fluent)
+        and schematic(statement.fluent)
         and statement.fluent.args[place].name == statement.variable.name
         for statement in source.each(syntax.InitiallyStatement)
     )

@@ -39,9 +39,14 @@ class Term:
 
 @dataclass(frozen=True)
 class Atom:
+    """A name with arguments; `str()` gives it as ASP has it, without blanks."""
+
     name: str
     args: tuple[Term, ...]
     place: Place
+
+    def __str__(self) -> str:
+        return f"{self.name}({','.join(t.name for t in self.args)})" if self.args else self.name
 
 
 @dataclass(frozen=True)

@@ -2,38 +2,18 @@
 
 from asp.translation.compact import NotCompactError, compact
 from asp.translation.literal import translate, translate_source
-from asp.translation.rules import (
-    ACTION,
-    BASE,
-    OPEN,
-    STATE,
-    STEP,
-    Rule,
-    condition,
-    confined,
-    plain,
-    rule,
-    schema,
-    sort_conditions,
-    term_text,
-)
+from asp.translation.rules import ACTION, Part, Rule, condition, rule, schema, sort_conditions
 
 __all__ = [
     "ACTION",
-    "BASE",
-    "OPEN",
-    "STATE",
-    "STEP",
     "NotCompactError",
+    "Part",
     "Rule",
     "compact",
     "condition",
-    "confined",
-    "plain",
     "rule",
     "schema",
     "sort_conditions",
-    "term_text",
     "translate",
     "translate_source",
 ]

@@ -18,23 +18,20 @@ from asp.language import (
     functions,
     ground,
     named,
+    schematic,
     syntax,
     without_exogenous,
 )
 from asp.language import variable_sorts as roles
 from asp.translation.rules import (
     ACTION,
-    BASE,
     BEFORE,
     NOW,
-    OPEN,
-    STATE,
-    STEP,
+    Part,
     Rule,
     condition,
     schema,
     sort_conditions,
-    term_text,
 )
 
 
@@ -60,8 +57,8 @@ class _Translation:
         for constraint in self._source.each(syntax.StateConstraint):
             yield from self._constraint(constraint)
         for law in self._source.each(syntax.CausalLaw):
-            occurs = f"occurs({term_text(law.action)},{BEFORE})"
-            yield self._effect(STEP, law, [occurs, *self._body(law.body, BEFORE)])
+            occurs = f"occurs({law.action},{BEFORE})"
+            yield self._effect(Part.STEP, law, [occurs, *self._body(law.body, BEFORE)])
         yield from self._actions()
 
     def _inertia(self, symbol: syntax.Declaration) -> Iterator[Rule]:
@@ -69,12 +66,12 @@ class _Translation:
         fluent, given, sorts = schema(symbol)
         gives = self._gives(symbol.name, given)
         chosen = gives or ("", fluent)
-        yield Rule(OPEN, f"{{ holds({fluent},0) }}", tuple(sorts), gives=chosen)
+        yield Rule(Part.OPEN, f"{{ holds({fluent},0) }}", tuple(sorts), gives=chosen)
         stays = [f"holds({fluent},{BEFORE})", f"not denied({fluent},{NOW})"]
         if gives is not None:
             stays.append(f"not changed({gives[0]},{NOW})")
             yield from self._function(symbol, self._functions[symbol.name])
-        yield Rule(STEP, f"holds({fluent},{NOW})", tuple(stays), gives=gives)
+        yield Rule(Part.STEP, f"holds({fluent},{NOW})", tuple(stays), gives=gives)
 
     def _function(self, symbol: syntax.Declaration, function: Function) -> Iterator[Rule]:
         """A function has one value; where a new one is true, the old one is not.
@@ -82,29 +79,29 @@ class _Translation:
         That a total one has a value at first is assumed by placed(K) where it is not told which.
         """
         fluent, given, sorts = schema(symbol)
-        subject = ground(symbol.name, _without(given, function.place))
+        subject = ground(symbol.name, function.others(given))
         value = sorts[function.place]
         new = (f"holds({fluent},{NOW})", f"not holds({fluent},{BEFORE})")
-        yield Rule(STEP, f"changed({subject},{NOW})", new)
-        body = _without(sorts, function.place)
+        yield Rule(Part.STEP, f"changed({subject},{NOW})", new)
+        body = function.others(sorts)
         most = f"2 {{ holds({fluent},{NOW}) : {value} }}"
-        yield Rule(STATE, "", (most, *body))
+        yield Rule(Part.STATE, "", (most, *body))
         if function.total:
-            yield Rule(OPEN, f"{{ placed({subject}) }}", tuple(body))
+            yield Rule(Part.OPEN, f"{{ placed({subject}) }}", tuple(body))
             some = f"not 1 {{ holds({fluent},0) : {value} }}"
-            yield Rule(OPEN, "", (f"placed({subject})", some, *body))
+            yield Rule(Part.OPEN, "", (f"placed({subject})", some, *body))
 
     def _gives(self, name: str, arguments: Sequence[str]) -> tuple[str, str] | None:
         """The function that a fluent gives a value, and the fluent, if it is a function's."""
         function = self._functions.get(name)
         if function is None:
             return None
-        return ground(name, _without(arguments, function.place)), ground(name, arguments)
+        return ground(name, function.others(arguments)), ground(name, arguments)
 
     def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
         name = law.head.atom.name
         if self._signature.symbols[name].kind == "static":
-            yield self._rule(BASE, law, term_text(law.head.atom), self._body(law.body, NOW))
+            yield self._rule(Part.BASE, law, law.head.atom, self._body(law.body, NOW))
             return
         for literal in roles.literals(law.body):
             symbol = self._signature.symbols.get(literal.atom.name)
@@ -112,17 +109,17 @@ class _Translation:
                 raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
         function = self._functions.get(name)
         if function is None or excluding_place(law) != function.place:
-            yield self._effect(STATE, law, self._body(law.body, NOW))
+            yield self._effect(Part.STATE, law, self._body(law.body, NOW))
 
     def _effect(
-        self, part: str, law: syntax.CausalLaw | syntax.StateConstraint, body: Iterable[str]
+        self, part: Part, law: syntax.CausalLaw | syntax.StateConstraint, body: Iterable[str]
     ) -> Rule:
         """The rule of a law with a fluent for its head."""
         atom = law.head.atom
         if not law.head.positive:
-            return self._rule(part, law, f"denied({term_text(atom)},{NOW})", body)
+            return self._rule(part, law, f"denied({atom},{NOW})", body)
         gives = self._gives(atom.name, [term.name for term in atom.args])
-        return self._rule(part, law, f"holds({term_text(atom)},{NOW})", body, gives)
+        return self._rule(part, law, f"holds({atom},{NOW})", body, gives)
 
     def _actions(self) -> Iterator[Rule]:
         """Which actions are enabled: by conditions that each allow them, and others that forbid."""
@@ -130,35 +127,35 @@ class _Translation:
         for number, law in enumerate(self._source.each(syntax.ExecutabilityCondition)):
             cases = _allowing(law, self._functions)
             if cases is None:
-                occurs = [f"occurs({term_text(action)},{BEFORE})" for action in law.actions]
-                yield self._rule(STEP, law, "", [*occurs, *self._body(law.body, BEFORE)])
+                occurs = [f"occurs({action},{BEFORE})" for action in law.actions]
+                yield self._rule(Part.STEP, law, "", [*occurs, *self._body(law.body, BEFORE)])
                 continue
             action = law.actions[0]
             numbers.setdefault(action.name, []).append(number)
-            head = f"allowed({number},{term_text(action)},{BEFORE})"
+            head = f"allowed({number},{action},{BEFORE})"
             for case in cases:
-                yield self._rule(STEP, law, head, self._body(case, BEFORE))
+                yield self._rule(Part.STEP, law, head, self._body(case, BEFORE))
         for symbol in self._signature.symbols.values():
             if symbol.kind == "agent":
                 term, _, sorts = schema(symbol)
                 body = [f"allowed({n},{term},{BEFORE})" for n in numbers.get(symbol.name, ())]
                 head = f"enabled({term},{BEFORE})"
-                yield Rule(STEP, head, (*body, *sorts), gives=(ACTION, term))
+                yield Rule(Part.STEP, head, (*body, *sorts), gives=(ACTION, term))
 
     def _body(self, body: Iterable[syntax.Condition], step: str) -> list[str]:
         return [condition(part, self._signature, step, "not ") for part in body]
 
     def _rule(
         self,
-        part: str,
+        part: Part,
         law: syntax.Statement,
-        head: str,
+        head: object,
         body: Iterable[str],
         gives: tuple[str, str] | None = None,
     ) -> Rule:
         """The rule, with the sorts of the law's variables."""
         sorts = sort_conditions(law, self._signature)
-        return Rule(part, head, (*body, *sorts), frozenset(named(law)), gives)
+        return Rule(part, str(head), (*body, *sorts), frozenset(named(law)), gives)
 
 
 def _allowing(
@@ -170,35 +167,31 @@ def _allowing(
     there is one instance, and one of its other conditions has to be false. `functions` are the
     fluents that are such, by name.
     """
-    if len(law.actions) != 1 or not _all_different(law.actions[0]):
+    if len(law.actions) != 1 or not schematic(law.actions[0]):
         return None
     known = {term.name for term in law.actions[0].args}
-    values = [part for part in law.body if _is_value(part, known, functions)]
+    values = {part: v for part in law.body if (v := _value_named(part, known, functions))}
     guards = [part for part in law.body if part not in values]
-    named_values = [_value(part, functions) for part in values]
-    known.update(named_values)
-    if len(set(named_values)) < len(values) or not guards:
+    known.update(values.values())
+    if len(set(values.values())) < len(values) or not guards:
         return None
     if not all(_is_open(guard, known) for guard in guards):
         return None
     return [[*values, _negated(guard)] for guard in guards]
 
 
-def _is_value(part: syntax.Condition, known: set[str], functions: Mapping[str, Function]) -> bool:
-    """Whether a condition only names the value of a total function of what is known."""
+def _value_named(
+    part: syntax.Condition, known: set[str], functions: Mapping[str, Function]
+) -> str | None:
+    """The variable for which a condition only names the value of a total function of the known."""
     if not isinstance(part, syntax.Literal) or not part.positive:
-        return False
+        return None
     function = functions.get(part.atom.name)
     if function is None or not function.total:
-        return False
+        return None
     value = part.atom.args[function.place]
-    others = (term.name for n, term in enumerate(part.atom.args) if n != function.place)
-    return value.is_variable and value.name not in known and known.issuperset(others)
-
-
-def _value(part: syntax.Condition, functions: Mapping[str, Function]) -> str:
-    assert isinstance(part, syntax.Literal)
-    return part.atom.args[functions[part.atom.name].place].name
+    others = {term.name for term in function.others(part.atom.args)}
+    return value.name if value.is_variable and value.name not in known and known >= others else None
 
 
 def _is_open(guard: syntax.Condition, known: set[str]) -> bool:
@@ -215,12 +208,3 @@ def _negated(guard: syntax.Condition) -> syntax.Condition:
     if isinstance(guard, syntax.Comparison):
         return syntax.Comparison(guard.left, guard.right, not guard.equal, guard.place)
     return syntax.Literal(guard.atom, not guard.positive)
-
-
-def _all_different(atom: syntax.Atom) -> bool:
-    names = [term.name for term in atom.args]
-    return all(term.is_variable for term in atom.args) and len(set(names)) == len(names)
-
-
-def _without(items: Sequence[str], place: int) -> list[str]:
-    return [item for number, item in enumerate(items) if number != place]

@@ -13,7 +13,7 @@ from itertools import chain, count
 from asp.language import Signature, analyse, ground, syntax, variable_domains
 from asp.language import variable_sorts as roles
 from asp.solving import theory
-from asp.translation.rules import condition, rule, schema, term_text
+from asp.translation.rules import condition, rule, schema, sorts_of_variables
 
 _HEADER = """\
 % Steps 0 to n; `-c n=K` on clingo's command line sets another horizon.
@@ -28,41 +28,33 @@ def translate(text: str, file: str = "<text>") -> str:
 
 def translate_source(source: syntax.Source, signature: Signature) -> str:
     """The program of a checked description."""
-    writer = _Writer(source)
-    for statement in source.statements:
-        writer.write(statement, _rules(statement, signature))
     theories = theory("transitions").rstrip(), theory("awareness")
-    sections = [_HEADER, writer.text(), _signature_rules(signature), *theories]
+    sections = [_HEADER, _laid_out(source, signature), _signature_rules(signature), *theories]
     return "\n\n".join(section for section in sections if section)
 
 
-class _Writer:
-    """Puts the source's comments back where they stood: above a statement, or behind it."""
+def _laid_out(source: syntax.Source, signature: Signature) -> str:
+    """The rules of the statements, with the comments where they stood: above, or behind."""
+    lines: list[str] = []
+    comments, last = list(source.comments), 0
 
-    def __init__(self, source: syntax.Source) -> None:
-        self._pending = list(source.comments)
-        self._lines: list[str] = []
-        self._last = 0
-
-    def write(self, statement: syntax.Statement, rules: list[str]) -> None:
-        above = self._comments_until(statement.place.line - 1)
-        behind = self._comments_until(statement.last_line)
-        if not rules:
-            return
-        if self._lines and (above or statement.place.line > self._last + 1):
-            self._lines.append("")
-        self._lines += above + rules
-        if behind:
-            self._lines[-1] += "  " + " ".join(behind)
-        self._last = statement.last_line
-
-    def text(self) -> str:
-        return "\n".join(self._lines)
-
-    def _comments_until(self, line: int) -> list[str]:
-        taken = [_comment(c.text) for c in self._pending if c.line <= line]
-        self._pending = [c for c in self._pending if c.line > line]
+    def comments_until(line: int) -> list[str]:
+        number = sum(comment.line <= line for comment in comments)
+        taken = [_comment(comment.text) for comment in comments[:number]]
+        del comments[:number]
         return taken
+
+    for statement in source.statements:
+        above = comments_until(statement.place.line - 1)
+        behind = comments_until(statement.last_line)
+        if rules := _rules(statement, signature):
+            if lines and (above or statement.place.line > last + 1):
+                lines.append("")
+            lines += above + rules
+            if behind:
+                lines[-1] += "  " + " ".join(behind)
+            last = statement.last_line
+    return "\n".join(lines)
 
 
 def _comment(text: str) -> str:
@@ -75,16 +67,16 @@ def _rules(statement: syntax.Statement, signature: Signature) -> list[str]:
     match statement:
         case syntax.SortDefinition(name=name, parts=parts):
             return [_sort_rule(name, part) for part in parts]
-        case syntax.Declaration():
-            return [] if statement.kind == "static" else [_declaration(statement)]
+        case syntax.Declaration(kind=kind) if kind != "static":
+            term, _, sorts = schema(statement)
+            return [rule(f"{kind}{'_action' if kind in roles.ACTIONS else ''}({term})", sorts)]
         case syntax.Fact(literal=literal):
-            return [f"{term_text(literal.atom)}."]
+            return [f"{literal.atom}."]
         case syntax.CausalLaw() | syntax.StateConstraint() | syntax.ExecutabilityCondition():
             return [_law(statement, signature)]
         case syntax.DefaultStatement() | syntax.ExceptionStatement():
             return [_default(statement, signature)]
-        case _:
-            return []
+    return []
 
 
 def _sort_rule(name: str, part: syntax.Term | tuple[syntax.Term, ...]) -> str:
@@ -93,95 +85,55 @@ def _sort_rule(name: str, part: syntax.Term | tuple[syntax.Term, ...]) -> str:
     return f"{name}(X) :- {part.name}(X)."
 
 
-def _declaration(declaration: syntax.Declaration) -> str:
-    predicate = declaration.kind + ("_action" if declaration.kind in roles.ACTIONS else "")
-    term, _, sorts = schema(declaration)
-    return rule(f"{predicate}({term})", sorts)
-
-
-def _law(law: syntax.Statement, signature: Signature) -> str:
-    i = _step_variable(law, signature)
-    sorts = [f"{sort}({v})" for v, sort in _narrowest_sorts(law, signature)]
-    body = [condition(c, signature, i) for c in roles.bodies(law)]
+def _law(
+    law: syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition,
+    signature: Signature,
+) -> str:
+    taken = variable_domains(law, signature)
+    i = next(name for name in chain(["I"], map("I{}".format, count(1))) if name not in taken)
+    body = [condition(part, signature, i) for part in law.body]
+    body += _narrowest_sorts(law, signature)
     match law:
         case syntax.CausalLaw(action=action, head=head):
-            occurs = f"occurs({term_text(action)},{i})"
-            return rule(_holds(head, f"{i}+1"), [occurs, *body, *sorts, f"step({i})", f"{i} < n"])
-        case syntax.StateConstraint(head=head) if _is_static(head, signature):
-            return rule(term_text(head.atom), [*body, *sorts])
+            effect = condition(head, signature, f"{i}+1")
+            return rule(effect, [f"occurs({action},{i})", *body, f"step({i})", f"{i} < n"])
         case syntax.StateConstraint(head=head):
-            return rule(_holds(head, i), [*body, *sorts, f"step({i})"])
+            static = signature.symbols[head.atom.name].kind == "static"
+            return rule(condition(head, signature, i), body if static else [*body, f"step({i})"])
         case syntax.ExecutabilityCondition(actions=(action,)):
-            return rule(f"impossible({term_text(action)},{i})", [*body, *sorts, f"step({i})"])
-        case syntax.ExecutabilityCondition(actions=actions):
-            together = [f"occurs({term_text(action)},{i})" for action in actions]
-            return rule("", [*together, *body, *sorts, f"step({i})"])
-    raise TypeError(f"{type(law).__name__} is not a law")
+            return rule(f"impossible({action},{i})", [*body, f"step({i})"])
+    together = [f"occurs({action},{i})" for action in law.actions]
+    return rule("", [*together, *body, f"step({i})"])
 
 
 def _default(
     statement: syntax.DefaultStatement | syntax.ExceptionStatement, signature: Signature
 ) -> str:
     """default(D,F,B), or that a stated exception to D applies, in the state at step 0."""
-    body = [condition(c, signature, "0") for c in statement.body]
-    body += [f"{sort}({v})" for v, sort in _narrowest_sorts(statement, signature)]
-    if isinstance(statement, syntax.ExceptionStatement):
-        assert statement.of is not None, "the checker has found every default"
-        return rule(f"stated_exception({_default_name(statement.of, signature)})", body)
-    head, truth = statement.head, "true" if statement.head.positive else "false"
-    name = _default_name(statement, signature)
-    return rule(f"default({name},{term_text(head.atom)},{truth})", body)
+    body = [condition(part, signature, "0") for part in statement.body]
+    body += _narrowest_sorts(statement, signature)
+    default = statement.of if isinstance(statement, syntax.ExceptionStatement) else statement
+    assert default is not None, "the checker has found every default"
+    name = ground(default.name, variable_domains(default, signature))
+    if default is not statement:
+        return rule(f"stated_exception({name})", body)
+    truth = "true" if default.head.positive else "false"
+    return rule(f"default({name},{default.head.atom},{truth})", body)
 
 
-def _default_name(default: syntax.DefaultStatement, signature: Signature) -> str:
-    return ground(default.name, variable_domains(default, signature))
-
-
-def _step_variable(law: syntax.Statement, signature: Signature) -> str:
-    """`I`, or where the law has a variable of that name `I1`, `I2`, ..."""
-    taken = variable_domains(law, signature)
-    return next(name for name in chain(["I"], map("I{}".format, count(1))) if name not in taken)
-
-
-def _holds(literal: syntax.Literal, step: str) -> str:
-    return f"{'' if literal.positive else '-'}holds({term_text(literal.atom)},{step})"
-
-
-def _is_static(literal: syntax.Literal, signature: Signature) -> bool:
-    return signature.symbols[literal.atom.name].kind == "static"
-
-
-def _narrowest_sorts(statement: syntax.Statement, signature: Signature) -> list[tuple[str, str]]:
-    """Each variable with the sorts that say what it ranges over, wider ones left out."""
-    found: list[tuple[str, str]] = []
+def _narrowest_sorts(statement: syntax.Statement, signature: Signature) -> list[str]:
+    """`sort(V)` for the variables of a statement, wider sorts of a variable left out."""
+    found: list[str] = []
+    pairs = list(sorts_of_variables(statement, signature))
     for variable in variable_domains(statement, signature):
-        names = list(dict.fromkeys(_sorts_of(variable, statement, signature)))
-        members = {name: set(signature.sorts[name]) for name in names}
+        names = [sort for name, sort in pairs if name == variable]
+        members = [set(signature.sorts[name]) for name in names]
         found += (
-            (variable, name)
-            for number, name in enumerate(names)
-            if not any(
-                members[other] < members[name]
-                or (members[other] == members[name] and names.index(other) < number)
-                for other in names
-                if other != name
-            )
+            f"{name}({variable})"
+            for number, (name, own) in enumerate(zip(names, members, strict=True))
+            if not any(other < own for other in members) and own not in members[:number]
         )
     return found
-
-
-def _sorts_of(variable: str, statement: syntax.Statement, signature: Signature) -> list[str]:
-    return [
-        sort
-        for use in roles.scope(statement)
-        if use.atom.name not in signature.sorts
-        for term, sort in zip(
-            use.atom.args,
-            (s.name for s in signature.symbols[use.atom.name].sorts),
-            strict=True,
-        )
-        if term.name == variable
-    ]
 
 
 def _signature_rules(signature: Signature) -> str:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import NamedTuple
 
 from asp.language import Signature, ground, syntax
 from asp.language import variable_sorts as roles
 
 
-def rule(head: str, body: Iterable[str]) -> str:
+def rule(head: object, body: Iterable[str]) -> str:
     """`head :- body.`, a fact if the body is empty, a constraint if the head is."""
     conditions = ", ".join(body)
     if not conditions:
@@ -18,15 +19,10 @@ def rule(head: str, body: Iterable[str]) -> str:
     return f"{head} :- {conditions}." if head else f":- {conditions}."
 
 
-def term_text(atom: syntax.Atom) -> str:
-    """A fluent, static or action as a term or atom of ASP."""
-    return ground(atom.name, (term.name for term in atom.args))
-
-
 def condition(
     part: syntax.Condition, signature: Signature, step: str = "I", denied: str = "-"
 ) -> str:
-    """A condition of a body: fluents in `holds`, statics and sorts as they stand.
+    """A condition of a body, or a head: fluents in `holds`, statics and sorts as they stand.
 
     `denied` stands before what has to be false: `-`, or `not `.
     """
@@ -35,23 +31,26 @@ def condition(
     sign = "" if part.positive else denied
     name = part.atom.name
     if name in signature.sorts or signature.symbols[name].kind == "static":
-        return sign + term_text(part.atom)
-    return f"{sign}holds({term_text(part.atom)},{step})"
+        return f"{sign}{part.atom}"
+    return f"{sign}holds({part.atom},{step})"
+
+
+def sorts_of_variables(
+    statement: syntax.Statement, signature: Signature
+) -> Iterable[tuple[str, str]]:
+    """The variables of a statement with the sorts of all their places, each pair once."""
+    return dict.fromkeys(
+        (term.name, sort.name)
+        for use in roles.scope(statement)
+        if use.atom.name not in signature.sorts
+        for term, sort in zip(use.atom.args, signature.symbols[use.atom.name].sorts, strict=True)
+        if term.is_variable
+    )
 
 
 def sort_conditions(statement: syntax.Statement, signature: Signature) -> list[str]:
     """`sort(V)` for the variables of a statement, by all the places where they stand, each once."""
-    return list(
-        dict.fromkeys(
-            f"{sort.name}({term.name})"
-            for use in roles.scope(statement)
-            if use.atom.name not in signature.sorts
-            for term, sort in zip(
-                use.atom.args, signature.symbols[use.atom.name].sorts, strict=True
-            )
-            if term.is_variable
-        )
-    )
+    return [f"{sort}({name})" for name, sort in sorts_of_variables(statement, signature)]
 
 
 class Schema(NamedTuple):
@@ -69,7 +68,15 @@ def schema(symbol: syntax.Declaration) -> Schema:
     return Schema(ground(symbol.name, variables), variables, sorts)
 
 
-BASE, OPEN, STATE, STEP = "base", "open", "state(t)", "step(t)"
+class Part(StrEnum):
+    """The parts of a compact program; in OPEN the state at step 0 is chosen."""
+
+    BASE = "base"
+    OPEN = "open"
+    STATE = "state(t)"
+    STEP = "step(t)"
+
+
 BEFORE, NOW = "t-1", "t"
 ACTION = "action"  # as a function: the action that occurs at a step
 
@@ -83,36 +90,34 @@ class Rule:
     enables an action has it for the action, as a value of ACTION.
     """
 
-    part: str
+    part: Part
     head: str
     body: tuple[str, ...]
     constants: frozenset[str] = frozenset()
     gives: tuple[str, str] | None = None
 
+    def plain(self) -> Iterator[str]:
+        """The text of the rule."""
+        yield rule(self.head, self.body)
 
-def plain(law: Rule) -> Iterator[str]:
-    """The text of a rule."""
-    yield rule(law.head, law.body)
+    def confined(self) -> Iterator[str]:
+        """The texts of the rule where functions may be confined at some steps to some values.
 
-
-def confined(law: Rule) -> Iterator[str]:
-    """The texts of a rule where functions may be confined at some steps to some values.
-
-    What would give a fluent's function another value then is a constraint; another action is not
-    enabled. What is chosen at step 0 is given instead. See the part
-    `problem` of `incremental_fine_planning.lp`.
-    """
-    if law.gives is None:
-        if law.part != OPEN:
-            yield from plain(law)
-        return
-    function, value = law.gives
-    if law.part == OPEN:
-        yield rule("", [f"holds({value},0)", f"not given({value})"])
-        return
-    step = BEFORE if function == ACTION else NOW
-    yield rule(law.head, [*law.body, f"not confined({function},{step})"])
-    yield rule(law.head, [*law.body, f"within({value},{step})"])
-    if function != ACTION:
-        confines = f"confined({function},{step})"
-        yield rule("", [*law.body, confines, f"not within({value},{step})"])
+        What would give a fluent's function another value then is a constraint; another action is
+        not enabled. What is chosen at step 0 is given instead. See the part `problem` of
+        `incremental_fine_planning.lp`.
+        """
+        if self.gives is None:
+            if self.part != Part.OPEN:
+                yield from self.plain()
+            return
+        function, value = self.gives
+        if self.part == Part.OPEN:
+            yield rule("", [f"holds({value},0)", f"not given({value})"])
+            return
+        step = BEFORE if function == ACTION else NOW
+        confines, within = f"confined({function},{step})", f"within({value},{step})"
+        yield rule(self.head, [*self.body, f"not {confines}"])
+        yield rule(self.head, [*self.body, within])
+        if function != ACTION:
+            yield rule("", [*self.body, confines, f"not {within}"])

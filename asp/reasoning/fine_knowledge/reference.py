@@ -12,7 +12,7 @@ from asp.language import Signature, arguments, atom, is_positive, narrowed, rest
 from asp.language import variable_sorts as roles
 from asp.refinement import Refinement
 from asp.solving import Recent, fact, first_model, ground, theory
-from asp.translation import condition, rule, schema, sort_conditions, term_text
+from asp.translation import condition, rule, schema, sort_conditions
 
 _REMEMBERED = 64
 
@@ -169,8 +169,7 @@ def _derivations(law: syntax.StateConstraint, signature: Signature) -> Iterator[
 
 
 def _derivation(law: syntax.StateConstraint, signature: Signature) -> str:
-    head = f"{'' if law.head.positive else '-'}holds({term_text(law.head.atom)},I)"
-    body = (condition(part, signature) for part in law.body)
+    head, *body = (condition(part, signature) for part in (law.head, *law.body))
     return rule(head, [*body, *sort_conditions(law, signature), "step(I)"])
 
 
@@ -181,7 +180,7 @@ def _bridges(laws: Laws, signature: Signature) -> Iterator[str]:
         if law.head.atom.name not in others:
             (fluent,) = _fluents(law, signature)
             body = [condition(part, signature) for part in law.body if part is not fluent]
-            head = f"bridge({term_text(law.head.atom)},{term_text(fluent.atom)})"
+            head = f"bridge({law.head.atom},{fluent.atom})"
             yield rule(head, [*body, *sort_conditions(law, signature)])
 
 
@@ -211,11 +210,11 @@ def _static_rules(
         yield f"#defined {symbol}/{len(signature.symbols[symbol].sorts)}."
     for stated in source.each(syntax.Fact):
         if stated.literal.atom.name in named:
-            yield f"{term_text(stated.literal.atom)}."
+            yield f"{stated.literal.atom}."
     for law in constraints:
         if law.head.atom.name in named:
             body = (condition(part, signature) for part in law.body)
-            yield rule(term_text(law.head.atom), [*body, *sort_conditions(law, signature)])
+            yield rule(law.head.atom, [*body, *sort_conditions(law, signature)])
     for symbol in sorted({literal.atom.name for literal in asked if not literal.positive}):
         atom, _, sorts = schema(signature.symbols[symbol])
         yield rule(f"-{atom}", [*sorts, f"not {atom}"])

@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import product
 
 from asp.language import Signature, arguments, ground, renamed, syntax
-from asp.translation import BASE, OPEN, STATE, STEP, Rule, compact, plain
+from asp.translation import Part, Rule, compact
 
 
 class CompactDescription:
@@ -96,15 +96,15 @@ class CompactPart:
         """The compact program."""
         facts = [f"{sort}({member})." for sort, ms in self.sorts.items() for member in ms]
         facts += (f"{fact}." for fact in sorted(self._facts))
-        return "\n".join([self.worded(plain), f"#program {BASE}.", *facts])
+        return "\n".join([self.worded(Rule.plain), f"#program {Part.BASE}.", *facts])
 
     def worded(self, wording: Callable[[Rule], Iterable[str]]) -> str:
         """The rules of the program, without the facts about constants and statics."""
-        parts: dict[str, list[str]] = {BASE: [], OPEN: [], STATE: [], STEP: []}
+        parts: dict[Part, list[str]] = {part: [] for part in Part}
         for rule in self.rules:
             parts[rule.part] += wording(rule)
-        parts[BASE] += (f"#defined {sort}/1." for sort in self.sorts)
+        parts[Part.BASE] += (f"#defined {sort}/1." for sort in self.sorts)
         for symbol in self._whole.signature.symbols.values():
             if symbol.kind == "static":
-                parts[BASE].append(f"#defined {symbol.name}/{len(symbol.sorts)}.")
+                parts[Part.BASE].append(f"#defined {symbol.name}/{len(symbol.sorts)}.")
         return "\n".join(f"#program {part}.\n" + "\n".join(lines) for part, lines in parts.items())

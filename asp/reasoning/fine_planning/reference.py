@@ -21,7 +21,7 @@ from asp.language import (
     syntax,
 )
 from asp.solving import fact, first_model, ground, select, theory
-from asp.translation import term_text, translate_source
+from asp.translation import translate_source
 
 FinePlan = tuple[str, ...]
 """Concrete actions, in order."""
@@ -176,7 +176,7 @@ def _tests(signature: Signature) -> Iterator[str]:
 
 def _changes(source: syntax.Source) -> Iterator[str]:
     for law in source.each(syntax.CausalLaw):
-        action, fluent = term_text(law.action), term_text(law.head.atom)
+        action, fluent = law.action, law.head.atom
         yield f"changes({action},{fluent}) :- agent_action({action}), inertial({fluent})."
 
 

@@ -27,8 +27,7 @@ from asp.reasoning.fine_planning.horizon import MOST_LEVELS, parts, read
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
 from asp.reasoning.fine_planning.large.value_pruning import Valued, Values, confined, valued
 from asp.solving import ground, solving, theory
-from asp.translation import ACTION, BASE, STATE, STEP, Rule
-from asp.translation import confined as worded
+from asp.translation import ACTION, Part, Rule
 
 
 @dataclass(frozen=True)
@@ -52,7 +51,7 @@ class ProblemPrograms:
     ) -> None:
         """With `landmarks` functions are confined."""
         self._confines = landmarks
-        self._rules = part.worded(worded)
+        self._rules = part.worded(Rule.confined)
         self._ranks = {action: rank for rank, action in enumerate(part.actions)}
         self._loose = loose(part.rules, part.sorts)
         self._valued = valued(relaxed, functions)
@@ -71,7 +70,7 @@ class ProblemPrograms:
         left = [dict(self._told(values)) for values in steps]
         playing = self._loose | in_play(reach, self._valued, steps)
         static = (f"{fact}." for fact in self._facts_about(playing))
-        program = "\n".join([self._rules, f"#program {BASE}.", *static])
+        program = "\n".join([self._rules, f"#program {Part.BASE}.", *static])
         given = (*_given(problem, left[0]), *_within(left))
         texts = [program, theory("incremental_fine_planning")]
         control = ground(texts, {"n": length}, given, ["problem"])
@@ -105,7 +104,7 @@ def loose(rules: Iterable[Rule], sorts: Mapping[str, Sequence[str]]) -> frozense
     found: set[str] = set()
     for rule in rules:
         found |= rule.constants
-        if rule.part in (STATE, STEP):
+        if rule.part in (Part.STATE, Part.STEP):
             found.update(*(sorts[sort] for sort in _loose_sorts(rule, sorts)))
     return frozenset(found)
 
