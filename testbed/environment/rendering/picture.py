@@ -1,6 +1,7 @@
 """A scene as a picture: rooms in rows with doors between them, books, robots, and locks.
 
-Of a place of several cells a grid, and in each cell what is there. None of it needs a screen.
+Of a place of several cells a grid, and in each cell what is there. None of it needs a screen. It is
+drawn twice as large and scaled down, for smooth edges: lengths below are those of the large one.
 """
 
 from __future__ import annotations
@@ -8,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 from math import ceil, sqrt
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as Pillow
-from PIL import ImageDraw, ImageFont
+from PIL.ImageDraw import Draw, ImageDraw
 
 from testbed.environment.rendering.scene import Place, Scene
 
@@ -22,30 +23,32 @@ Image: TypeAlias = NDArray[np.uint8]
 
 PAPER, FLOOR, WALL, INK, FAINT = "#ffffff", "#f6f1e7", "#4a4a4a", "#222222", "#777777"
 SHUT, OPEN, BODY, FACE = "#c0392b", "#2e8b57", "#3d6ea5", "#dbe9f6"
+COVERS = ("#b5532a", "#6a8f3c", "#7b5ea7", "#c29a2b", "#3a8f8f", "#a8486f")
 
-_ROOM, _TALL, _EDGE, _FOOT, _PER_ROW = 230, 250, 20, 74, 4
-_STRIP, _HEAD, _INDENT, _SMALL = 10, 13, 8, 8
+_ROOM, _TALL, _EDGE, _FOOT, _PER_ROW = 460, 500, 40, 148, 4
+_STRIP, _HEAD, _INDENT, _SMALL = 20, 26, 16, 16
 
 Box = tuple[float, float, float, float]
-"""Left, top, width, height."""
-
-_COVERS = ("#b5532a", "#6a8f3c", "#7b5ea7", "#c29a2b", "#3a8f8f", "#a8486f")
-_FINER = 2  # drawn so many times larger and scaled down, for smooth edges
+"""Left, top, right, bottom."""
+Covers = Mapping[str, str]
+"""A colour for each thing."""
 
 
 def draw_picture(scene: Scene) -> Image:
     """The picture as an array of shape (height, width, 3)."""
     columns = max(1, min(_PER_ROW, len(scene.places)))
     rows = -(-len(scene.places) // _PER_ROW)
-    pen = Pen(columns * _ROOM + 2 * _EDGE, rows * _TALL + 2 * _EDGE + _FOOT)
-    covers = _covers(scene)
+    width, height = columns * _ROOM + 2 * _EDGE, rows * _TALL + 2 * _EDGE + _FOOT
+    image = Pillow.new("RGB", (width, height), PAPER)
+    draw, covers = Draw(image), _covers(scene)
     for number, place in enumerate(scene.places):
-        _draw_place(pen, place, *_corner(number), covers)
+        _draw_place(draw, place, *_corner(number), covers)
     for number, (left, right) in enumerate(pairwise(scene.places)):
         if right.name in left.next_to and (number + 1) % _PER_ROW:
-            _draw_door(pen, *_corner(number + 1), shut=_locked(left) or _locked(right))
-    _draw_caption(pen, scene, rows * _TALL + 2 * _EDGE)
-    return pen.pixels()
+            shut = any((*left.marks.values(), *right.marks.values()))
+            _draw_door(draw, *_corner(number + 1), shut)
+    _draw_caption(draw, scene, rows * _TALL + 2 * _EDGE)
+    return np.asarray(image.resize((width // 2, height // 2), Pillow.Resampling.LANCZOS))
 
 
 def _corner(number: int) -> tuple[int, int]:
@@ -53,153 +56,119 @@ def _corner(number: int) -> tuple[int, int]:
     return _EDGE + column * _ROOM, _EDGE + row * _TALL
 
 
-def _locked(place: Place) -> bool:
-    return any(place.marks.values())
-
-
-def _covers(scene: Scene) -> dict[str, str]:
-    """A colour for each thing, the same in every picture of a domain."""
+def _covers(scene: Scene) -> Covers:
+    """The same in every picture of a domain."""
     held = [t for p in scene.places for things in p.robots.values() for t in things]
     things = sorted({*held, *(t for p in scene.places for t in p.things)})
-    return {thing: _COVERS[i % len(_COVERS)] for i, thing in enumerate(things)}
+    return {thing: COVERS[i % len(COVERS)] for i, thing in enumerate(things)}
 
 
-def _draw_place(pen: Pen, place: Place, x: int, y: int, covers: dict[str, str]) -> None:
-    pen.box(x, y, _ROOM, _TALL, FLOOR, edge=3, ink=WALL)
-    pen.text(x + _ROOM / 2, y + 22, place.name, 18, INK)
+def _draw_place(draw: ImageDraw, place: Place, x: int, y: int, covers: Covers) -> None:
+    draw.rectangle((x, y, x + _ROOM, y + _TALL), FLOOR, WALL, 6)
+    draw.text((x + _ROOM / 2, y + 44), place.name, INK, anchor="mm", font_size=36)
     for name, true in place.marks.items():
-        _draw_lock(pen, x + _ROOM / 2, y + 52, name if true else f"not {name}", true)
+        _draw_lock(draw, x + _ROOM / 2, y + 104, name if true else f"not {name}", true)
     if place.cells:
-        head = 64 if place.marks else 40
-        _draw_cells(pen, place, (x + 14, y + head, _ROOM - 28, _TALL - head - 12), covers)
+        head = 128 if place.marks else 80
+        _draw_cells(draw, place, (x + 28, y + head, x + _ROOM - 28, y + _TALL - 24), covers)
         return
     for number, (robot, held) in enumerate(place.robots.items()):
-        _draw_robot(pen, x + 62 + 80 * number, y + 118, robot, held, covers)
+        _draw_robot(draw, x + 124 + 160 * number, y + 236, robot, held, covers)
     for number, thing in enumerate(place.things):
         row, column = divmod(number, 3)
         from_left = 2 - column if row else column  # a second layer grows away from the robots
-        _draw_book(pen, x + 18 + 68 * from_left, y + 202 - 44 * row, thing, covers)
+        _draw_book(draw, x + 36 + 136 * from_left, y + 404 - 88 * row, thing, covers)
 
 
-def _draw_door(pen: Pen, x: int, y: int, shut: bool) -> None:
+def _draw_door(draw: ImageDraw, x: int, y: int, shut: bool) -> None:
     """A door in the wall on the left of a place: a gap, barred if one of its sides is locked."""
-    pen.box(x - 4, y + 92, 8, 72, SHUT if shut else FLOOR, ink=SHUT if shut else FLOOR)
-    for edge in (92, 164):
-        pen.line(x - 10, y + edge, x + 10, y + edge, WALL, 3)
+    draw.rectangle((x - 8, y + 184, x + 8, y + 328), SHUT if shut else FLOOR)
+    for edge in (184, 328):
+        draw.line((x - 20, y + edge, x + 20, y + edge), WALL, 6)
 
 
-def _draw_lock(pen: Pen, x: float, y: float, words: str, shut: bool) -> None:
+def _draw_lock(draw: ImageDraw, x: float, y: float, words: str, shut: bool) -> None:
     colour = SHUT if shut else OPEN
-    lift, aside = (0, 0) if shut else (3, 8)
-    pen.arc(x - 44 + aside, y - 5 - lift, 6, colour, 3)
-    pen.box(x - 53, y - 4, 18, 14, colour, radius=2, ink=colour)
-    pen.text(x - 24, y + 3, words, 14, colour, "lm")
+    lift, aside = (0, 0) if shut else (6, 16)
+    left, top = x - 100 + aside, y - 22 - lift
+    draw.arc((left, top, left + 24, top + 24), 180, 360, colour, 6)
+    draw.rounded_rectangle((x - 106, y - 8, x - 70, y + 20), 4, colour)
+    draw.text((x - 48, y + 6), words, colour, anchor="lm", font_size=28)
 
 
 def _draw_robot(
-    pen: Pen, x: float, y: float, name: str, held: tuple[str, ...], covers: dict[str, str]
+    draw: ImageDraw, x: float, y: float, name: str, held: tuple[str, ...], covers: Covers
 ) -> None:
-    pen.line(x, y - 34, x, y - 24, BODY, 3)
-    pen.dot(x, y - 36, 4, SHUT)
-    pen.box(x - 20, y - 26, 40, 28, FACE, radius=8, edge=3, ink=BODY)
-    pen.dot(x - 8, y - 12, 4, INK)
-    pen.dot(x + 8, y - 12, 4, INK)
-    pen.box(x - 26, y + 6, 52, 44, BODY, radius=8, ink=BODY)
-    pen.text(x, y + 28, name, 14, PAPER)
-    pen.dot(x - 14, y + 56, 7, WALL)
-    pen.dot(x + 14, y + 56, 7, WALL)
-    pen.line(x + 24, y + 18, x + 52, y + 6, BODY, 6)
-    pen.dot(x + 53, y + 5, 6, BODY)
+    draw.line((x, y - 68, x, y - 48), BODY, 6)
+    draw.circle((x, y - 72), 8, SHUT)
+    draw.rounded_rectangle((x - 40, y - 52, x + 40, y + 4), 16, FACE, BODY, 6)
+    draw.rounded_rectangle((x - 52, y + 12, x + 52, y + 100), 16, BODY)
+    draw.text((x, y + 56), name, PAPER, anchor="mm", font_size=28)
+    for side in (-1, 1):
+        draw.circle((x + 16 * side, y - 24), 8, INK)
+        draw.circle((x + 28 * side, y + 112), 14, WALL)
+    draw.line((x + 48, y + 36, x + 104, y + 12), BODY, 12)
+    draw.circle((x + 106, y + 10), 12, BODY)
     for number, thing in enumerate(held):
-        _draw_book(pen, x + 46, y - 32 - 40 * number, thing, covers)
+        _draw_book(draw, x + 92, y - 64 - 80 * number, thing, covers)
 
 
-def _draw_book(pen: Pen, x: float, y: float, name: str, covers: dict[str, str]) -> None:
-    pen.box(x, y, 60, 34, covers[name], radius=3, ink=covers[name])
-    pen.box(x + 5, y + 28, 52, 4, PAPER, ink=PAPER)
-    pen.line(x + 6, y, x + 6, y + 28, PAPER, 1)
-    pen.text(x + 33, y + 14, name, 13, PAPER)
+def _draw_book(draw: ImageDraw, x: float, y: float, name: str, covers: Covers) -> None:
+    draw.rounded_rectangle((x, y, x + 120, y + 68), 6, covers[name])
+    draw.rectangle((x + 10, y + 56, x + 114, y + 64), PAPER)
+    draw.line((x + 12, y, x + 12, y + 56), PAPER, 2)
+    draw.text((x + 66, y + 28), name, PAPER, anchor="mm", font_size=26)
 
 
-def _draw_caption(pen: Pen, scene: Scene, y: float) -> None:
-    pen.text(_EDGE, y + 8, f"step {scene.step}", 18, INK, "lm")
-    pen.text(_EDGE + 110, y + 8, scene.outcome.replace("_", " "), 18, SHUT, "lm")
-    before = f"robot: {scene.robot or '-'}     adversary: {scene.adversary or '-'}"
-    pen.text(_EDGE, y + 36, f"just now    {before}", 15, FAINT, "lm")
-    if scene.rest:
-        pen.text(_EDGE, y + 58, f"also true: {', '.join(scene.rest)}", 15, FAINT, "lm")
+def _draw_caption(draw: ImageDraw, scene: Scene, y: float) -> None:
+    before = f"just now    robot: {scene.robot or '-'}     adversary: {scene.adversary or '-'}"
+    rest = f"also true: {', '.join(scene.rest)}" if scene.rest else ""
+    outcome = scene.outcome.replace("_", " ")
+    for left, down, words, ink, size in (
+        (0, 16, f"step {scene.step}", INK, 36),
+        (220, 16, outcome, SHUT, 36),
+        (0, 72, before, FAINT, 30),
+        (0, 116, rest, FAINT, 30),
+    ):
+        draw.text((_EDGE + left, y + down), words, ink, anchor="lm", font_size=size)
 
 
-def _draw_cells(pen: Pen, place: Place, box: Box, covers: Mapping[str, str]) -> None:
+def _draw_cells(draw: ImageDraw, place: Place, box: Box, covers: Covers) -> None:
     """The cells row by row in their order, in as many columns as rows or one more.
 
     The order is that of the description: it does not say how cells lie to each other.
     """
-    left, top, width, height = box
+    left, top, right, bottom = box
     columns = ceil(sqrt(len(place.cells)))
-    rows = ceil(len(place.cells) / columns)
-    wide, tall = width / columns, height / rows
+    wide = (right - left) / columns
+    tall = (bottom - top) / ceil(len(place.cells) / columns)
     for number, cell in enumerate(place.cells):
         row, column = divmod(number, columns)
-        _draw_cell(pen, place, cell, (left + column * wide, top + row * tall, wide, tall), covers)
+        x, y = left + column * wide, top + row * tall
+        _draw_cell(draw, place, cell, (x, y, x + wide, y + tall), covers)
 
 
-def _draw_cell(pen: Pen, place: Place, cell: str, box: Box, covers: Mapping[str, str]) -> None:
-    left, top, width, height = box
-    pen.box(left, top, width, height, PAPER, edge=1, ink=WALL)
+def _draw_cell(draw: ImageDraw, place: Place, cell: str, box: Box, covers: Covers) -> None:
+    left, top, right, bottom = box
+    draw.rectangle(box, PAPER, WALL, 2)
     label = cell.removeprefix(place.name).lstrip("_") or cell
-    pen.text(left + 4, top + 7, label, _SMALL, FAINT, "lm")
+    draw.text((left + 8, top + 14), label, FAINT, anchor="lm", font_size=_SMALL)
     strips = _strips(place, cell, covers)
-    fit = max(1, int((height - _HEAD) // (_STRIP + 1)))
+    fit = max(1, int((bottom - top - _HEAD) // (_STRIP + 2)))
     if len(strips) > fit:
         strips = [*strips[: fit - 1], (f"and {len(strips) - fit + 1} more", FAINT, 0)]
     for number, (name, colour, indent) in enumerate(strips):
-        y = top + _HEAD + number * (_STRIP + 1)
-        _draw_strip(pen, (left + 3 + indent, y, width - 6 - indent, _STRIP), name, colour)
+        x, y = left + 6 + indent, top + _HEAD + number * (_STRIP + 2)
+        draw.rounded_rectangle((x, y, right - 6, y + _STRIP), 6, colour)
+        middle = ((x + right - 6) / 2, y + _STRIP / 2)
+        draw.text(middle, name, PAPER, anchor="mm", font_size=_SMALL)
 
 
-def _strips(place: Place, cell: str, covers: Mapping[str, str]) -> list[tuple[str, str, int]]:
+def _strips(place: Place, cell: str, covers: Covers) -> list[tuple[str, str, int]]:
     """What is in a cell, with colours; what a robot holds stands under it, indented."""
-    robots = {robot: held for robot, held in place.robots.items() if place.spots[robot] == cell}
-    lying = [(thing, covers[thing], 0) for thing in place.things if place.spots[thing] == cell]
-    held = {robot: [(t, covers[t], _INDENT) for t in things] for robot, things in robots.items()}
-    return [*(s for robot in robots for s in ((robot, BODY, 0), *held[robot])), *lying]
-
-
-def _draw_strip(pen: Pen, box: Box, name: str, colour: str) -> None:
-    left, top, width, height = box
-    pen.box(left, top, width, height, colour, radius=3, ink=colour)
-    pen.text(left + width / 2, top + height / 2, name, _SMALL, PAPER)
-
-
-class Pen:
-    """Draws in the picture's own pixels on the finer canvas."""
-
-    def __init__(self, width: int, height: int) -> None:
-        self._size = (width, height)
-        self._image = Pillow.new("RGB", (width * _FINER, height * _FINER), PAPER)
-        self._draw = ImageDraw.Draw(self._image)
-
-    def box(self, x: float, y: float, wide: float, tall: float, fill: str, **more: Any) -> None:
-        corners = [v * _FINER for v in (x, y, x + wide, y + tall)]
-        radius, edge = more.get("radius", 0) * _FINER, more.get("edge", 0) * _FINER
-        self._draw.rounded_rectangle(corners, radius, fill, more.get("ink", INK), edge)
-
-    def dot(self, x: float, y: float, radius: float, fill: str) -> None:
-        box = [v * _FINER for v in (x - radius, y - radius, x + radius, y + radius)]
-        self._draw.ellipse(box, fill)
-
-    def line(self, x: float, y: float, x2: float, y2: float, ink: str, wide: int) -> None:
-        self._draw.line([v * _FINER for v in (x, y, x2, y2)], ink, wide * _FINER)
-
-    def arc(self, x: float, y: float, radius: float, ink: str, wide: int) -> None:
-        box = [v * _FINER for v in (x - radius, y - radius, x + radius, y + radius)]
-        self._draw.arc(box, 180, 360, ink, wide * _FINER)
-
-    def text(self, x: float, y: float, words: str, size: int, ink: str, anchor: str = "mm") -> None:
-        font = ImageFont.load_default(size * _FINER)
-        self._draw.text((x * _FINER, y * _FINER), words, ink, font, anchor)
-
-    def pixels(self) -> Image:
-        small = self._image.resize(self._size, Pillow.Resampling.LANCZOS)
-        return np.asarray(small, dtype=np.uint8)
+    strips = []
+    for robot, held in place.robots.items():
+        if place.spots[robot] == cell:
+            strips += [(robot, BODY, 0), *((thing, covers[thing], _INDENT) for thing in held)]
+    lying = [thing for thing in place.things if place.spots[thing] == cell]
+    return strips + [(thing, covers[thing], 0) for thing in lying]
