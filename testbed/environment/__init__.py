@@ -3,19 +3,23 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from testbed.environment.agents import ADVERSARY, ROBOT, rewards
-from testbed.environment.core import Core, Draw
-from testbed.environment.errors import (
+from testbed.environment.core import Core
+from testbed.environment.execution import Execution
+from testbed.environment.fine import Pace, RandomGoal, RandomStart, fine_core
+from testbed.environment.legality import FINISH, NONE, WAIT
+from testbed.environment.rules import (
+    ADVERSARY,
+    ROBOT,
+    Ending,
     IllegalActionError,
+    Mode,
     NotResetError,
+    Observability,
+    Rules,
     UnknownAgentError,
     UnknownOptionError,
+    rewards,
 )
-from testbed.environment.execution import Execution, Pace, Statistics
-from testbed.environment.fine import fine_core
-from testbed.environment.legality import FINISH, NONE, WAIT
-from testbed.environment.random_start import RandomGoal, RandomStart
-from testbed.environment.rules import Ending, Mode, Observability, Rules
 
 if TYPE_CHECKING:
     from testbed.environment.aec import AECView, OrderedView
@@ -29,7 +33,6 @@ __all__ = [
     "WAIT",
     "AECView",
     "Core",
-    "Draw",
     "Ending",
     "Execution",
     "IllegalActionError",
@@ -42,7 +45,6 @@ __all__ = [
     "RandomGoal",
     "RandomStart",
     "Rules",
-    "Statistics",
     "UnknownAgentError",
     "UnknownOptionError",
     "fine_core",

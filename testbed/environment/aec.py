@@ -9,11 +9,17 @@ from typing import Any
 from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
-from testbed.environment.agents import ADVERSARY, ROBOT, listed, name_of, rewards
 from testbed.environment.core import Core
-from testbed.environment.errors import IllegalActionError
 from testbed.environment.observation import Observation, infos, observe
-from testbed.environment.rules import Snapshot
+from testbed.environment.rules import (
+    ADVERSARY,
+    ROBOT,
+    IllegalActionError,
+    Snapshot,
+    listed,
+    name_of,
+    rewards,
+)
 from testbed.environment.view import View
 
 _TURN = (

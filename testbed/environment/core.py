@@ -6,18 +6,23 @@ nothing in the world, so that a game begins at step 1, at which the robot gives 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
 import numpy as np
 
 from asp.language import Literal
-from testbed.environment.errors import IllegalActionError, NotResetError
-from testbed.environment.execution import Execution
-from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality, Moment
-from testbed.environment.news import News, Played
-from testbed.environment.rules import Ending, Rules, Situation, Snapshot
-from testbed.protocol import Event, Percept
+from testbed.environment.execution import Execution, Played
+from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality
+from testbed.environment.rules import (
+    Ending,
+    IllegalActionError,
+    NotResetError,
+    Rules,
+    Situation,
+    Snapshot,
+)
+from testbed.protocol import Percept
 from testbed.world import World
 
 Draw: TypeAlias = Callable[[np.random.Generator], int]
@@ -49,18 +54,12 @@ class Core:
         self.draw_goal = draw_goal
         self.execution = execution or Execution(world, world.description.robots[0])
         self.robot = self.execution.robot
-        self._legality = Legality(world, self.execution)
-        self._news_desk = News(world, self.execution)
+        self._legality = Legality(self.execution, rules.exogenous_while_thinking)
         self.robot_actions = (WAIT, FINISH, *self.execution.actions)
         self.adversary_actions = (NONE, *world.exogenous_actions)
-        self._random: np.random.Generator | None = None
+        self._random = np.random.default_rng()
         self._situation: Situation | None = None
         self._listed: tuple[tuple[Situation, str | None], tuple[str, ...]] | None = None
-
-    @property
-    def begun(self) -> bool:
-        """Whether there is, or was, a game."""
-        return self._situation is not None
 
     @property
     def situation(self) -> Situation:
@@ -80,20 +79,23 @@ class Core:
 
         Without a seed the generator goes on where it was. Raises StateError.
         """
-        if seed is not None or self._random is None:
+        if seed is not None:
             self._random = np.random.default_rng(seed)
-        state = self._begin() if initial is None else self.world.state(initial)
+        if initial is not None:
+            state = self.world.state(initial)
+        elif callable(self.initial):
+            state = self.initial(self._random)
+        else:
+            state = self._draw(self.initial)
         goal = self.draw_goal(state, self._random) if self.draw_goal else self.rules.goal
         self.situation = Situation(trial=trial, step=1, state=state, goal=goal)
 
     def snapshot(self) -> Snapshot:
         """What `restore` needs to play on from here, as often as wanted, in the same way."""
-        return Snapshot(self.situation, self._generator.bit_generator.state)
+        return Snapshot(self.situation, self._random.bit_generator.state)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Goes back to where the snapshot was taken, in this or an equal core."""
-        if self._random is None:
-            self._random = np.random.default_rng(0)
         self.situation = snapshot.situation
         self._random.bit_generator.state = snapshot.generator
 
@@ -138,7 +140,7 @@ class Core:
 
     def legal(self, robot_action: str | None, event: str) -> bool:
         """Whether `event` is among `events(robot_action)`."""
-        return self._legality.allows(self._moment(robot_action), event)
+        return self._legality.allows(self.situation.state, robot_action, event)
 
     def is_physical(self, robot_action: str) -> bool:
         """Whether an action of the robot is to change the world: neither mental nor a test."""
@@ -146,7 +148,7 @@ class Core:
 
     def why_not(self, robot_action: str, event: str) -> str | None:
         """One line that says why the event is impossible beside the robot's action; else None."""
-        return self._legality.why_not(self._moment(robot_action), event)
+        return self._legality.why_not(self.situation.state, robot_action, event)
 
     def advance(self, robot_action: str, event: str = NONE) -> None:
         """Plays a step: both actions at once. An attempt at the impossible changes nothing.
@@ -155,83 +157,57 @@ class Core:
         no such action, or the event is not one of `events(robot_action)`.
         """
         self._check(robot_action, event)
+        now, execution = self.situation, self.execution
         happened = self._takes_effect(robot_action)
-        effective = self.execution.physical(robot_action) if happened else ()
-        state = self._outcome(effective, event)
-        sensed = self._sensed(robot_action, state) if happened else ()
-        step = self.situation.step + 1
-        news = (*self.situation.pending, *self._news(robot_action, effective, event, state))
+        effective = execution.physical(robot_action) if happened else ()
+        compound = effective if event == NONE else (*effective, event)
+        state = self._draw(self.world.successors(now.state, compound))
+        played = Played(
+            execution=execution,
+            step=now.step,
+            before=now.state,
+            effective=effective,
+            event=None if event == NONE else event,
+            after=state,
+            possible=lambda other: self.legal(robot_action, other),
+        )
+        sensed = execution.sensed(robot_action, state, self._random) if happened else ()
+        news = (*now.pending, *played.reports(self.rules.observability, self._random))
         self.situation = Situation(
-            trial=self.situation.trial,
-            step=step,
+            trial=now.trial,
+            step=now.step + 1,
             state=state,
-            goal=self.situation.goal,
+            goal=now.goal,
             answer=robot_action,
             happened=None if robot_action in (WAIT, FINISH) else happened,
             event=event,
             sensed=sensed,
-            told=tuple(report for due, report in news if due <= step),
-            pending=tuple((due, report) for due, report in news if due > step),
+            told=tuple(report for due, report in news if due <= now.step + 1),
+            pending=tuple((due, report) for due, report in news if due > now.step + 1),
             goal_holds=False if self._answers(robot_action) else None,
             ending=self._ending(robot_action),
         )
 
-    @property
-    def _generator(self) -> np.random.Generator:
-        if self._random is None:
-            raise NotResetError
-        return self._random
-
-    def _begin(self) -> int:
-        return self.initial(self._generator) if callable(self.initial) else self._draw(self.initial)
-
     def _draw(self, states: Sequence[int]) -> int:
-        if len(states) == 1:
-            return states[0]
-        return states[int(self._generator.integers(len(states)))]
+        return states[int(self._random.integers(len(states)))] if len(states) > 1 else states[0]
 
     def _check(self, robot_action: str, event: str) -> None:
         if self.situation.ending is not None:
             raise IllegalActionError(f"the game is over: {self.situation.ending}")
         if robot_action not in self.robot_actions:
             raise IllegalActionError(f"{robot_action} is not an action of the robot")
-        if event != NONE and event not in self.world.exogenous_actions:
+        if event not in self.adversary_actions:
             raise IllegalActionError(f"{event} is not an action of the adversary")
         reason = self.why_not(robot_action, event)
         if reason is not None:
             step = self.situation.step
             raise IllegalActionError(f"step {step}: {event} beside {robot_action}: {reason}")
 
-    def _moment(self, robot_action: str | None) -> Moment:
-        thinking = self.rules.exogenous_while_thinking
-        return Moment(self.situation.state, robot_action, thinking)
-
     def _takes_effect(self, robot_action: str) -> bool:
-        if not self._legality.possible(self._moment(robot_action)):
+        if not self._legality.possible(self.situation.state, robot_action):
             return False
         chance = self.execution.chance(robot_action)
-        return chance >= 1 or bool(self._generator.random() < chance)
-
-    def _sensed(self, robot_action: str, after: int) -> tuple[str, ...]:
-        return self.execution.sensed(robot_action, after, self._generator)
-
-    def _outcome(self, effective: tuple[str, ...], event: str) -> int:
-        compound = effective if event == NONE else (*effective, event)
-        return self._draw(self.world.successors(self.situation.state, compound))
-
-    def _news(
-        self, robot_action: str, effective: tuple[str, ...], event: str, after: int
-    ) -> Iterator[tuple[int, Event]]:
-        """Reports of this step with the steps at which they reach the robot."""
-        played = Played(
-            step=self.situation.step,
-            before=self.situation.state,
-            effective=effective,
-            event=None if event == NONE else event,
-            after=after,
-            possible=lambda other: self.legal(robot_action, other),
-        )
-        return self._news_desk.reports(played, self.rules.observability, self._generator)
+        return chance >= 1 or bool(self._random.random() < chance)
 
     def _answers(self, robot_action: str) -> bool:
         """Whether this is a wrong `finish` to which the game goes on."""

@@ -1,129 +1,105 @@
-"""How a robot's attempts come out, and what the robot perceives of it."""
+"""How a robot's attempts come out, what it perceives of the world, and what it is told."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from typing import Literal
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
-from asp.language import Action
+from asp.language import Action, Literal
 from asp.language import literals as text
+from testbed.environment.rules import Observability
+from testbed.protocol import Event
 from testbed.world import Sensing, World
 
 Statistics = Mapping[str, float]
 """By the name of an action: the probability with which it takes effect; by that of a test: the
 probability with which its answer is right. 1 where nothing is said."""
-
-Pace = Literal["concrete", "abstract"]
-"""When exogenous actions may happen: at each step, or only beside an action of the robot that
-changes what holds at the coarse resolution."""
+CERTAIN: Statistics = {}
+"""A deterministic world with right tests."""
 
 
 class Execution:
-    """The robot's side of a game, in which what is possible takes effect.
+    """The robot's side of a game; `actions` are the robot's besides `wait` and `finish`.
 
-    `actions` are the robot's besides `wait` and `finish`.
-    """
-
-    def __init__(self, world: World, robot: str) -> None:
-        self._world = world
-        self.robot = robot
-        self.actions: tuple[Action, ...] = world.agent_actions
-
-    def possible(self, state: int, action: str) -> bool:
-        """Whether an attempt can come to anything in the state."""
-        return self._world.executable(state, (action,))
-
-    def physical(self, action: str) -> tuple[str, ...]:
-        """What the action contributes to the compound action: itself, or nothing if it looks."""
-        return (action,)
-
-    def chance(self, _action: str) -> float:
-        """The probability with which a possible action takes effect."""
-        return 1.0
-
-    def sensed(self, _action: str, _after: int, _random: np.random.Generator) -> tuple[str, ...]:
-        """What an action that took effect shows of the state after it, perhaps wrongly."""
-        return ()
-
-    def visible(self, state: int) -> tuple[str, ...]:
-        """The literals that the robot sees whatever it does."""
-        return self._world.visible(state, self.robot)
-
-    def notices(self, state: int, fluents: frozenset[str]) -> bool:
-        """Whether the robot is where it could tell whether one of the fluents holds."""
-        return not fluents.isdisjoint(map(text.atom, self.visible(state)))
-
-    def closed_to_events(self, _state: int, _action: str) -> str | None:
-        """Why nothing exogenous happens beside the action, if so."""
-        return None
-
-
-class UncertainExecution(Execution):
-    """Actions that may fail, and tests that may be wrong (P 3.3).
-
-    What holds after an action has to be tested: the robot sees only whether it took effect. A test
-    of something about the robot itself is always right. `coarse` are the names of the fluents of
-    the coarse resolution. Raises ValueError for statistics that are none.
+    By `statistics` what is possible may fail to take effect, and the tests of `sensing` may be
+    wrong (P 3.3); one of something about the robot itself is always right. With `coarse`, names of
+    fluents, exogenous actions happen only beside an action of the robot that changes one of these.
+    Raises ValueError for statistics that are none.
     """
 
     def __init__(
         self,
         world: World,
-        sensing: Sensing,
         robot: str,
-        statistics: Statistics,
-        coarse: Collection[str],
-        pace: Pace = "concrete",
+        sensing: Sensing | None = None,
+        statistics: Statistics = CERTAIN,
+        coarse: Collection[str] | None = None,
     ) -> None:
-        super().__init__(world, robot)
+        self.world = world
+        self.robot = robot
         self._sensing = sensing
-        self.actions = (*world.agent_actions, *sensing.actions)
-        _check(statistics, {*map(text.name, world.agent_actions), *sensing.names})
         self._statistics = statistics
-        self._paced = pace == "abstract"
-        names = [text.name(fluent) in coarse for fluent in world.fluents]
-        self._coarse = sum(1 << number for number, is_coarse in enumerate(names) if is_coarse)
+        self._tests = sensing.names if sensing else frozenset[str]()
+        self.actions: tuple[Action, ...] = world.agent_actions
+        if sensing:
+            self.actions += sensing.actions
+        _check(statistics, {*map(text.name, world.agent_actions), *self._tests})
+        if coarse is None:
+            self._coarse = None
+        else:
+            are_coarse = enumerate(text.name(fluent) in coarse for fluent in world.fluents)
+            self._coarse = sum(is_coarse << number for number, is_coarse in are_coarse)
 
     def possible(self, state: int, action: str) -> bool:
-        if text.name(action) in self._sensing.names:
+        """Whether an attempt can come to anything in the state."""
+        if self._sensing and not self.physical(action):
             return self._sensing.can(state, action)
-        return super().possible(state, action)
+        return self.world.executable(state, (action,))
 
     def physical(self, action: str) -> tuple[str, ...]:
-        return () if text.name(action) in self._sensing.names else (action,)
+        """What the action contributes to the compound action: itself, or nothing if it looks."""
+        return () if text.name(action) in self._tests else (action,)
 
     def chance(self, action: str) -> float:
-        physical = self.physical(action)
-        return self._statistics.get(text.name(action), 1.0) if physical else 1.0
+        """The probability with which a possible action takes effect."""
+        return self._statistics.get(text.name(action), 1.0) if self.physical(action) else 1.0
 
     def sensed(self, action: str, after: int, random: np.random.Generator) -> tuple[str, ...]:
-        if self.physical(action):
+        """What an action that took effect shows of the state after it, perhaps wrongly."""
+        if not self._sensing or self.physical(action):
             return ()
         fluent = self._sensing.fluent(action)
         right = 1.0
         if self.robot not in text.arguments(fluent):
             right = self._statistics.get(text.name(action), 1.0)
-        holds = self._world.satisfies(after, (fluent,))
+        holds = self.world.holds(after, fluent)
         if right < 1 and random.random() >= right:
             holds = not holds
         return (fluent if holds else text.complement(fluent),)
 
+    def visible(self, state: int) -> tuple[str, ...]:
+        """The literals that the robot sees whatever it does."""
+        return self.world.visible(state, self.robot)
+
     def notices(self, state: int, fluents: frozenset[str]) -> bool:
-        tests = (self._sensing.test_of(self.robot, fluent) for fluent in fluents)
-        if any(test is not None and self._sensing.can(state, test) for test in tests):
-            return True
-        return super().notices(state, fluents)
+        """Whether the robot is where it could tell whether one of the fluents holds."""
+        if self._sensing:
+            tests = (self._sensing.test_of(self.robot, fluent) for fluent in fluents)
+            if any(test is not None and self._sensing.can(state, test) for test in tests):
+                return True
+        return not fluents.isdisjoint(map(text.atom, self.visible(state)))
 
     def closed_to_events(self, state: int, action: str) -> str | None:
-        if not self._paced or self._changes_the_coarse(state, action):
+        """Why nothing exogenous happens beside the action, if so."""
+        if self._coarse is None:
+            return None
+        after = self.world.successors(state, self.physical(action))
+        if any((state ^ other) & self._coarse for other in after):
             return None
         return f"nothing exogenous happens beside {action}, which changes nothing coarse (pace)"
-
-    def _changes_the_coarse(self, state: int, action: str) -> bool:
-        after = self._world.successors(state, self.physical(action))
-        return any((state ^ other) & self._coarse for other in after)
 
 
 def _check(statistics: Statistics, names: Collection[str]) -> None:
@@ -133,3 +109,53 @@ def _check(statistics: Statistics, names: Collection[str]) -> None:
             raise ValueError(f"statistics: the robot has no action {name}; there are {known}")
         if not 0 <= probability <= 1:
             raise ValueError(f"statistics: {name}: {probability} does not lie between 0 and 1")
+
+
+@dataclass(frozen=True)
+class Played:
+    """A step as it was played: the robot's part of the compound action, and the event, if any.
+
+    `possible` says whether an event might have been instead.
+    """
+
+    execution: Execution
+    step: int
+    before: int
+    effective: tuple[str, ...]
+    event: str | None
+    after: int
+    possible: Callable[[str], bool]
+
+    def reports(
+        self, rules: Mapping[str, Observability], random: np.random.Generator
+    ) -> Iterator[tuple[int, Event]]:
+        """What the robot is told of the step, truly and falsely, each with the step at which."""
+        told = [self.event] if self.event and self._is_told(self.event, rules, random) else []
+        for action in (*told, *self._false_reports(rules, random)):
+            late = rules[text.name(action)].delay
+            yield self.step + 1 + late, Event(step=self.step, action=Literal.parse(action))
+
+    def _is_told(
+        self, event: str, rules: Mapping[str, Observability], random: np.random.Generator
+    ) -> bool:
+        how = rules.get(text.name(event), Observability())
+        if how.mode == "never" or (how.mode == "colocated" and not self._witnessed()):
+            return False
+        return bool(random.random() < how.probability)
+
+    def _witnessed(self) -> bool:
+        """Whether the robot can tell, before or after, what is as it is because of the event."""
+        world = self.execution.world
+        alone = world.successors(self.before, self.effective)
+        changed = frozenset(world.true_atoms(self.after ^ (*alone, self.before)[0]))
+        return any(self.execution.notices(s, changed) for s in (self.before, self.after))
+
+    def _false_reports(
+        self, rules: Mapping[str, Observability], random: np.random.Generator
+    ) -> Iterator[str]:
+        for name, how in rules.items():
+            if how.false_reports > 0.0 and random.random() < how.false_reports:
+                events = self.execution.world.exogenous_actions
+                others = [e for e in events if text.name(e) == name and e != self.event]
+                drawn = (others[int(number)] for number in random.permutation(len(others)))
+                yield from islice(filter(self.possible, drawn), 1)

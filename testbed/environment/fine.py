@@ -1,24 +1,29 @@
-"""A game at the fine resolution, made of a refinement."""
+"""A game at the fine resolution, made of a refinement, and its random beginnings."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import product
+from typing import Literal
 
+import numpy as np
+
+from asp.language import literals as text
 from asp.refinement import Refinement
 from testbed.environment.core import Core, DrawGoal
-from testbed.environment.execution import Pace, Statistics, UncertainExecution
-from testbed.environment.random_start import RandomStart
+from testbed.environment.execution import CERTAIN, Execution, Statistics
 from testbed.environment.rules import Rules
-from testbed.world import sensing_of, world_of
+from testbed.world import World, sensing_of, world_of
 
-STATISTICS: Statistics = {}
-"""A deterministic world with right tests."""
+Pace = Literal["concrete", "abstract"]
+"""When exogenous actions may happen: at each step, or only beside an action of the robot that
+changes what holds at the coarse resolution."""
 
 
 def fine_core(
     refinement: Refinement,
     rules: Rules,
-    statistics: Mapping[str, float] = STATISTICS,
+    statistics: Statistics = CERTAIN,
     pace: Pace = "concrete",
     initial: Sequence[int] | None = None,
     draw_goal: DrawGoal | None = None,
@@ -32,7 +37,73 @@ def fine_core(
     """
     world = world_of(refinement)
     robot = refinement.description.robots[0]
-    coarse = refinement.coarse_signature.symbols.keys()
-    execution = UncertainExecution(world, sensing_of(refinement), robot, statistics, coarse, pace)
+    coarse = refinement.coarse_signature.symbols if pace == "abstract" else None
+    execution = Execution(world, robot, sensing_of(refinement), statistics, coarse)
     starts = RandomStart(world, robot, holding) if initial is None else initial
     return Core(world, rules, starts, execution, draw_goal)
+
+
+class RandomStart:
+    """Draws an initial state: a value for each thing that must have one, as `initially` says.
+
+    With probability `holding` the robot stands in a relation, such as holding, to one of the things
+    that must be somewhere. What follows from that is not drawn again.
+    """
+
+    def __init__(self, world: World, robot: str, holding: float = 0.2) -> None:
+        self._world = world
+        self._holding = holding
+        self._groups = groups = world.description.initially
+        placed = {fluent for some in groups for fluent in some}
+        things = {text.arguments(some[0])[0] for some in groups if text.arguments(some[0])}
+        self._relations = [
+            fluent
+            for fluent in world.description.inertial
+            if fluent not in placed and _relates(robot, fluent, things)
+        ]
+
+    def __call__(self, random: np.random.Generator) -> int:
+        """The state. Everything drawn comes from the generator."""
+        state = self._world.bare()
+        if self._relations and random.random() < self._holding:
+            state = self._with(state, [self._relations[int(random.integers(len(self._relations)))]])
+        for some in self._groups:
+            if not any(self._world.holds(state, fluent) for fluent in some):
+                state = self._with(state, [some[int(n)] for n in random.permutation(len(some))])
+        return state
+
+    def _with(self, state: int, options: Sequence[str]) -> int:
+        """A state in which the first of the options holds that can."""
+        found = (self._world.adjusted(state, (option,)) for option in options)
+        return next((states[0] for states in found if states), state)
+
+
+def _relates(robot: str, fluent: str, things: set[str]) -> bool:
+    others = {constant for constant in text.arguments(fluent) if constant != robot}
+    return robot in text.arguments(fluent) and bool(others) and others <= things
+
+
+class RandomGoal:
+    """Draws an instance of the patterns that does not hold yet; any, if all hold.
+
+    Equal sorts in the patterns stand for one constant.
+    """
+
+    def __init__(
+        self, world: World, patterns: Iterable[str], sorts: Mapping[str, tuple[str, ...]]
+    ) -> None:
+        self._world = world
+        parts = [(pattern.partition("(")[0], text.arguments(pattern)) for pattern in patterns]
+        drawn = list(dict.fromkeys(sort for _, own in parts for sort in own))
+        combinations = product(*(sorts[sort] for sort in drawn))
+        chosen = [dict(zip(drawn, values, strict=True)) for values in combinations]
+        self._goals = [
+            tuple(text.ground(name, (values[sort] for sort in own)) for name, own in parts)
+            for values in chosen
+        ]
+
+    def __call__(self, state: int, random: np.random.Generator) -> tuple[str, ...]:
+        """The goal of a game that begins in the state."""
+        unmet = [goal for goal in self._goals if not self._world.satisfies(state, goal)]
+        options = unmet or self._goals
+        return options[int(random.integers(len(options)))]

@@ -5,73 +5,64 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import overload
+from typing import Any
 
 from testbed.environment.execution import Execution
-from testbed.world import World
 
 WAIT, FINISH, NONE = "wait", "finish", "none"
 """The actions that are the environment's own: of the robot, and of the adversary."""
 
 
 @dataclass(frozen=True)
-class Moment:
-    """A state, the robot's action in it (None: not known), and whether waiting lets others act."""
-
-    state: int
-    robot_action: str | None
-    opens_thinking: bool
-
-
-@dataclass(frozen=True)
 class Legality:
-    """An event is legal where it is possible however the robot's action comes out."""
+    """An event is legal where it is possible however the robot's action comes out.
 
-    world: World
+    The robot's action may not be known (None). `while_thinking`: waiting lets others act.
+    """
+
     execution: Execution
+    while_thinking: bool
 
-    def allows(self, moment: Moment, event: str) -> bool:
+    def allows(self, state: int, robot_action: str | None, event: str) -> bool:
         """Whether the event is legal; doing nothing always is."""
         if event == NONE:
             return True
-        if self.closed(moment) is not None:
+        if self._closed(state, robot_action) is not None:
             return False
-        executable = self.world.executable
-        return all(executable(moment.state, (*way, event)) for way in self._ways(moment))
+        executable, ways = self.execution.world.executable, self._ways(state, robot_action)
+        return all(executable(state, (*way, event)) for way in ways)
 
-    def why_not(self, moment: Moment, event: str) -> str | None:
+    def why_not(self, state: int, robot_action: str | None, event: str) -> str | None:
         """One line that says why the event is not legal; None if it is."""
         if event == NONE:
             return None
-        why_not = self.world.why_not
-        reasons = (why_not(moment.state, (*way, event)) for way in self._ways(moment))
-        return self.closed(moment) or next(filter(None, reasons), None)
+        why_not, ways = self.execution.world.why_not, self._ways(state, robot_action)
+        reasons = (why_not(state, (*way, event)) for way in ways)
+        return self._closed(state, robot_action) or next(filter(None, reasons), None)
 
-    def closed(self, moment: Moment) -> str | None:
-        """Why nothing exogenous happens beside the robot's action, if so."""
-        if moment.robot_action is None:
-            return None
-        if moment.robot_action == FINISH:
-            return "nothing exogenous happens while the robot finishes"
-        if moment.robot_action == WAIT:
-            closed = "nothing exogenous happens while the robot waits (exogenous_while_thinking)"
-            return None if moment.opens_thinking else closed
-        return self.execution.closed_to_events(moment.state, moment.robot_action)
-
-    def possible(self, moment: Moment) -> bool:
+    def possible(self, state: int, robot_action: str) -> bool:
         """Whether the robot attempts something, and not in vain."""
-        if moment.robot_action in (None, WAIT, FINISH):
-            return False
-        return self.execution.possible(moment.state, str(moment.robot_action))
+        idle = robot_action in (WAIT, FINISH)
+        return not idle and self.execution.possible(state, robot_action)
 
-    def _ways(self, moment: Moment) -> Iterator[tuple[str, ...]]:
+    def _closed(self, state: int, robot_action: str | None) -> str | None:
+        """Why nothing exogenous happens beside the robot's action, if so."""
+        if robot_action is None:
+            return None
+        if robot_action == FINISH:
+            return "nothing exogenous happens while the robot finishes"
+        if robot_action == WAIT:
+            closed = "nothing exogenous happens while the robot waits (exogenous_while_thinking)"
+            return None if self.while_thinking else closed
+        return self.execution.closed_to_events(state, robot_action)
+
+    def _ways(self, state: int, robot_action: str | None) -> Iterator[tuple[str, ...]]:
         """The robot's part of the compound action, in each way in which it may come out."""
-        if not self.possible(moment):
+        if robot_action is None or not self.possible(state, robot_action):
             yield ()
             return
-        action = str(moment.robot_action)
-        yield self.execution.physical(action)
-        if self.execution.chance(action) < 1:
+        yield self.execution.physical(robot_action)
+        if self.execution.chance(robot_action) < 1:
             yield ()
 
 
@@ -99,9 +90,5 @@ class LegalEvents(Sequence[str]):
     def __len__(self) -> int:
         return len(self._all)
 
-    @overload
-    def __getitem__(self, index: int) -> str: ...
-    @overload
-    def __getitem__(self, index: slice) -> Sequence[str]: ...
-    def __getitem__(self, index: int | slice) -> str | Sequence[str]:
+    def __getitem__(self, index: Any) -> Any:
         return self._all[index]

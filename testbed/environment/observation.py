@@ -10,9 +10,9 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from asp.language import literals as text
-from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import Core
 from testbed.environment.legality import NONE, WAIT
+from testbed.environment.rules import ADVERSARY, ROBOT, check_agent
 
 Vector: TypeAlias = NDArray[np.int8]
 Observation: TypeAlias = dict[str, Vector]
@@ -23,25 +23,17 @@ def observation_spaces(core: Core) -> dict[str, spaces.Space[Any]]:
     """One entry a fluent: 1 true, 0 unknown, -1 false; then, for the adversary, one entry an
     action of the robot: 1 for the chosen one. Beside it the mask over the agent's own actions.
     """
-    fluents = len(core.world.fluents)
-    robot, adversary = len(core.robot_actions), len(core.adversary_actions)
+    fluents, robot = len(core.world.fluents), len(core.robot_actions)
+    lengths = {ROBOT: (fluents, robot), ADVERSARY: (fluents + robot, len(core.adversary_actions))}
     return {
-        ROBOT: _masked(fluents, robot),
-        ADVERSARY: _masked(fluents + robot, adversary),
+        agent: spaces.Dict({"observation": signs(seen), "action_mask": spaces.MultiBinary(actions)})
+        for agent, (seen, actions) in lengths.items()
     }
 
 
-def action_spaces(core: Core) -> dict[str, spaces.Space[Any]]:
-    """The robot: wait, finish, its actions; the adversary: none, exogenous actions."""
-    return {
-        ROBOT: spaces.Discrete(len(core.robot_actions)),
-        ADVERSARY: spaces.Discrete(len(core.adversary_actions)),
-    }
-
-
-def state_space(core: Core) -> spaces.Box:
-    """One entry a fluent: 1 true, -1 false."""
-    return _signs(len(core.world.fluents))
+def signs(length: int) -> spaces.Box:
+    """The space of vectors with this many entries of -1, 0, and 1."""
+    return spaces.Box(-1, 1, (length,), np.int8)
 
 
 def observe(core: Core, agent: str, robot_action: str | None) -> Observation:
@@ -50,7 +42,17 @@ def observe(core: Core, agent: str, robot_action: str | None) -> Observation:
     Raises UnknownAgentError, and NotResetError before the first game.
     """
     check_agent(agent)
-    return _robot(core) if agent == ROBOT else _adversary(core, robot_action)
+    own = legal = core.robot_actions
+    if agent == ROBOT:
+        seen = _vector(core.world.fluents, core.visible)
+    else:
+        chosen = () if robot_action is None else (robot_action,)
+        seen = np.concatenate([state_vector(core), _mask(core.robot_actions, chosen)])
+        own, legal = core.adversary_actions, core.events(robot_action)
+    if core.situation.ending is not None:
+        # A mask without any action would be sampled as action 0 without a word.
+        legal = (WAIT, NONE)
+    return {"observation": seen, "action_mask": _mask(own, legal)}
 
 
 def state_vector(core: Core) -> Vector:
@@ -72,29 +74,6 @@ def infos(core: Core, robot_action: str | None) -> dict[str, dict[str, Any]]:
     }
 
 
-def _robot(core: Core) -> Observation:
-    return {
-        "observation": _vector(core.world.fluents, core.visible),
-        "action_mask": _mask(core.robot_actions, _live(core, core.robot_actions)),
-    }
-
-
-def _adversary(core: Core, robot_action: str | None) -> Observation:
-    chosen = () if robot_action is None else (robot_action,)
-    return {
-        "observation": np.concatenate([state_vector(core), _mask(core.robot_actions, chosen)]),
-        "action_mask": _mask(core.adversary_actions, _live(core, core.events(robot_action))),
-    }
-
-
-def _live(core: Core, legal: Sequence[str]) -> Sequence[str]:
-    """What is legal while the game goes on; once it is over, doing nothing.
-
-    A mask without any action would be sampled as action 0 without a word.
-    """
-    return legal if core.situation.ending is None else (WAIT, NONE)
-
-
 def _vector(fluents: Sequence[str], literals: Sequence[str]) -> Vector:
     known = {text.atom(seen): 1 if text.is_positive(seen) else -1 for seen in literals}
     return np.array([known.get(fluent, 0) for fluent in fluents], np.int8)
@@ -102,11 +81,3 @@ def _vector(fluents: Sequence[str], literals: Sequence[str]) -> Vector:
 
 def _mask(names: Sequence[str], chosen: Sequence[str]) -> Vector:
     return np.array([name in chosen for name in names], np.int8)
-
-
-def _masked(length: int, actions: int) -> spaces.Dict:
-    return spaces.Dict({"observation": _signs(length), "action_mask": spaces.MultiBinary(actions)})
-
-
-def _signs(length: int) -> spaces.Box:
-    return spaces.Box(-1, 1, (length,), np.int8)

@@ -7,11 +7,16 @@ from typing import Any, TypeAlias
 
 from pettingzoo import ParallelEnv
 
-from testbed.environment.agents import ADVERSARY, ROBOT, name_of, rewards
-from testbed.environment.errors import IllegalActionError
 from testbed.environment.legality import NONE
 from testbed.environment.observation import Observation, infos, observe
-from testbed.environment.rules import Snapshot
+from testbed.environment.rules import (
+    ADVERSARY,
+    ROBOT,
+    IllegalActionError,
+    Snapshot,
+    name_of,
+    rewards,
+)
 from testbed.environment.view import View
 
 Observations: TypeAlias = dict[str, Observation]
@@ -43,9 +48,6 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         event = name_of(ADVERSARY, actions.get(ADVERSARY), self.core.adversary_actions)
         dropped = None if self.core.legal(robot_action, event) else event
         self.core.advance(robot_action, NONE if dropped else event)
-        return self._transition(dropped)
-
-    def _transition(self, dropped: str | None) -> Transition:
         ending = self.core.situation.ending
         if ending is not None:
             self.agents = []

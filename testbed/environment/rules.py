@@ -1,15 +1,36 @@
-"""The rules of a game in a world, what a step of it changes, and how it ends."""
+"""The rules of a game in a world: its two agents, what a step changes, and how it ends."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any, Literal
+from operator import index
+from typing import Any, Literal, SupportsIndex
 
 from testbed.protocol import Event
 
+ROBOT, ADVERSARY = "robot_0", "adversary_0"
 Mode = Literal["never", "colocated", "always"]
+
+
+class IllegalActionError(ValueError):
+    """An agent's answer outside its mask; the environment's state is unchanged."""
+
+
+class UnknownAgentError(ValueError):
+    """The name of an agent that is not one of the environment's; one line names these."""
+
+
+class UnknownOptionError(ValueError):
+    """A key of `reset(options=...)` that means nothing; one line says which is likely meant."""
+
+
+class NotResetError(AssertionError):
+    """Something was asked of a game before `reset`; PettingZoo's wrapper raises the same kind."""
+
+    def __init__(self) -> None:
+        super().__init__("no game has begun: reset the environment first")
 
 
 @dataclass(frozen=True)
@@ -86,3 +107,44 @@ class Snapshot:
 
     situation: Situation
     generator: Any
+
+
+def name_of(agent: str, answer: object, actions: Sequence[str]) -> str:
+    """The action of an agent's answer, an index. Raises IllegalActionError naming the actions."""
+    number = _index(answer)
+    if number is not None and 0 <= number < len(actions):
+        return actions[number]
+    raise IllegalActionError(f"{agent}: {answer!r} is not an action; there are {listed(actions)}")
+
+
+def _index(answer: object) -> int | None:
+    """An integer of any type, also of NumPy's; None for anything else, such as an array of one."""
+    if isinstance(answer, bool) or not isinstance(answer, SupportsIndex):
+        return None
+    try:
+        return index(answer)
+    except TypeError:
+        return None
+
+
+def check_agent(agent: str) -> None:
+    """Raises UnknownAgentError for a name that is neither agent's."""
+    if agent not in (ROBOT, ADVERSARY):
+        raise UnknownAgentError(f"{agent!r} is not an agent; there are {ROBOT} and {ADVERSARY}")
+
+
+def listed(actions: Sequence[str], legal: Sequence[str] | None = None) -> str:
+    """The actions, or the legal ones among them, with their indices."""
+    chosen = actions if legal is None else legal
+    return ", ".join(f"{i} {action}" for i, action in enumerate(actions) if action in chosen)
+
+
+def rewards(ending: Ending | None) -> dict[str, float]:
+    """What an ending is worth, in a zero-sum game.
+
+    The robot gets 1 for the goal achieved, -1 for any other end, 0 while the game goes on.
+    """
+    if ending is None:
+        return {ROBOT: 0.0, ADVERSARY: 0.0}
+    value = 1.0 if ending is Ending.ACHIEVED else -1.0
+    return {ROBOT: value, ADVERSARY: -value}

@@ -8,17 +8,15 @@ from typing import Any, ClassVar
 from gymnasium import spaces
 
 from asp.language import suggestion
-from testbed.environment.agents import ADVERSARY, ROBOT, check_agent
 from testbed.environment.core import Core
-from testbed.environment.errors import UnknownOptionError
 from testbed.environment.observation import (
     Vector,
-    action_spaces,
     observation_spaces,
-    state_space,
+    signs,
     state_vector,
 )
-from testbed.environment.rendering import MODES, Image, check_mode, html_of, render
+from testbed.environment.rendering import MODES, Image, html_of, render
+from testbed.environment.rules import ADVERSARY, ROBOT, UnknownOptionError, check_agent
 
 OPTIONS = ("initial", "trial")
 """The keys of `reset(options=...)`."""
@@ -39,14 +37,18 @@ class View:
     }
 
     def __init__(self, core: Core, render_mode: str | None = None) -> None:
-        check_mode(render_mode)
+        if render_mode not in (None, *MODES):
+            raise ValueError(f"{render_mode!r} is not a render mode; there are {', '.join(MODES)}")
         self.core = core
         self.render_mode = render_mode
         self.possible_agents = [ROBOT, ADVERSARY]
         self.agents: list[str] = []
         self.observation_spaces = observation_spaces(core)
-        self.action_spaces = action_spaces(core)
-        self.state_space = state_space(core)
+        self.action_spaces: dict[str, spaces.Space[Any]] = {
+            ROBOT: spaces.Discrete(len(core.robot_actions)),
+            ADVERSARY: spaces.Discrete(len(core.adversary_actions)),
+        }
+        self.state_space = signs(len(core.world.fluents))
 
     @property
     def max_cycles(self) -> int:
@@ -93,7 +95,10 @@ class View:
     def _begin(self, seed: int | None, options: dict[str, Any] | None) -> None:
         """Begins a game; of the options `initial` are literals and `trial` an id, both optional."""
         chosen = options or {}
-        _check_options(chosen)
+        for key in chosen:
+            if key not in (*OPTIONS, _PROBE):
+                near = suggestion(key, OPTIONS)
+                raise UnknownOptionError(f"reset: {key!r} is not an option; {near}")
         self.core.reset(seed, chosen.get("initial"), chosen.get("trial", ""))
         self.agents = list(self.possible_agents)
 
@@ -102,11 +107,5 @@ class View:
         ending = self.core.situation.ending
         terminated = ending is not None and ending.by_answer
         truncated = ending is not None and not ending.by_answer
-        agents = self.possible_agents
-        return dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated)
-
-
-def _check_options(options: dict[str, Any]) -> None:
-    for key in options:
-        if key not in OPTIONS and key != _PROBE:
-            raise UnknownOptionError(f"reset: {key!r} is not an option; {suggestion(key, OPTIONS)}")
+        both = self.possible_agents
+        return dict.fromkeys(both, terminated), dict.fromkeys(both, truncated)

@@ -1,16 +1,14 @@
 """A game as text, as a picture, and in a notebook."""
 
-from testbed.environment.rendering.modes import MODES, check_mode, html_of, render
+from testbed.environment.rendering.modes import MODES, draw_text, html_of, render
 from testbed.environment.rendering.picture import Image, draw_picture
 from testbed.environment.rendering.scene import Place, Scene, scene
-from testbed.environment.rendering.text import draw_text
 
 __all__ = [
     "MODES",
     "Image",
     "Place",
     "Scene",
-    "check_mode",
     "draw_picture",
     "draw_text",
     "html_of",
