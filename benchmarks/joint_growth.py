@@ -14,11 +14,9 @@ from clingo import Symbol
 from matplotlib.figure import Figure
 
 from agents.intentional import joint, reference
-from agents.intentional import joint_reference as undivided
 from agents.intentional.history import History
 from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.joint import JointReasoner
-from agents.intentional.joint_reference import JointReferenceReasoner
+from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reference import ReferenceReasoner
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import reference as diagnosis
@@ -136,7 +134,7 @@ def _watched() -> Iterator[list[clingo.Control]]:
         return control
 
     with ExitStack() as stack:
-        for module in (diagnosis, reference, joint, undivided, one_call):
+        for module in (diagnosis, reference, joint, one_call):
             stack.enter_context(patch.object(module, "ground", watched))
         yield controls
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import product
+from typing import ClassVar
 
 import msgspec
 
@@ -23,6 +24,8 @@ from testbed.protocol import Decision, Percept, Robot, Task
 
 class CheckingRobot:
     """Plays a task as another robot plays the task of being sure (`to_be_sure`)."""
+
+    capabilities: ClassVar = IntentionalRobot.capabilities
 
     def __init__(self, robot: Robot | None = None) -> None:
         self._robot = robot or IntentionalRobot()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from msgspec import structs
 
 from agents.intentional.history import Activity, History
@@ -12,7 +14,7 @@ from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
 from asp.language import Literal
 from asp.reasoning.diagnosis import GOAL, Diagnosis
-from testbed.protocol import Percept, Task, Trace
+from testbed.protocol import Capabilities, Percept, Task, Trace
 
 _MENTAL = ("start(", "stop(")
 
@@ -24,6 +26,8 @@ class IntentionalRobot(ReasoningRobot[History]):
     scratch, or another one.
     """
 
+    # At step 1 it starts an activity, or finishes.
+    capabilities: ClassVar = Capabilities(knowledge=("complete", "seen"), first_action_step=2)
     _reasons_type = IntentionalReasons
     _reasons: IntentionalReasons
 

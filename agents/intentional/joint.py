@@ -1,4 +1,7 @@
-"""The original theory of intentions (TI): all explanations are considered while planning."""
+"""The original theory of intentions (TI): all explanations are considered while planning.
+
+`JointReferenceReasoner` is the theory to the letter, one program that is solved in one call.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +12,12 @@ from clingo import Symbol
 from agents.intentional.history import History
 from agents.intentional.reference import ReferenceReasoner, read_intention
 from agents.shared.thought import Intention
-from asp.reasoning.diagnosis import Diagnosis, Explanation, diagnosis_of
-from asp.solving import fact, first_model, ground, theory
+from asp.reasoning.diagnosis import Diagnosis, Explanation, diagnosis_of, event_limits
+from asp.solving import fact, first_model, ground, optimal_model, theory
 
 _EXPLAINING = ("defaults", "diagnosis")
 _INACTIVE = ("finishes", "starts")
+_UNDIVIDED = (*_EXPLAINING, "planning", "joint", "undivided")
 _ACTIVE = ("goes_on", "finishes", "stops")
 
 
@@ -76,6 +80,36 @@ class JointReasoner(ReferenceReasoner):
                 under = diagnosis_of(model, explanation.proved)
                 return replace(read_intention(model), under=under)
         return None
+
+
+class JointReferenceReasoner(ReferenceReasoner):
+    """Finds explanation and intention together; what `JointReasoner` is held equal to.
+
+    Nothing is known beforehand, neither how few events explain the history nor how long a shortest
+    plan is, and the horizon lets a plan be as long as the limit: for small domains only.
+    """
+
+    def diagnose(self, _history: History, adopted: Explanation, /) -> Diagnosis:
+        """What was held before: there is no phase of its own."""
+        return Diagnosis(adopted)
+
+    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
+        """The intention for which CR rules are used least. Raises InconsistentHistoryError."""
+        facts = [*self._facts(history), fact("explaining", history.step)]
+        texts = [*self._base, *map(theory, _UNDIVIDED)]
+        longest = max(self._plan_limit, history.longest)
+        constants = self._constants(history, history.step + 1 + longest, longest)
+        constants["plan_limit"] = self._plan_limit
+
+        def best(most: int) -> Intention | None:
+            control = ground(texts, {**constants, "max_unobserved": most}, facts)
+            model, proved = optimal_model(control)
+            if model is None:
+                return None
+            return replace(read_intention(model), under=diagnosis_of(model, proved))
+
+        limits = event_limits(self._base[0], facts, history.step, diagnosis.explanation.size)
+        return next(filter(None, map(best, limits)))
 
 
 def _found(intention: Intention | None) -> Intention:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import ClassVar
 
 from msgspec import structs
 
@@ -15,7 +16,7 @@ from agents.intentional.executor.trace import Calendar
 from asp.language import Literal, is_positive
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
-from testbed.protocol import Decision, Percept, Robot, Task, Trace
+from testbed.protocol import Capabilities, Decision, Percept, Robot, Task, Trace
 
 _WAIT, _FINISH = "wait", "finish"
 
@@ -154,6 +155,10 @@ class RefinedRobot:
 
 class EitherRobot:
     """Acts at the fine resolution if its task has one, else as the coarse robot does."""
+
+    capabilities: ClassVar = Capabilities(
+        resolutions=("coarse", "fine"), knowledge=("complete", "seen"), first_action_step=2
+    )
 
     def __init__(self, coarse: Callable[[], Robot] = IntentionalRobot, zooms: bool = True) -> None:
         self._make = coarse

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 from testbed.protocol import Capabilities, Robot
 from testbed.registry import Registry, class_fault
 
-_INTENTIONAL, _TRADITIONAL = "agents.intentional.robots", "agents.traditional.robot"
+_INTENTIONAL, _TRADITIONAL = "agents.intentional", "agents.traditional.robot"
 
 
 class RobotClass(Protocol):
@@ -31,12 +31,12 @@ ROBOTS: Registry[RobotClass] = Registry(
     "robot",
     "intention_testbed.robots",
     {
-        "intentional": f"{_INTENTIONAL}:Intentional",
-        "intentional-nozoom": f"{_INTENTIONAL}:WithoutZooming",
-        "intentional-plain": f"{_INTENTIONAL}:Reference",
-        "intentional-joint": f"{_INTENTIONAL}:Joint",
-        "intentional-joint-plain": f"{_INTENTIONAL}:JointReference",
-        "intentional-checking": f"{_INTENTIONAL}:Checking",
+        "intentional": f"{_INTENTIONAL}.refined:EitherRobot",
+        "intentional-nozoom": f"{_INTENTIONAL}.robots:WithoutZooming",
+        "intentional-plain": f"{_INTENTIONAL}.robots:Reference",
+        "intentional-joint": f"{_INTENTIONAL}.robots:Joint",
+        "intentional-joint-plain": f"{_INTENTIONAL}.robots:JointReference",
+        "intentional-checking": f"{_INTENTIONAL}.checking:CheckingRobot",
         "traditional": f"{_TRADITIONAL}:TraditionalRobot",
         "traditional-plain": f"{_TRADITIONAL}:TraditionalReference",
     },

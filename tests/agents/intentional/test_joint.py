@@ -8,8 +8,7 @@ import pytest
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.history import Activity, History
-from agents.intentional.joint import JointReasoner
-from agents.intentional.joint_reference import JointReferenceReasoner
+from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reference import ReferenceReasoner
 from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, Happening

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.history import History
-from agents.intentional.joint import JointReasoner
-from agents.intentional.joint_reference import JointReferenceReasoner
+from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reference import ReferenceReasoner
 from agents.shared.thought import Intention
 from asp.language import parse_description
