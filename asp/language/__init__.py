@@ -37,7 +37,7 @@ from asp.language.loading import (
     read_domain,
     read_text,
 )
-from asp.language.parser import ToSyntax, comments_of, parse, place_of, scenario_notes
+from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
 from asp.language.signature import (
     Signature,
@@ -48,7 +48,6 @@ from asp.language.signature import (
 )
 from asp.language.stratification import check_cycles, may_have_cycles
 from asp.language.syntax import Source
-from asp.language.syntax_errors import Words, check_section_words, syntax_error
 from asp.language.variable_sorts import variable_domains
 from asp.language.writer import atom_text, condition_text, text_of
 
@@ -73,7 +72,6 @@ __all__ = [
     "SourceError",
     "ToSyntax",
     "Trigger",
-    "Words",
     "analyse",
     "arguments",
     "atom",
@@ -81,12 +79,11 @@ __all__ = [
     "check",
     "check_cycles",
     "check_one_robot",
-    "check_section_words",
-    "comments_of",
     "complement",
     "condition_text",
     "excluding_place",
     "functions",
+    "grammar",
     "ground",
     "ground_description",
     "is_positive",
@@ -102,7 +99,7 @@ __all__ = [
     "packaged_domains",
     "parse",
     "parse_description",
-    "place_of",
+    "parse_with",
     "read_domain",
     "read_text",
     "renamed",
@@ -112,7 +109,6 @@ __all__ = [
     "signature_of",
     "subject",
     "suggestion",
-    "syntax_error",
     "text_of",
     "variable_domains",
     "without_exogenous",

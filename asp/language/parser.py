@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
@@ -13,51 +12,40 @@ from lark.exceptions import UnexpectedInput
 from lark.tree import Meta
 
 from asp.language import syntax
-from asp.language.syntax_errors import check_section_words, syntax_error
+from asp.language.syntax_errors import check_section_words, place_of, syntax_error
 
 
 def parse(text: str, file: str = "<text>") -> syntax.Source:
     """Parses an AL_d text. `file` is the name used in errors. Raises SourceError."""
-    try:
-        tree = _grammar().parse(text)
-    except UnexpectedInput as error:
-        raise syntax_error(error, text, file) from None
-    check_section_words(tree, text, file)
-    statements = _with_defaults(ToSyntax().transform(tree))
-    return syntax.Source(file, text, statements, comments_of(text))
-
-
-def _with_defaults(statements: tuple[syntax.Statement, ...]) -> tuple[syntax.Statement, ...]:
-    """The statements, each exception with the default that it is one of."""
-    defaults = {s.name: s for s in statements if isinstance(s, syntax.DefaultStatement)}
-    return tuple(
-        replace(s, of=defaults.get(s.name)) if isinstance(s, syntax.ExceptionStatement) else s
-        for s in statements
-    )
+    return parse_with(grammar("start", "language/al.lark"), ToSyntax(), text, file)
 
 
 @cache
-def _grammar() -> Lark:
-    grammar = files("asp").joinpath("language", "al.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser="lalr", propagate_positions=True, maybe_placeholders=True)
+def grammar(start: str, *texts: str) -> Lark:
+    """The parser of the grammar that is in these files of `asp`."""
+    rules = "\n".join(files("asp").joinpath(each).read_text(encoding="utf-8") for each in texts)
+    return Lark(
+        rules, parser="lalr", start=start, propagate_positions=True, maybe_placeholders=True
+    )
 
 
-def comments_of(text: str) -> tuple[syntax.Comment, ...]:
-    """The comments of a text, line by line."""
-    found = []
-    for number, line in enumerate(text.split("\n"), start=1):
-        match = re.search(r"%.*", line)
-        if match:
-            alone = not line[: match.start()].strip()
-            found.append(syntax.Comment(number, match.group().rstrip(), alone))
-    return tuple(found)
+def parse_with(grammar: Lark, to_syntax: ToSyntax, text: str, file: str) -> syntax.Source:
+    """Parses a text in sections. Raises SourceError."""
+    try:
+        tree = grammar.parse(text)
+    except UnexpectedInput as error:
+        raise syntax_error(error, text, file, grammar) from None
+    check_section_words(tree, text, file)
+    return syntax.Source(file, text, to_syntax.transform(tree), _comments(text))
 
 
-def place_of(meta: Meta | Token) -> syntax.Place:
-    """Where a node of the parse tree begins."""
-    assert meta.line is not None
-    assert meta.column is not None
-    return syntax.Place(meta.line, meta.column)
+def _comments(text: str) -> tuple[syntax.Comment, ...]:
+    lines = (line.partition("%") for line in text.split("\n"))
+    return tuple(
+        syntax.Comment(number, f"%{comment}".rstrip(), alone=not before.strip())
+        for number, (before, sign, comment) in enumerate(lines, start=1)
+        if sign
+    )
 
 
 @v_args(meta=True)
@@ -68,11 +56,16 @@ class ToSyntax(Transformer[Token, Any]):
     """
 
     STATEMENTS: ClassVar[dict[str, type[syntax.Statement]]] = {
+        "sort": syntax.SortDefinition,
+        "fluent": syntax.Declaration,
+        "action": syntax.Declaration,
         "causal_law": syntax.CausalLaw,
         "state_constraint": syntax.StateConstraint,
+        "executability": syntax.ExecutabilityCondition,
         "fact": syntax.Fact,
         "sees": syntax.SeesStatement,
         "shows": syntax.ShowsStatement,
+        "cost": syntax.CostStatement,
         "initially": syntax.InitiallyStatement,
         "default": syntax.DefaultStatement,
         "exception": syntax.ExceptionStatement,
@@ -91,44 +84,31 @@ class ToSyntax(Transformer[Token, Any]):
     sees_section = shows_section = initially_section = defaults = section
 
     def start(self, _: Meta, sections: list[list[syntax.Statement]]) -> Any:
-        return tuple(statement for section in sections for statement in section)
-
-    def sort(self, meta: Meta, children: list[Any]) -> syntax.SortDefinition:
-        return syntax.SortDefinition(
-            place_of(meta), meta.end_line, str(children[0]), tuple(children[1:])
+        statements = [statement for section in sections for statement in section]
+        defaults = {s.name: s for s in statements if isinstance(s, syntax.DefaultStatement)}
+        return tuple(
+            replace(s, of=defaults.get(s.name)) if isinstance(s, syntax.ExceptionStatement) else s
+            for s in statements
         )
 
-    def members(self, _: Meta, constants: list[syntax.Term]) -> tuple[syntax.Term, ...]:
-        return tuple(constants)
+    def listed(self, _: Meta, children: list[Any]) -> tuple[Any, ...]:
+        return tuple(children)
+
+    sort_parts = members = sort_names = terms = compound = body = listed
 
     def range(self, meta: Meta, bounds: list[Token]) -> tuple[syntax.Term, ...]:
         low, high = (int(bound) if len(bound) < 10 else syntax.LARGEST for bound in bounds)
         last = min(high, low + syntax.MOST_MEMBERS)  # one too many is told where sorts are checked
         return tuple(syntax.Term(str(n), place_of(meta)) for n in range(low, last + 1))
 
-    def signature(self, meta: Meta, children: list[Any]) -> tuple[str, tuple[syntax.Term, ...]]:
-        return str(children[0]), tuple(c for c in children[1:] if c is not None)
+    def static(self, meta: Meta, children: list[Any]) -> syntax.Statement:
+        return self.__default__("fluent", ["static", *children], meta)
 
-    def static(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
-        return syntax.Declaration(place_of(meta), meta.end_line, "static", *children[0])
-
-    def fluent(self, meta: Meta, children: list[Any]) -> syntax.Declaration:
-        kind, (name, sorts) = children
-        return syntax.Declaration(place_of(meta), meta.end_line, kind.value, name, sorts)
-
-    action = fluent
-
-    def executability(self, meta: Meta, children: list[Any]) -> syntax.ExecutabilityCondition:
-        *actions, body = children
-        return syntax.ExecutabilityCondition(
-            place_of(meta), meta.end_line, tuple(actions), body or ()
-        )
-
-    def cost(self, meta: Meta, children: list[Any]) -> syntax.CostStatement:
+    def cost(self, meta: Meta, children: list[Any]) -> syntax.Statement:
         action, units = children
-        return syntax.CostStatement(place_of(meta), meta.end_line, action, int(units))
+        return self.__default__("cost", [action, int(units)], meta)
 
-    def trigger(self, meta: Meta, children: list[Any]) -> syntax.TriggerStatement:
+    def trigger(self, meta: Meta, children: list[Any]) -> syntax.Statement:
         scenario, event, upon, drawing, body, probability = children
         drawn, pool = drawing or (None, ())
         return syntax.TriggerStatement(
@@ -150,9 +130,6 @@ class ToSyntax(Transformer[Token, Any]):
     def probability(self, _: Meta, children: list[Token]) -> float:
         return float(children[0])
 
-    def body(self, _: Meta, conditions: list[syntax.Condition]) -> syntax.Body:
-        return tuple(conditions)
-
     def comparison(self, meta: Meta, children: list[Any]) -> syntax.Comparison:
         left, sign, right = children
         return syntax.Comparison(left, right, sign.type == "EQUAL", place_of(meta))
@@ -162,8 +139,8 @@ class ToSyntax(Transformer[Token, Any]):
         return syntax.Literal(atom, minus is None)
 
     def atom(self, meta: Meta, children: list[Any]) -> syntax.Atom:
-        args = tuple(c for c in children[1:] if c is not None)
-        return syntax.Atom(str(children[0]), args, place_of(meta))
+        name, terms = children
+        return syntax.Atom(str(name), terms or (), place_of(meta))
 
     def constant(self, _: Meta, children: list[Token]) -> syntax.Term:
         token = children[0]

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Set
 
-from lark import ParseTree, Token, Tree
-from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
+from lark import Lark, ParseTree, Token, Tree
+from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark.lexer import PatternStr
+from lark.tree import Meta
 
+from asp.language import syntax
 from asp.language.errors import SourceError, nearest
 
 _READABLE = {
@@ -15,69 +18,59 @@ _READABLE = {
     "NUMBER": "a number",
     "DECIMAL": "a number",
     "DOT": "a full stop",
-    "LPAR": "'('",
-    "RPAR": "')'",
-    "COMMA": "','",
-    "EQUAL": "'='",
-    "UNEQUAL": "'!='",
-    "MINUS": "'-'",
-    "PLUS": "'+'",
-    "LBRACE": "'{'",
-    "RBRACE": "'}'",
-    "COLON": "':'",
-    "_TO": "'..'",
 }
+_SECTION = 9
+"""The priority of section words in grammars: above all others."""
 
 
-@dataclass(frozen=True)
-class Words:
-    """The names of a grammar's section words, and two of them to give as examples."""
-
-    names: frozenset[str]
-    examples: str
-
-
-AL_WORDS = Words(
-    frozenset(
-        {
-            *("SORTS", "STATICS", "FLUENTS", "ACTIONS", "LAWS", "FACTS"),
-            *("SEES", "SHOWS", "COSTS", "INITIALLY", "DEFAULTS", "SCENARIOS"),
-        }
-    ),
-    "sorts or laws",
-)
+def place_of(node: Meta | Token) -> syntax.Place:
+    """Where a node of the parse tree begins."""
+    assert node.line is not None
+    assert node.column is not None
+    return syntax.Place(node.line, node.column)
 
 
-def syntax_error(
-    error: UnexpectedInput, text: str, file: str, words: Words = AL_WORDS
-) -> SourceError:
+def syntax_error(error: UnexpectedInput, text: str, file: str, grammar: Lark) -> SourceError:
     """What lark found, with its place, in the words of the language."""
+    sections = {t.name.lower() for t in grammar.terminals if t.priority == _SECTION}
     for token in _last(error):
-        section = _meant_section(token, text, words)
-        if section is not None:
-            message = f"unknown section '{token}'; did you mean '{section}'?"
-            return SourceError(file, *_place(token), message)
+        meant = _meant_section(token, text, sections)
+        if meant is not None:
+            return _at(token, file, f"unknown section '{token}'; did you mean '{meant}'?")
     if isinstance(error, UnexpectedCharacters):
         return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
-    if isinstance(error, UnexpectedEOF) or _at_end(error):
+    assert isinstance(error, UnexpectedToken)
+    if _at_end(error):
         lines = text.rstrip().split("\n")
         return SourceError(file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement")
-    assert isinstance(error, UnexpectedToken)
-    for token in _on_one_line(error):
-        if token.upper() in words.names and _is_first_in_line(token, text):
+    for token in _last(error):
+        if (
+            token.line == error.line
+            and token.lower() in sections
+            and _is_first_in_line(token, text)
+        ):
             return SourceError(file, error.line, error.column, _alone(token))
-    expected = _describe(set(error.accepts or error.expected), words)
-    message = f"unexpected {str(error.token)!r}; expected {expected}"
-    return SourceError(file, error.line, error.column, message)
+    expected = _described(set(error.accepts or error.expected), grammar, sections)
+    return _at(error.token, file, f"unexpected {str(error.token)!r}; expected {expected}")
+
+
+def check_section_words(tree: ParseTree, text: str, file: str) -> None:
+    """Raises SourceError for a section word behind something else on its line."""
+    for section in tree.children:
+        assert isinstance(section, Tree)
+        word = section.children[0]
+        assert isinstance(word, Token)
+        if not _is_first_in_line(word, text):
+            raise _at(word, file, _alone(word))
+
+
+def _at(token: Token, file: str, message: str) -> SourceError:
+    place = place_of(token)
+    return SourceError(file, place.line, place.column, message)
 
 
 def _at_end(error: UnexpectedInput) -> bool:
     return isinstance(error, UnexpectedToken) and error.token.type == "$END"
-
-
-def _on_one_line(error: UnexpectedToken) -> list[Token]:
-    """The unexpected token, and the one before it if it stands on the same line."""
-    return [token for token in _last(error) if token.line == error.token.line]
 
 
 def _last(error: UnexpectedInput) -> list[Token]:
@@ -90,54 +83,35 @@ def _last(error: UnexpectedInput) -> list[Token]:
     return [*unexpected, *(token for token in history if isinstance(token, Token))]
 
 
-def _meant_section(token: Token, text: str, words: Words) -> str | None:
+def _meant_section(token: Token, text: str, sections: Set[str]) -> str | None:
     """The section word nearest to one alone on its line, where a statement or section begins."""
-    if token.type != "NAME":
-        return None
-    line, _ = _place(token)
-    lines = [_without_comment(part) for part in text.split("\n")]
+    line = place_of(token).line
+    lines = [part.partition("%")[0] for part in text.split("\n")]
     before = " ".join(lines[: line - 1]).split()
-    begins = not before or before[-1].endswith(".") or before[-1].upper() in words.names
-    if not begins or lines[line - 1].strip() != token:
+    begins = not before or before[-1].endswith(".") or before[-1].lower() in sections
+    if token.type != "NAME" or not begins or lines[line - 1].strip() != token:
         return None
-    return nearest(token, map(str.lower, words.names))
-
-
-def _without_comment(line: str) -> str:
-    return line.partition("%")[0]
+    return nearest(token, sections)
 
 
 def _is_first_in_line(token: Token, text: str) -> bool:
-    line, column = _place(token)
-    return not text.split("\n")[line - 1][: column - 1].strip()
-
-
-def _place(token: Token) -> tuple[int, int]:
-    assert token.line is not None
-    assert token.column is not None
-    return token.line, token.column
+    place = place_of(token)
+    return not text.split("\n")[place.line - 1][: place.column - 1].strip()
 
 
 def _alone(token: Token) -> str:
     return f"the section word '{token}' stands alone on its line"
 
 
-def check_section_words(tree: ParseTree, text: str, file: str) -> None:
-    """Raises SourceError for a section word behind something else on its line."""
-    for section in tree.children:
-        assert isinstance(section, Tree)
-        word = section.children[0]
-        assert isinstance(word, Token)
-        if not _is_first_in_line(word, text):
-            raise SourceError(file, *_place(word), _alone(word))
-
-
-def _describe(expected: set[str], words: Words) -> str:
+def _described(expected: Set[str], grammar: Lark, sections: Set[str]) -> str:
+    words = {name for name in expected if name.lower() in sections}
     found = []
-    if expected.issuperset(words.names):
-        expected = expected.difference(words.names)
-        found.append(f"a section word such as {words.examples}")
-    found += sorted(
-        _READABLE.get(name, repr(name.lower().strip("_"))) for name in expected - {"$END"}
-    )
+    if len(words) == len(sections):
+        found.append(f"a section word such as {' or '.join(sorted(sections)[:2])}")
+        expected -= words
+    texts = {
+        t.name: repr(t.pattern.value if isinstance(t.pattern, PatternStr) else t.name.lower())
+        for t in grammar.terminals
+    }
+    found += sorted((texts | _READABLE)[name] for name in expected - {"$END"})
     return " or ".join(dict.fromkeys(found))

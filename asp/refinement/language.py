@@ -3,29 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
-from importlib.resources import files
 from typing import ClassVar
 
-from lark import Lark, Token, v_args
-from lark.exceptions import UnexpectedInput
+from lark import Token, v_args
 from lark.tree import Meta
 
-from asp.language import (
-    ToSyntax,
-    Words,
-    check_section_words,
-    comments_of,
-    place_of,
-    syntax,
-    syntax_error,
-)
+from asp.language import ToSyntax, grammar, parse_with, syntax
 from asp.language import variable_sorts as roles
-
-_WORDS = Words(
-    frozenset({"REFINES", "MAGNIFY", "COMPONENTS", "COUNTERPARTS", "FACTS", "LAWS", "TESTS"}),
-    "magnify or components",
-)
 
 
 @dataclass(frozen=True)
@@ -72,35 +56,16 @@ roles.ROLES[TestsStatement] = {"fluent": (roles.FLUENTS, "a fluent after 'tests'
 
 def parse_fine(text: str, file: str = "<text>") -> syntax.Source:
     """The statements of a refinement's text. Raises SourceError."""
-    try:
-        tree = _grammar().parse(text)
-    except UnexpectedInput as error:
-        raise syntax_error(error, text, file, _WORDS) from None
-    check_section_words(tree, text, file)
-    return syntax.Source(file, text, _ToRefinement().transform(tree), comments_of(text))
-
-
-@cache
-def _grammar() -> Lark:
-    texts = (
-        files("asp").joinpath("language", "al.lark"),
-        files("asp").joinpath("refinement", "fine.lark"),
-    )
-    grammar = "\n".join(entry.read_text(encoding="utf-8") for entry in texts)
-    return Lark(
-        grammar,
-        parser="lalr",
-        start="refinement",
-        propagate_positions=True,
-        maybe_placeholders=True,
-    )
+    texts = "language/al.lark", "refinement/fine.lark"
+    return parse_with(grammar("refinement", *texts), _ToRefinement(), text, file)
 
 
 @v_args(meta=True)
 class _ToRefinement(ToSyntax):
-    """Builds the abstract syntax bottom-up; the ."""
+    """Builds the abstract syntax of a refinement bottom-up."""
 
     STATEMENTS: ClassVar = {
+        "refines": Refines,
         "magnification": Magnification,
         "components": Components,
         "counterpart": Counterpart,
@@ -111,5 +76,5 @@ class _ToRefinement(ToSyntax):
     magnify = components_section = counterparts = tests_section = ToSyntax.section
     refinement = ToSyntax.start
 
-    def refines(self, meta: Meta, children: list[Token]) -> list[Refines]:
-        return [Refines(place_of(meta), meta.end_line, str(children[1]).strip('"'))]
+    def refines(self, meta: Meta, children: list[Token]) -> list[syntax.Statement]:
+        return [self.__default__("refines", [children[1].strip('"')], meta)]
