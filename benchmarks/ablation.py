@@ -23,8 +23,9 @@ from benchmarks.offices import book_names, office
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
 from benchmarks.sieges import besiege
 from testbed.config import load_config
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 

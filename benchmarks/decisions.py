@@ -8,7 +8,7 @@ from collections.abc import Container, Sequence
 from benchmarks.measuring import forget, median, no_collection, quantile
 from benchmarks.sheets import DisagreementError, Row, Sheet
 from benchmarks.trials import SCENARIOS, Played, play, specs
-from testbed.experiment.plan import TrialSpec
+from testbed.experiment.specs import TrialSpec
 
 TRIALS = {"small": 1, "full": 6}
 WARM = {"small": 3, "full": 36}  # of these those that are not measured

@@ -26,7 +26,8 @@ from testbed.config import ConfigError
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES
-from testbed.experiment.store import PROVENANCE, read_records
+from testbed.experiment.run_folder import PROVENANCE
+from testbed.experiment.store import read_records
 
 SAME, DIFFERENT, BAD_INPUT = 0, 1, 2
 WIDE = 160

@@ -14,7 +14,8 @@ from pathlib import Path
 from testbed import cli
 from testbed.experiment import resume
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.store import TRIALS, TrialWriter
+from testbed.experiment.run_folder import TRIALS
+from testbed.experiment.store import TrialWriter
 
 HELD = "held"
 COMMAND = (sys.executable, "-m", "benchmarks.killing")

@@ -15,8 +15,9 @@ from benchmarks.offices import book_names, room_names
 from benchmarks.sheets import Row, Sheet, gathered
 from benchmarks.trials import SCENARIOS, play, specs
 from testbed.config import load_config
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 

@@ -26,22 +26,17 @@ from asp.reasoning.diagnosis import GOAL
 from papers.table1.runs import told_name
 from testbed.config import ConfigError, ExperimentConfig
 from testbed.experiment.digest import digest
-from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.store import (
-    TrialWriter,
-    choose_folder,
-    read_config,
-    read_records,
-    write_config,
-)
+from testbed.experiment.run_folder import choose_folder, read_config, write_config
+from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Percept, Task
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import BASELINE
+from testbed.world import load_world
 
 BAD_INPUT = 2
 

@@ -10,7 +10,8 @@ from functools import partial
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reference import ReferenceReasoner
 from testbed.config import load_config
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, Robot, Task

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import testbed
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.run_config import OWN_FILES, TEXT, flat_config
-from testbed.experiment.run_folder import PROVENANCE
+from testbed.experiment.run_folder import OWN_FILES, PROVENANCE, TEXT, flat_config
 
 EXAMPLES = "examples"
 """Where the domains are that the pages of this repository are about, and that are not packaged."""

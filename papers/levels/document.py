@@ -12,8 +12,8 @@ from papers.levels.differing import differences, growth
 from papers.levels.pairing import MEETINGS
 from papers.levels.runs import Run
 from papers.text import render
-from testbed.experiment.coverage import coverage_of, places_of
 from testbed.experiment.digest import digest
+from testbed.experiment.plan import coverage_of, places_of
 from testbed.experiment.store import read_records
 from testbed.studies import Line, rows_of
 from testbed.studies.levels import tables

@@ -9,7 +9,8 @@ from pathlib import Path
 from papers.levels.pairing import Pair, pairs_of
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
-from testbed.experiment.store import read_config, read_records
+from testbed.experiment.run_folder import read_config
+from testbed.experiment.store import read_records
 from testbed.studies.levels.load import outlines_of
 from testbed.studies.levels.measures import Level, Levels, analyse
 from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM

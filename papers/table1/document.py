@@ -20,15 +20,15 @@ from papers.table1.released import released
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run, released_weights, told_order
 from papers.text import render
-from testbed.experiment.coverage import coverage_of, places_of
 from testbed.experiment.digest import digest
-from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
+from testbed.experiment.plan import coverage_of, places_of
 from testbed.experiment.store import read_records
 from testbed.studies import rows_of
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM, Analysis, Table
 from testbed.studies.table1.tables import HEADINGS, lines, test_rows
+from testbed.world import load_world
 
 TITLES = {
     "triggered": "Triggered scenarios",

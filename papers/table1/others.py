@@ -9,12 +9,12 @@ from papers.table1 import evidence
 from papers.table1.runs import Run
 from papers.text import percent, render
 from testbed.analysis.comparison import Apart, eventful
-from testbed.experiment.domains import load_world
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS, number
 from testbed.studies.tables import written
+from testbed.world import load_world
 
 
 def later(run: Run, main: Sequence[Pair]) -> str:

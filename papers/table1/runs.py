@@ -12,12 +12,12 @@ from papers.table1.redrawing import as_stated, passed_on, weight
 from testbed.analysis import load_run
 from testbed.analysis.comparison import eventful
 from testbed.config import ExperimentConfig
-from testbed.experiment.domains import load_world
 from testbed.experiment.errors import StoreError
-from testbed.experiment.store import read_config
+from testbed.experiment.run_folder import read_config
 from testbed.studies.table1.load import Pair, pairs_of
 from testbed.studies.table1.measures import RANDOM, Analysis, analyse, minds_of
 from testbed.studies.table1.published import BASELINE, INTENTIONAL
+from testbed.world import load_world
 
 PROTOCOL = "table1"
 TOLD = "told"

@@ -12,8 +12,8 @@ import polars as pl
 
 from testbed.analysis.statistics import Test, holm, mcnemar, signed_rank
 from testbed.config import ExperimentConfig
-from testbed.experiment.domains import load_world
 from testbed.experiment.record import FAILURES
+from testbed.world import load_world
 
 Apart: TypeAlias = Literal[
     "incomplete", "lost", "deadline", "unsolvable", "nothing to do", "no event"

@@ -20,7 +20,7 @@ from testbed.analysis.comparison import (
 )
 from testbed.analysis.table import Run
 from testbed.experiment.digest import digest
-from testbed.experiment.store import SUMMARY, replace_text
+from testbed.experiment.run_folder import SUMMARY, replace_text
 
 PLACES = {"scenarios": "scenario", "levels": "level"}
 

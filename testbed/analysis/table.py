@@ -14,11 +14,11 @@ import polars as pl
 from msgspec import inspect
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.conformity import planned_records
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
+from testbed.experiment.run_folder import PROVENANCE, naming, read_config
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import PROVENANCE, naming, read_config, read_records
+from testbed.experiment.store import read_records
 
 PARQUET, CSV = "trials.parquet", "trials.csv"
 BATCH = 1000
@@ -70,8 +70,7 @@ def load_run(
     folder = Path(folder)
     config, provenance = config or read_config(folder), folder / PROVENANCE
     known = msgspec.json.decode(provenance.read_bytes()) if provenance.is_file() else {}
-    records = read_records(folder) if specs is None else planned_records(folder, specs)
-    return Run(folder, config, known, table_of(records))
+    return Run(folder, config, known, table_of(read_records(folder, specs)))
 
 
 def table_of(records: Iterable[TrialRecord]) -> pl.DataFrame:

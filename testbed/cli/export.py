@@ -16,7 +16,7 @@ def command(
     folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
 ) -> None:
     """Write the stored trials of a run as trials.parquet and trials.csv into its folder."""
-    from testbed.experiment.run_config import read_config
+    from testbed.experiment.run_folder import read_config
 
     with input_errors():
         for folder in folders:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.checks import adversary_findings, robot_findings
+from testbed.experiment.adversaries import adversary_findings
 from testbed.experiment.provenance import modules_of
+from testbed.experiment.robots import robot_findings
 from testbed.registry import search_as_told, search_last
 from testbed.studies import study_findings
 

@@ -26,7 +26,7 @@ def command(
     Without --trial the trials of the run are listed. With it the trial is played again in this
     process; where that differs from the record it says so, and the exit code is 1.
     """
-    from testbed.experiment.run_config import read_config
+    from testbed.experiment.run_folder import read_config
 
     with input_errors():
         read_config(folder)

@@ -16,7 +16,7 @@ def command(
     folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
 ) -> None:
     """Make tables, summary.json and report.html again from the stored trials."""
-    from testbed.experiment.run_config import read_config
+    from testbed.experiment.run_folder import read_config
 
     with input_errors():
         from testbed.cli.loading import search_beside

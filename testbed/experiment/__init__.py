@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     from testbed.experiment.plan import plan_trials
     from testbed.experiment.record import TrialRecord
     from testbed.experiment.resume import RunStatus
+    from testbed.experiment.run_folder import read_config
     from testbed.experiment.runner import run
-    from testbed.experiment.store import read_config, read_records
+    from testbed.experiment.store import read_records
     from testbed.experiment.trial import play_trial
 else:
     _PLACES = {
@@ -35,7 +36,7 @@ else:
         "WorkerError": "errors",
         "plan_trials": "plan",
         "play_trial": "trial",
-        "read_config": "run_config",
+        "read_config": "run_folder",
         "read_records": "store",
         "run": "runner",
     }

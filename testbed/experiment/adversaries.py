@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any, Protocol, TypeVar, get_args
 
@@ -11,9 +11,10 @@ import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
 from asp.language import suggestion
+from testbed.config import ExperimentConfig, Finding
 from testbed.experiment.specs import Setting
 from testbed.protocol import in_one_line
-from testbed.registry import Registry, class_fault
+from testbed.registry import Registry, RegistryError, class_fault
 
 T = TypeVar("T")
 SIGHTS = get_args(Sight)
@@ -131,3 +132,21 @@ class _Named:
             return call()
         except Exception as error:  # whatever it is, it is the adversary's
             raise AdversaryError(f"{self._name}: {in_one_line(error)}") from error
+
+
+def adversary_findings(config: ExperimentConfig) -> Iterator[Finding]:
+    """A strategy that there is not, and options that it does not take."""
+    own = config.adversary
+    strategy = own.strategy or default_strategy(config.is_fine)
+    given = dict(own.options)
+    if RATE in given:
+        yield ("adversary", "options", RATE), "is a key of its own; give adversary.rate"
+    elif own.rate is not None:
+        given[RATE] = own.rate
+    try:
+        options_of(ADVERSARIES.find(strategy), given)
+    except RegistryError as error:
+        yield ("adversary", "strategy"), str(error)
+    except OptionError as error:
+        where = (RATE,) if error.name == RATE else ("options", *filter(None, [error.name]))
+        yield ("adversary", *where), f"{error} (of {strategy})"

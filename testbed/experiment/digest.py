@@ -1,4 +1,4 @@
-"""One number for all results of a run: equal wherever and however it was played.
+"""The results of trials, which the same seed gives again, and one number for all of a run.
 
 The digest covers a fixed list of fields, so that it stays the same when a record gains a field:
 what a trial is (the seed, which follows from its seed path, scenario, level, robot, initial state,
@@ -11,10 +11,34 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
+from typing import Any
 
 import msgspec
 
-from testbed.experiment.record import Activity, At, Explained, TrialRecord
+from testbed.experiment.record import At, TrialRecord
+
+TIMES = (
+    "planning_time_s",
+    "diagnosis_time_s",
+    "reasoning_time_s",
+    "wall_time_s",
+    "infer_time_s",
+    "planning_cpu_s",
+    "diagnosis_cpu_s",
+    "preparation_cpu_s",
+    "infer_cpu_s",
+)
+"""Keys of a record that hold times."""
+
+
+def logical(record: TrialRecord) -> dict[str, object]:
+    """The record without times and earlier attempts: what the same seed must give again."""
+    kept = _timeless(msgspec.to_builtins(record, enc_hook=str))
+    return kept | {"fine": None if record.fine is None else _timeless(kept["fine"])}
+
+
+def _timeless(values: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in values.items() if key not in (*TIMES, "retried")}
 
 
 def digest(records: Iterable[TrialRecord]) -> str:
@@ -36,19 +60,14 @@ def _results(record: TrialRecord) -> list[object]:
         record.outcome,
         [[own.step, own.action, own.happened] for own in record.actions],
         [[event.step, event.action, event.observed] for event in record.exogenous],
-        [_explanation(own) for own in record.explanations],
+        [
+            [own.step, _at(own.unobserved), own.exceptions, _at(own.distrusted)]
+            for own in record.explanations
+        ],
         _at(record.mental),
-        [record.plans, *(_plan(own) for own in record.activities)],
+        [record.plans, *([own.start, own.plan] for own in record.activities)],
         record.execution_units,
     ]
-
-
-def _explanation(own: Explained) -> list[object]:
-    return [own.step, _at(own.unobserved), own.exceptions, _at(own.distrusted)]
-
-
-def _plan(own: Activity) -> list[object]:
-    return [own.start, own.plan]
 
 
 def _at(actions: Iterable[At]) -> list[list[object]]:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 
 from testbed.environment import FINISH
-from testbed.experiment.domains import load_world
 from testbed.experiment.specs import Setting
 from testbed.experiment.timeline import explanation
 from testbed.experiment.trial import Moment
 from testbed.experiment.trial_setup import load_ground
 from testbed.protocol import FineTrace, Trace
-from testbed.world import World, world_of
+from testbed.world import World, load_world, world_of
 
 Say = Callable[[str], None]
 

@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from asp.language import Description, Trigger
-from testbed.config import ExperimentConfig
-from testbed.experiment.domains import load_world
-from testbed.experiment.level_plan import level_specs
-from testbed.experiment.record import COARSE
-from testbed.experiment.seeds import drawn_part
-from testbed.experiment.specs import TrialSpec, pair_specs, setting_of
-from testbed.world import World
+import msgspec
+import numpy as np
 
-__all__ = ["TrialSpec", "plan_trials", "planned_trials"]
+from asp.language import Description, Trigger
+from asp.refinement import Refinement
+from testbed.config import ExperimentConfig, grounds, level_size
+from testbed.environment import RandomGoal, RandomStart
+from testbed.experiment.record import COARSE
+from testbed.experiment.seeds import drawn_part, generator_of
+from testbed.experiment.specs import FineSetting, TrialSpec, pair_specs, setting_of
+from testbed.experiment.store import read_records
+from testbed.experiment.timeline import place
+from testbed.text.wording import listed
+from testbed.world import World, load_world, world_of
+
+SCENARIO = "levels"
+"""What stands in place of a scenario in the records of trials at the fine resolution."""
 
 
 def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
     """The trials of a configuration in their order: scenario or level, pair, robot."""
-    return list(level_specs(config)) if config.is_fine else _in_scenarios(config)
+    return list((_at_levels if config.is_fine else _in_scenarios)(config))
 
 
 def planned_trials(config: ExperimentConfig) -> dict[str, int]:
@@ -35,14 +44,15 @@ def planned_trials(config: ExperimentConfig) -> dict[str, int]:
     }
 
 
-def _in_scenarios(config: ExperimentConfig) -> list[TrialSpec]:
+def _in_scenarios(config: ExperimentConfig) -> Iterator[TrialSpec]:
     world = load_world(config.domain)
-    return [
-        spec
-        for scenario in config.scenarios
-        for initial, repeat in _starts(config, scenario, world)
-        for spec in _pair(config, scenario, initial, repeat, world.description.name)
-    ]
+    domain = world.description.name
+    for scenario in config.scenarios:
+        setting = setting_of(config, scenario)
+        for initial, repeat in _starts(config, scenario, world):
+            start = [domain, COARSE, scenario, list(initial), sorted(setting.goal)]
+            path = [*start, repeat] if repeat else start
+            yield from pair_specs(config, scenario, COARSE, path, initial, setting, domain)
 
 
 def _starts(
@@ -55,21 +65,6 @@ def _starts(
     repeats = _repeats(config, scenario, world.description)
     drawn = drawn_part(len(atoms) * repeats, config.limit, config.seed, scenario)
     return ((atoms[index // repeats], index % repeats) for index in drawn)
-
-
-def _pair(
-    config: ExperimentConfig, scenario: str, initial: tuple[str, ...], repeat: int, domain: str
-) -> Iterator[TrialSpec]:
-    setting = setting_of(config, scenario)
-    path = [
-        domain,
-        COARSE,
-        scenario,
-        list(initial),
-        sorted(setting.goal),
-        *([repeat] * (repeat > 0)),
-    ]
-    return pair_specs(config, scenario, COARSE, path, initial, setting, domain)
 
 
 def _repeats(config: ExperimentConfig, scenario: str, description: Description) -> int:
@@ -99,3 +94,90 @@ def _news_is_drawn(config: ExperimentConfig) -> bool:
 
 def _open(probability: float) -> bool:
     return 0.0 < probability < 1.0
+
+
+def _at_levels(config: ExperimentConfig) -> Iterator[TrialSpec]:
+    domain, common = Path(config.domain).stem, setting_of(config, SCENARIO)
+    for level, ground in grounds(config):
+        fine = FineSetting(
+            size=None if config.refinement else level_size(config, level),
+            refinement=config.refinement,
+            statistics=dict(sorted(config.statistics.items())),
+            pace=config.adversary.pace,
+        )
+        draw = _drawing(config, ground.refinement)
+        texts = [ground.refinement.coarse.text, ground.text] if config.refinement else []
+        for number in range(1, (config.limit or 0) + 1):
+            drawn = [level, *texts, number]
+            initial, goal = draw(generator_of(config.seed, drawn))
+            path = [*drawn, list(initial), sorted(goal)]
+            setting = msgspec.structs.replace(common, goal=goal, fine=fine)
+            yield from pair_specs(config, SCENARIO, level, path, initial, setting, domain)
+
+
+def _drawing(
+    config: ExperimentConfig, refinement: Refinement
+) -> Callable[[np.random.Generator], tuple[tuple[str, ...], tuple[str, ...]]]:
+    """What draws the trials of one level: the inertial atoms true at first, and a goal.
+
+    The goal does not hold at first. What the configuration gives is not drawn.
+    """
+    world, description = world_of(refinement), refinement.description
+    start = RandomStart(world, description.robots[0], config.draw.holding)
+    goal = None if config.goal else RandomGoal(world, config.draw.goal, description.sorts)
+
+    def draw(generator: np.random.Generator) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        state = start(generator) if config.initial is None else world.state(config.initial)
+        inertial = frozenset(world.true_atoms(state)).intersection(world.description.inertial)
+        return tuple(sorted(inertial)), config.goal if goal is None else goal(state, generator)
+
+    return draw
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """Trials planned and on record, by scenario or level; `noun` is which of both."""
+
+    noun: str
+    planned: Mapping[str, int]
+    on_record: Mapping[str, int]
+
+    @property
+    def missing(self) -> dict[str, int]:
+        """How many trials are not on record, of what lacks any, in the order of the plan."""
+        lacking = {name: n - self.on_record.get(name, 0) for name, n in self.planned.items()}
+        return {name: number for name, number in lacking.items() if number > 0}
+
+    def numbers(self) -> dict[str, object]:
+        """The part of `summary.json`: all that were planned, and what is missing."""
+        return {"planned": sum(self.planned.values()), "missing": self.missing}
+
+    def notice(self) -> str | None:
+        """What a reader has to know of a run that is not complete; None of one that is."""
+        missing = self.missing
+        if not missing:
+            return None
+        planned = sum(self.planned.values())
+        head = f"{planned - sum(missing.values())} of {planned} trials are on record"
+        untouched = [name for name, number in missing.items() if number == self.planned[name]]
+        parts = [self._begun(name, n) for name, n in missing.items() if name not in untouched]
+        if untouched:
+            names = self.noun if len(untouched) == 1 else f"{self.noun}s"
+            parts.append(f"none of {names} {listed(untouched)}")
+        return f"{head}: {', '.join(parts)}"
+
+    def _begun(self, name: str, missing: int) -> str:
+        planned = self.planned[name]
+        return f"{planned - missing} of {planned} of {self.noun} {name}"
+
+
+def places_of(folder: Path) -> Iterator[tuple[str, str]]:
+    """Scenario and level of each trial on record in a run folder. Raises StoreError."""
+    return ((record.scenario, record.level) for record in read_records(folder))
+
+
+def coverage_of(trials: Iterable[tuple[str, str]], config: ExperimentConfig) -> Coverage:
+    """How much of the plan of a configuration these trials are: scenario and level of each."""
+    on_record = Counter(place(scenario, level) for scenario, level in trials)
+    noun = "level" if config.is_fine else "scenario"
+    return Coverage(noun, planned_trials(config), on_record)

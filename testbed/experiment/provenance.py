@@ -16,7 +16,7 @@ from typing import Any
 import asp
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
-from testbed.experiment.store import PROVENANCE, replace_text
+from testbed.experiment.run_folder import PROVENANCE, replace_text
 from testbed.registry import PATH_VARIABLE
 
 DISTRIBUTION = "intention-testbed"

@@ -5,13 +5,10 @@ Steps are the environment's: 0 is the selection of the goal, the robot's first a
 
 from __future__ import annotations
 
-import re
-from typing import Annotated, Any, Literal, NamedTuple, TypeAlias, get_args
-from zlib import crc32
+from typing import Annotated, Literal, NamedTuple, TypeAlias, get_args
 
 import msgspec
 
-from testbed.experiment.errors import StoreError
 from testbed.protocol import Count, Minimality, NoPlan
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
@@ -23,24 +20,6 @@ Cause = Literal["robot", "infrastructure", "testbed"]
 """What a trial failed for: the robot's own error; a process that ended, or the link to it; ours."""
 COARSE = "coarse"
 """The level of trials at the coarse resolution."""
-TIMES = (
-    "planning_time_s",
-    "diagnosis_time_s",
-    "reasoning_time_s",
-    "wall_time_s",
-    "infer_time_s",
-    "planning_cpu_s",
-    "diagnosis_cpu_s",
-    "preparation_cpu_s",
-    "infer_cpu_s",
-)
-
-MOST_BYTES = 4 * 2**20
-"""Of one record as a line."""
-VERSION = 1
-"""Of the keys of a record. Lines without a version, which older testbeds wrote, are 0."""
-SEAL = re.compile(rb'\{"version":(\d+),"crc32":"([0-9a-f]{8})",')
-"""How a line begins; the checksum is that of the rest of the line, a brace before it."""
 Total: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1e15)]
 """A finite sum of seconds."""
 
@@ -234,75 +213,3 @@ class TrialRecord(msgspec.Struct, kw_only=True):
         from testbed.experiment.timeline import html_of  # noqa: PLC0415  # which is about records
 
         return html_of(self)
-
-
-class _Seal(msgspec.Struct):
-    """What a line says of itself, wherever in it."""
-
-    version: Count = 0
-    crc32: str | None = None
-
-
-class NewerVersionError(StoreError):
-    """A record that a newer testbed wrote: nothing is wrong with it, but it is not read here."""
-
-
-# Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
-# once end the interpreter.
-_decoder = msgspec.json.Decoder(TrialRecord)
-_seal = msgspec.json.Decoder(_Seal)
-
-
-def encode(record: TrialRecord) -> bytes:
-    """The record as one line of JSON with its version and checksum, newline included."""
-    body = msgspec.json.encode(record, enc_hook=str)
-    return b'{"version":%d,"crc32":"%08x",%s\n' % (VERSION, crc32(body), body[1:])
-
-
-def check(record: TrialRecord) -> None:
-    """Raise msgspec.ValidationError unless the record can be written and read again."""
-    line = encode(record)
-    if len(line) > MOST_BYTES:
-        message = f"a record of {len(line)} bytes; {MOST_BYTES} are the most"
-        raise msgspec.ValidationError(message)
-    decode(line)
-
-
-def decode(line: bytes) -> TrialRecord:
-    """The record in a line.
-
-    Raises:
-        msgspec.DecodeError: for anything else, and where the checksum is not that of the line.
-        NewerVersionError: for a record that a newer testbed wrote.
-    """
-    try:
-        _check_seal(line)
-        return _decoder.decode(line)
-    except (UnicodeDecodeError, RecursionError) as error:
-        raise msgspec.DecodeError(str(error)) from error
-
-
-def _check_seal(line: bytes) -> None:
-    """A line without version and checksum is an older one, and is read as it is."""
-    told = SEAL.match(line)
-    if told is None:
-        seal = _seal.decode(line)
-        version, sound = seal.version, seal.crc32 is None
-    else:
-        version = int(told[1])
-        sound = int(told[2], 16) == crc32(b"{" + line[told.end() :].rstrip(b"\n"))
-    if not sound:
-        raise msgspec.DecodeError("its checksum (crc32) is not that of the line")
-    if version > VERSION:
-        newer = f"a record of version {version}, and this testbed reads up to {VERSION}"
-        raise NewerVersionError(f"{newer}; install the one that provenance.json names")
-
-
-def logical(record: TrialRecord) -> dict[str, object]:
-    """The record without times and earlier attempts: what the same seed must give again."""
-    kept = _timeless(msgspec.to_builtins(record, enc_hook=str))
-    return kept | {"fine": None if record.fine is None else _timeless(kept["fine"])}
-
-
-def _timeless(values: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in values.items() if key not in (*TIMES, "retried")}

@@ -25,6 +25,9 @@ from testbed.experiment.record import (
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import Decision, Event, Explanation, FineTrace, NoPlan, Trace, shortened
 
+GIVEN = ("pair", "scenario", "seed", "robot", "domain", "level", "initial", "goal")
+"""Keys of a record that follow from the plan."""
+
 
 class Result(msgspec.Struct):
     """A record, and where the trial failed what is known of the failure."""
@@ -242,3 +245,15 @@ def blank_record(spec: TrialSpec) -> TrialRecord:
         goal=list(spec.setting.goal),
         fine=None if spec.setting.fine is None else FineCounts(),
     )
+
+
+def strangeness(record: TrialRecord, spec: TrialSpec | None) -> str | None:
+    """Why a record is not that of the planned trial with its id; None if it is."""
+    if spec is None:
+        return f"trial {record.trial} is not one of this run's"
+    blank = blank_record(spec)
+    for key in GIVEN:
+        told, planned = getattr(record, key), getattr(blank, key)
+        if told != planned:
+            return f"trial {record.trial} has {key} {told!r}, not {planned!r}"
+    return None

@@ -8,14 +8,16 @@ from pathlib import Path
 
 from asp.language import suggestion
 from testbed.config import ExperimentConfig
+from testbed.experiment.digest import logical
 from testbed.experiment.errors import StoreError
 from testbed.experiment.narration import Say, narrator_of
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.record import TrialRecord, logical
+from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import Result
 from testbed.experiment.robots import make_robot
+from testbed.experiment.run_folder import read_config
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import read_config, read_records
+from testbed.experiment.store import read_records
 from testbed.experiment.timeline import in_words, of_place, place
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot

@@ -10,14 +10,14 @@ from functools import partial
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.conformity import check_planned
 from testbed.experiment.interrupts import INTERRUPTED
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES
 from testbed.experiment.recorder import Result
 from testbed.experiment.robots import make_robot
+from testbed.experiment.run_folder import ERRORS, naming
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import ERRORS, TrialWriter, naming
+from testbed.experiment.store import TrialWriter
 from testbed.experiment.trial import play_trial
 from testbed.experiment.worker import Play
 from testbed.experiment.worker_pool import play_all, workers_for
@@ -68,8 +68,7 @@ def play_missing(
         WorkerError: when no trial can be played.
     """
     specs = plan_trials(config)
-    with TrialWriter(folder) as writer:
-        check_planned(folder, specs)
+    with TrialWriter(folder, specs) as writer:
         failed = {} if retry_failed else {t: own[-1] for t, own in writer.failures.items()}
         done = writer.done.difference(writer.failures) | failed.keys()
         missing = [spec for spec in specs if spec.trial not in done]

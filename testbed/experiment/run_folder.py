@@ -1,19 +1,33 @@
-"""The folder of a run: where it is, what its files are called, how they are replaced."""
+"""The folder of a run: where it is, how its files are replaced, and the configuration in it."""
 
 from __future__ import annotations
 
 import fcntl
 import os
+import shutil
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from itertools import count
+from contextlib import contextmanager, suppress
+from itertools import count, takewhile
 from pathlib import Path
 
+from testbed.config import (
+    SCENARIO_KEYS,
+    ConfigError,
+    ExperimentConfig,
+    load_config,
+    write_yaml,
+)
 from testbed.experiment.errors import StoreError
 
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
 SUMMARY, REPORT, ERRORS = "summary.json", "report.html", "errors"
 LOCK = ".lock"
+ANY_RESULT = ("link", "limits.answer_s")  # keys on which no logical result depends
+MOST_CHANGES = 8
+OWN_FILES = ("domain", "refinement")
+"""Keys that may lead to a file which is not packaged."""
+TEXT = " text"
+"""After the key of such a file: its text, which is no key of a configuration."""
 
 
 def choose_folder(out: Path | None, name: str, resume: bool) -> Path:
@@ -38,17 +52,18 @@ def refuse_second_run(folder: Path, resume: bool) -> None:
         raise StoreError(f"{folder}: holds a run already; --resume goes on with it")
 
 
+def holds_run(folder: Path) -> bool:
+    """Whether a run was started in this folder."""
+    return (folder / CONFIG).is_file() or (folder / TRIALS).is_file()
+
+
 def _numbered(name: str) -> Iterator[Path]:
     yield Path("runs") / name
     yield from (Path("runs") / f"{name}-{number}" for number in count(2))
 
 
 def _newest(name: str) -> Path:
-    newest = Path("runs") / name
-    for folder in _numbered(name):
-        if not folder.exists():
-            break
-        newest = folder
+    *_, newest = Path("runs") / name, *takewhile(Path.exists, _numbered(name))
     return newest
 
 
@@ -56,11 +71,9 @@ def _new(name: str) -> Path:
     """A folder that is made here, so that no other run can choose it as well."""
     for folder in _numbered(name):
         folder.parent.mkdir(parents=True, exist_ok=True)
-        try:
+        with suppress(FileExistsError):
             folder.mkdir()
-        except FileExistsError:
-            continue
-        return folder
+            return folder
     raise AssertionError("numbers do not end")
 
 
@@ -91,24 +104,95 @@ def naming(path: Path) -> Iterator[None]:
         raise OSError(error.errno, error.strerror, str(path)) from error
 
 
-def holds_run(folder: Path) -> bool:
-    """Whether a run was started in this folder."""
-    return (folder / CONFIG).is_file() or (folder / TRIALS).is_file()
-
-
 def replace_text(path: Path, text: str) -> None:
     """Write a file so that a reader finds the old one or the new one, never a part."""
-    draft = path.with_name(path.name + ".part")
-    with naming(path):
-        draft.write_text(text, encoding="utf-8")
-    os.replace(draft, path)
+    replace_lines(path, [text.encode()])
 
 
 def replace_lines(path: Path, lines: Iterable[bytes]) -> None:
-    """As `replace_text`, of lines that reach the disk before the old ones leave it."""
+    """As `replace_text`; the new lines reach the disk before the old ones leave it."""
     draft = path.with_name(path.name + ".part")
     with naming(path), draft.open("wb") as file:
         file.writelines(lines)
         file.flush()
         os.fsync(file.fileno())
     os.replace(draft, path)
+
+
+def read_config(folder: Path) -> ExperimentConfig:
+    """The configuration stored in a run folder. Raises StoreError or ConfigError."""
+    if not (folder / CONFIG).is_file():
+        raise StoreError(f"{folder}: is not a run folder (it has no {CONFIG})")
+    return load_config(folder / CONFIG)
+
+
+def write_config(folder: Path, config: ExperimentConfig) -> None:
+    """Write the resolved configuration, and beside it a domain or map that is not packaged."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = _own_files(config)
+    for source in files.values():
+        if source.parent != folder.resolve():
+            with naming(folder / source.name):
+                shutil.copyfile(source, folder / source.name)
+    config = config.model_copy(update={key: source.name for key, source in files.items()})
+    replace_text(folder / CONFIG, config_text(config))
+
+
+def _own_files(config: ExperimentConfig) -> dict[str, Path]:
+    """The files that a configuration leads to, by its key."""
+    files = {"domain": Path(config.domain)} if config.domain.endswith(".al") else {}
+    refinement = Path(config.refinement or "")
+    return files | {"refinement": refinement} if refinement.is_absolute() else files
+
+
+def config_text(config: ExperimentConfig) -> str:
+    """The configuration as YAML: every key with its value or default, of scenarios what is set.
+
+    Keys of scenarios are left out where there are levels.
+    """
+    if config.is_fine:
+        return write_yaml(config.model_dump(mode="json", exclude=set(SCENARIO_KEYS)))
+    own = config.model_dump(mode="json", include={"scenario_settings"}, exclude_none=True)
+    return write_yaml(config.model_dump(mode="json") | own)
+
+
+def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
+    """Raise StoreError, showing the difference, unless `config` is the one stored in `folder`.
+
+    Of a long difference the beginning is shown: the keys that were given, then defaults.
+    """
+    try:
+        stored = flat_config(read_config(folder))
+    except ConfigError as error:
+        raise StoreError(str(error)) from None
+    given = flat_config(config)
+    changed = [
+        key
+        for key in dict.fromkeys((*stored, *given))
+        if stored.get(key) != given.get(key) and key not in ANY_RESULT
+    ]
+    if changed:
+        changed.sort(key=lambda key: key.partition(".")[0] not in config.model_fields_set)
+        lines = [
+            f"{folder}: its configuration is another one; resume it unchanged or choose --out",
+            *(f"  {k}: {stored.get(k, 'absent')} -> {given.get(k, 'absent')}" for k in changed),
+        ]
+        if len(changed) > MOST_CHANGES:
+            lines[MOST_CHANGES + 1 :] = [f"  and {len(changed) - MOST_CHANGES} more"]
+        raise StoreError("\n".join(lines))
+
+
+def flat_config(config: ExperimentConfig) -> dict[str, object]:
+    """The keys that are set, nested ones with dots, and the texts of its own files."""
+    flat = dict(_flat("", config.model_dump(mode="json", exclude_none=True)))
+    for key, file in _own_files(config).items():
+        flat |= {key: file.name, key + TEXT: file.read_text(encoding="utf-8")}
+    return flat
+
+
+def _flat(prefix: str, value: object) -> Iterator[tuple[str, object]]:
+    if isinstance(value, dict):
+        for key, item in value.items():
+            yield from _flat(f"{prefix}{key}.", item)
+    else:
+        yield prefix.removesuffix("."), value

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.coverage import coverage_of, places_of
 from testbed.experiment.errors import WorkerError
+from testbed.experiment.plan import coverage_of, places_of
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.resume import Notify, RunStatus, play_missing
-from testbed.experiment.store import (
+from testbed.experiment.run_folder import (
     check_unchanged,
     choose_folder,
     holds_run,

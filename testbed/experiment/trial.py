@@ -11,7 +11,7 @@ import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Script, Sight
 from testbed.environment import NONE, Core, IllegalActionError
-from testbed.experiment.record import check
+from testbed.experiment.encoding import check
 from testbed.experiment.recorder import Recorder, Result, recorder_of
 from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import TrialSpec

@@ -11,11 +11,10 @@ from asp.language import Literal, arguments, complement
 from testbed.config import Ground, ground_of_files, ground_of_size
 from testbed.environment import Core, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
-from testbed.experiment.domains import load_world
 from testbed.experiment.judge import Judge, Narrowing
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.protocol import Task
-from testbed.world import World, world_of
+from testbed.world import World, load_world, world_of
 
 
 class TrialSetup:

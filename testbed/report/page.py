@@ -15,10 +15,10 @@ from testbed.analysis.comparison import compared, eventful, measured, with_apart
 from testbed.analysis.condition import condition
 from testbed.analysis.summary import write_summary
 from testbed.config import ExperimentConfig
-from testbed.experiment.coverage import coverage_of
+from testbed.experiment.plan import coverage_of
 from testbed.experiment.record import FAILURES
+from testbed.experiment.run_folder import REPORT, replace_text
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import REPORT, replace_text
 from testbed.report.comparison import OPTIMUM, charts, comparisons, optima
 from testbed.report.rendering import environment, rendered
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest

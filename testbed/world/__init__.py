@@ -1,6 +1,6 @@
 """The transition diagram of a domain: one interface, and two backends that find its answers."""
 
-from testbed.world.backends import sensing_of, world_of
+from testbed.world.backends import load_world, sensing_of, world_of
 from testbed.world.matched.sensing import Sensing
 from testbed.world.world import (
     NotExecutableError,
@@ -17,6 +17,7 @@ __all__ = [
     "UnknownActionError",
     "UnknownFluentError",
     "World",
+    "load_world",
     "sensing_of",
     "world_of",
 ]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 
+import asp
 from asp.language import Description, Problems, signature_of, syntax
 from asp.refinement import Refinement
 from testbed.world.compiled import CompiledWorld
@@ -24,6 +25,12 @@ def world_of(description: Description | Refinement | syntax.Source) -> World:
     if isinstance(description, Refinement):
         return _weak(description)
     return MatchedWorld(description, signature_of(description, Problems(description.file)))
+
+
+@lru_cache(maxsize=8)
+def load_world(domain: str) -> World:
+    """The world of a domain given by name or path. Raises what `asp.load_description` does."""
+    return world_of(asp.load_description(domain))
 
 
 @cache

@@ -13,7 +13,7 @@ from benchmarks.__main__ import main
 from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS
 from benchmarks.sheets import Row, Sheet
 from benchmarks.trials import SCENARIOS, Played
-from testbed.experiment.plan import TrialSpec
+from testbed.experiment.specs import TrialSpec
 
 SETTLED_MB = 5.0
 

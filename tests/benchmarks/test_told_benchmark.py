@@ -7,13 +7,14 @@ import pytest
 
 from benchmarks.told import ToldRobot, main, reordered
 from testbed.config import load_config
-from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.resume import play_missing
-from testbed.experiment.store import read_config, read_records, write_config
+from testbed.experiment.run_folder import read_config, write_config
+from testbed.experiment.store import read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
+from testbed.world import load_world
 
 DOMAIN = load_world("office").description
 FIRST = ("library", "kitchen", "office2", "office1")

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from testbed.config import ConfigError, ExperimentConfig, Limits, load_config
-from testbed.experiment.run_config import read_config, write_config
+from testbed.experiment.run_folder import read_config, write_config
 
 SWITCH = """\
 sorts

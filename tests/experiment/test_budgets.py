@@ -11,9 +11,9 @@ from typer.testing import CliRunner
 
 from testbed.cli import app
 from testbed.config import load_config
-from testbed.experiment.digest import digest
+from testbed.experiment.digest import digest, logical
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.record import TrialRecord, logical
+from testbed.experiment.record import TrialRecord
 from testbed.experiment.robots import ROBOTS, make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot

@@ -10,10 +10,9 @@ from papers.levels.__main__ import main as levels_page
 from papers.table1.__main__ import main as table1_page
 from testbed.cli import app
 from testbed.config import load_config
-from testbed.experiment.coverage import Coverage, coverage_of
-from testbed.experiment.plan import plan_trials, planned_trials
+from testbed.experiment.plan import Coverage, coverage_of, plan_trials, planned_trials
 from testbed.experiment.resume import play_missing
-from testbed.experiment.store import write_config
+from testbed.experiment.run_folder import write_config
 from testbed.experiment.timeline import place
 from testbed.text.wording import listed
 

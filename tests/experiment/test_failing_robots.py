@@ -12,15 +12,16 @@ from typer.testing import CliRunner
 
 from testbed.analysis.table import table_of
 from testbed.cli import app
-from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
-from testbed.experiment.store import TrialWriter, read_records, write_config
+from testbed.experiment.run_folder import write_config
+from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, RobotGone, RobotStops, Task
 from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import analyse
+from testbed.world import load_world
 from tests.experiment.samples import Configure, a_level_record, summary_of
 from tests.studies.levels.found import columns
 

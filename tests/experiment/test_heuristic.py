@@ -12,10 +12,9 @@ from hypothesis import strategies as st
 from asp.language import SourceError, parse_description
 from testbed.config import load_config
 from testbed.experiment import judge
-from testbed.experiment.domains import load_world
 from testbed.experiment.heuristic.potentials import Potentials, blind
 from testbed.experiment.resume import play_missing
-from testbed.world import World, world_of
+from testbed.world import World, load_world, world_of
 from tests.experiment.gardens import GARDEN
 from tests.world.test_world_random import HEADER, laws
 

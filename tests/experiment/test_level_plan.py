@@ -5,7 +5,8 @@ from collections import Counter
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import load_ground
 from testbed.world import world_of
 

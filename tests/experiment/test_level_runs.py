@@ -11,12 +11,12 @@ from typer.testing import CliRunner
 from benchmarks.killing import killed_at
 from testbed.cli import app
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.digest import digest
+from testbed.experiment.digest import digest, logical
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.record import logical
 from testbed.experiment.resume import RunStatus, play_missing
 from testbed.experiment.robots import make_robot
-from testbed.experiment.store import read_records, write_config
+from testbed.experiment.run_folder import write_config
+from testbed.experiment.store import read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.report import write_report

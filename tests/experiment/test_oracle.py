@@ -8,9 +8,8 @@ import pytest
 from asp.domains.levels import level_text
 from asp.language import analyse, ground_description
 from testbed.environment import RandomGoal
-from testbed.experiment.domains import load_world
 from testbed.experiment.judge import Narrowing, minimal_actions, minimal_units, shortest_plan
-from testbed.world import World, world_of
+from testbed.world import World, load_world, world_of
 
 DELIVERED = (
     "loc(book1,library)",

@@ -4,17 +4,17 @@ from pathlib import Path
 
 import pytest
 
-from testbed.experiment.domains import load_world
 from testbed.experiment.narration import Narrator
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.replay import list_trials, replay
 from testbed.experiment.robots import make_robot
-from testbed.experiment.store import TrialWriter, write_config
+from testbed.experiment.run_folder import write_config
+from testbed.experiment.store import TrialWriter
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, Trace
-from testbed.world import World
+from testbed.world import World, load_world
 from tests.experiment.samples import Configure
 
 

@@ -16,11 +16,12 @@ import pytest
 
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment import StoreError, read_config, run
-from testbed.experiment.plan import TrialSpec, plan_trials
-from testbed.experiment.record import logical
+from testbed.experiment.digest import logical
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import Result, blank_record
 from testbed.experiment.resume import RunStatus, play_missing, player
 from testbed.experiment.robots import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import Moment, play_trial
 from testbed.experiment.worker import Play

@@ -6,8 +6,9 @@ from itertools import groupby, takewhile
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import msgspec
 import pytest
 
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import spawned_robot
 from testbed.protocol import Decision, Percept, RobotClient, Task

@@ -7,9 +7,10 @@ from typing import Any
 import msgspec
 import pytest
 
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import Result
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import (

@@ -8,7 +8,7 @@ import pytest
 import asp
 from papers.commands import ROOT, arguments
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.store import flat_config, read_config, write_config
+from testbed.experiment.run_folder import flat_config, read_config, write_config
 
 DOMAINS = Path(asp.__file__).parent / "domains"
 MAP = ["levels=[]", "name=mine", "domain=my.al", "refinement=my.fine", "draw.goal=[loc(book,room)]"]

@@ -8,7 +8,7 @@ import pytest
 from papers.__main__ import main
 from testbed.config import load_config
 from testbed.experiment.resume import RunStatus, play_missing
-from testbed.experiment.store import write_config
+from testbed.experiment.run_folder import write_config
 
 SVG = "{http://www.w3.org/2000/svg}"
 RUNS = {

@@ -11,10 +11,10 @@ from papers.table1.others import later, unaided
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run
 from testbed.config import load_config
-from testbed.experiment.domains import load_world
 from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import Analysis, analyse
 from testbed.studies.table1.published import PUBLISHED
+from testbed.world import load_world
 from tests.studies.table1.made import a_pair, a_side
 
 WORLD = load_world("office")

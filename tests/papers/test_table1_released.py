@@ -12,7 +12,8 @@ from papers.table1.weighing import Weighing
 from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.resume import play_missing
-from testbed.experiment.store import read_records, write_config
+from testbed.experiment.run_folder import write_config
+from testbed.experiment.store import read_records
 from testbed.studies.table1.published import SCENARIOS
 
 HOLDING = "[loc(rob1,kitchen), 'in_hand(rob1,book1)', loc(book1,kitchen), loc(book2,office2)]"

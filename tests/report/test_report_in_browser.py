@@ -7,7 +7,7 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.resume import RunStatus, play_missing
-from testbed.experiment.store import REPORT
+from testbed.experiment.run_folder import REPORT
 from testbed.report import write_report
 from tests.report.browser import CHROMIUM, Browser, Tab
 

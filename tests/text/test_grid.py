@@ -12,7 +12,8 @@ from rich.cells import cell_len
 from testbed import studies
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import At, Explained
-from testbed.experiment.store import TrialWriter, write_config
+from testbed.experiment.run_folder import write_config
+from testbed.experiment.store import TrialWriter
 from testbed.report.tables import grid, rows_of
 from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM
 from testbed.text.grid import Grid

@@ -15,7 +15,6 @@ from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.comparison import LEAST, TIMES, eventful
 from testbed.analysis.statistics import Test
 from testbed.config import ExperimentConfig
-from testbed.experiment.domains import load_world
 from testbed.studies.pairs import Ratio, Sample, corrected
 from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of
 from testbed.studies.table1.published import (
@@ -28,6 +27,7 @@ from testbed.studies.table1.published import (
     SCENARIOS,
     Published,
 )
+from testbed.world import load_world
 
 RANDOM = "random"
 Optimum: TypeAlias = Mapping[str, float | None]

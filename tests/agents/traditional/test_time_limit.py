@@ -15,8 +15,9 @@ from asp.reasoning.diagnosis import Diagnosis, Explanation, History
 from asp.reasoning.knowledge import Knowledge
 from asp.solving.budget import OUT_OF_TIME, TimeLimitError
 from testbed.config import load_config
-from testbed.experiment.plan import TrialSpec, plan_trials
+from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, live

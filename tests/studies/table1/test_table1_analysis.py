@@ -8,7 +8,6 @@ import pytest
 from testbed.analysis.comparison import DIVIDED
 from testbed.analysis.comparison import MEASURES as COMPUTED
 from testbed.analysis.table import table_of
-from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.studies import rows_of
 from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of, undone
@@ -16,6 +15,7 @@ from testbed.studies.table1.measures import Analysis, Row, Table, analyse
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.studies.table1.tables import lines
 from testbed.studies.table1.tables import test_rows as effects
+from testbed.world import load_world
 from tests.experiment.samples import a_record
 
 WORLD = load_world("office")

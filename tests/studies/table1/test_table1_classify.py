@@ -5,13 +5,13 @@ from functools import lru_cache
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Activity, At, Attempt, Occurrence, TrialRecord
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 from testbed.studies.table1.classify import NOTHING_TO_DO, UNCLASSIFIED, classify, state_at
+from testbed.world import load_world
 from tests.experiment.samples import a_record
 
 WORLD = load_world("office")

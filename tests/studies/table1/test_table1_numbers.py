@@ -11,14 +11,15 @@ from hypothesis import strategies as st
 from testbed.analysis import load_run
 from testbed.analysis.table import table_of
 from testbed.config import load_config
-from testbed.experiment.domains import load_world
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.experiment.resume import play_missing
-from testbed.experiment.store import read_records, write_config
+from testbed.experiment.run_folder import write_config
+from testbed.experiment.store import read_records
 from testbed.report import write_report
 from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import Analysis, Row, analyse, measures
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED
+from testbed.world import load_world
 from tests.experiment.samples import a_record, summary_of
 
 CONFIG = load_config("table1", ["limit=16", "repeats=2", "scenario_settings={}"])

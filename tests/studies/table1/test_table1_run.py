@@ -11,11 +11,12 @@ from papers.table1.__main__ import main
 from testbed.analysis import load_run
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
-from testbed.experiment.domains import load_world
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.resume import play_missing
-from testbed.experiment.store import read_records, write_config
+from testbed.experiment.run_folder import write_config
+from testbed.experiment.store import read_records
 from testbed.studies.table1.load import pairs_of
+from testbed.world import load_world
 
 SMALL = ["limit=4", "repeats=2", "scenario_settings={}"]
 
