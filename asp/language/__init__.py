@@ -14,7 +14,7 @@ from asp.language.description import (
 )
 from asp.language.errors import Problems, SourceError, nearest, suggestion
 from asp.language.functions import Function, excluding_place, functions, schematic, subject
-from asp.language.grounding import Instances, ground_description
+from asp.language.grounding import Instances, ground_description, pattern_of, static_truth
 from asp.language.literals import (
     Action,
     Fluent,
@@ -37,6 +37,7 @@ from asp.language.loading import (
     read_domain,
     read_text,
 )
+from asp.language.matching import NOTHING, Facts, Pattern, Row
 from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
 from asp.language.signature import (
@@ -53,18 +54,22 @@ from asp.language.writer import atom_text, condition_text, text_of
 
 __all__ = [
     "MOST_TEXTS",
+    "NOTHING",
     "Action",
     "Causal",
     "Constraint",
     "Default",
     "Description",
     "Executability",
+    "Facts",
     "Fluent",
     "Function",
     "Instances",
     "Literal",
     "Literals",
+    "Pattern",
     "Problems",
+    "Row",
     "Sees",
     "Shows",
     "Signature",
@@ -100,6 +105,7 @@ __all__ = [
     "parse",
     "parse_description",
     "parse_with",
+    "pattern_of",
     "read_domain",
     "read_text",
     "renamed",
@@ -107,6 +113,7 @@ __all__ = [
     "scenario_notes",
     "schematic",
     "signature_of",
+    "static_truth",
     "subject",
     "suggestion",
     "text_of",

@@ -5,7 +5,7 @@ A variable takes the members of its sort, and the statics are those of the close
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from itertools import product
 from typing import Any, TypeVar
@@ -23,6 +23,7 @@ from asp.language.description import (
     Trigger,
 )
 from asp.language.literals import Fluent, Literal
+from asp.language.matching import NOTHING, Facts, Pattern, Row
 from asp.language.signature import Signature
 from asp.language.variable_sorts import variable_domains
 
@@ -41,7 +42,7 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
         name=name,
         source=source.text,
         sorts=dict(signature.sorts),
-        statics=instances.known_statics,
+        statics=instances.statics,
         inertial=_symbols("inertial", signature),
         defined=_symbols("defined", signature),
         agent_actions=agent_actions,
@@ -61,16 +62,11 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
 
 @dataclass(frozen=True)
 class Instances:
-    """The instances that the statics and comparisons of their bodies allow.
-
-    A positive static holds if it is among the known ones, a negated one if it is not among the
-    assumed ones; where both are all that is true (`instances_of`) this is the closed world.
-    """
+    """The instances that statics and comparisons allow; `statics` are those that are true."""
 
     source: syntax.Source
     signature: Signature
-    known_statics: frozenset[Literal]
-    assumed_statics: frozenset[Literal]
+    statics: frozenset[Literal]
 
     def ground(self, statements: Iterable[syntax.Statement], kind: type[G]) -> tuple[G, ...]:
         """The ground statements of a kind, whose fields are named as those of the statements."""
@@ -114,8 +110,7 @@ class Instances:
             return instance(atom.args[0], binding) in self.signature.sorts[atom.name]
         if not self.is_static(condition):
             return None
-        statics = self.known_statics if condition.positive else self.assumed_statics
-        return (instance(atom, binding) in statics) == condition.positive
+        return (instance(atom, binding) in self.statics) == condition.positive
 
     def is_static(self, literal: syntax.Literal) -> bool:
         return self.signature.symbols[literal.atom.name].kind == "static"
@@ -123,8 +118,7 @@ class Instances:
 
 def instances_of(source: syntax.Source, signature: Signature) -> Instances:
     """The instances in the closed world of the description's statics."""
-    statics, _ = static_truth(source, signature)
-    return Instances(source, signature, statics, statics)
+    return Instances(source, signature, static_truth(source, signature)[0])
 
 
 def static_truth(
@@ -134,20 +128,23 @@ def static_truth(
 
     The alternating fixpoint: what is surely true narrows down what may be, and the other way round.
     """
-    bare = Instances(source, signature, frozenset(), frozenset())
     facts = frozenset(
-        instance(fact.literal.atom, binding)
-        for fact in source.each(syntax.Fact)
-        for binding in bare.bindings(fact)
+        fact
+        for stated in source.each(syntax.Fact)
+        for fact in pattern_of(stated, signature, head=stated.literal).heads((), NOTHING)
     )
-    laws = [law for law in source.each(syntax.StateConstraint) if bare.is_static(law.head)]
+    laws = [
+        pattern_of(law, signature, head=law.head)
+        for law in source.each(syntax.StateConstraint)
+        if signature.symbols[law.head.atom.name].kind == "static"
+    ]
 
     def closed(assumed: frozenset[Literal]) -> frozenset[Literal]:
         """The least set with the facts that is closed under the laws."""
         known = facts
         while True:
-            now = Instances(source, signature, known, assumed)
-            derived = known.union(instance(law.head, b) for law in laws for b, _ in now.of(law))
+            truth = _Assumed(known, assumed)
+            derived = known.union(*(law.heads((), truth) for law in laws))
             if derived == known:
                 return known
             known = derived
@@ -156,6 +153,34 @@ def static_truth(
     while (surer := closed(possible := closed(true))) != true:
         true = surer
     return true, possible - true
+
+
+class _Assumed(Facts):
+    """Statics known so far; one is false where it is not among the assumed ones."""
+
+    def __init__(self, known: Iterable[Literal], assumed: Iterable[Literal]) -> None:
+        super().__init__(known)
+        self._assumed = Facts(assumed)
+
+    def may_fail(self, name: str, row: Row) -> bool:
+        return self._assumed.may_fail(name, row)
+
+
+def pattern_of(
+    statement: syntax.Statement,
+    signature: Signature,
+    statics: Facts = NOTHING,
+    given: Sequence[syntax.Term] = (),
+    head: syntax.Literal | None = None,
+    also: Sequence[syntax.Literal] = (),
+) -> Pattern:
+    """The pattern of a statement, without the sorts of its body: its domains say them already."""
+    body: Iterable[syntax.Condition] = getattr(statement, "body", ())
+    conditions = [
+        c for c in body if isinstance(c, syntax.Comparison) or c.atom.name not in signature.sorts
+    ]
+    domains = variable_domains(statement, signature)
+    return Pattern(domains, conditions, statics, given, head, also)
 
 
 def instance(part: Any, binding: Binding) -> Any:

@@ -5,7 +5,6 @@ from asp.refinement.loading import load, load_refinement, read_refinement, refin
 from asp.refinement.observation import TRUE
 from asp.refinement.refinement import Refinement
 from asp.refinement.refining import shared_places
-from asp.refinement.statics import true_statics
 from asp.refinement.zooming import (
     Transition,
     fine_constants,
@@ -29,7 +28,6 @@ __all__ = [
     "refined_name",
     "relevant",
     "shared_places",
-    "true_statics",
     "zoom_coarse",
     "zoom_strong",
     "zoom_weak",

@@ -22,6 +22,7 @@ from asp.language import (
     read_domain,
     read_text,
     signature_of,
+    static_truth,
     syntax,
 )
 from asp.refinement.language import Components, Counterpart, Refines, TestsStatement, parse_fine
@@ -29,7 +30,6 @@ from asp.refinement.maps import check_maps
 from asp.refinement.observation import check_tested, observation_text, tested_fluents
 from asp.refinement.refinement import Refinement
 from asp.refinement.refining import weak_text
-from asp.refinement.statics import true_statics
 from asp.refinement.vocabulary import Vocabulary, vocabulary_of
 
 
@@ -49,13 +49,16 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     weak_signature = _signature(weak, fine)
     _check_own(fine, weak_signature)
     _check_cycles(weak, weak_signature, fine)
-    check_maps(fine, coarse, vocabulary, true_statics(weak, weak_signature), problems)
+    statics, _ = static_truth(weak, weak_signature)
+    check_maps(fine, coarse, vocabulary, statics, problems)
     tested = tested_fluents(fine, weak_signature, problems)
     check_complete(fine, coarse, vocabulary, problems)
     problems.raise_first()
     strong = _with(weak, observation_text(fine, vocabulary, tested))
     strong_signature = _signature(strong, fine)
-    return Refinement(coarse, signature, vocabulary, weak, weak_signature, strong, strong_signature)
+    return Refinement(
+        coarse, signature, vocabulary, weak, weak_signature, strong, strong_signature, statics
+    )
 
 
 def _signature(refined: syntax.Source, fine: syntax.Source) -> Signature:

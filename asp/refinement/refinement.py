@@ -49,6 +49,8 @@ def _is_ground(fact: syntax.Fact) -> bool:
 class Refinement:
     """D_c and D_f: `weak` is the physics of D_f, `strong` has the theory of observation, too.
 
+    `statics` are those that are true, the same in both.
+
     The refined descriptions are texts and their syntax: their instances are many more than a
     program needs, so that nothing here makes them.
     """
@@ -60,6 +62,7 @@ class Refinement:
     weak_signature: Signature
     strong: syntax.Source
     strong_signature: Signature
+    statics: frozenset[Literal]
 
     @cached_property
     def description(self) -> Description:

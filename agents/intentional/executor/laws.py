@@ -17,7 +17,7 @@ from asp.language import (
     variable_domains,
 )
 from asp.language import variable_sorts as roles
-from asp.refinement import TRUE, Refinement, true_statics
+from asp.refinement import TRUE, Refinement
 
 _TEST, _CAN_TEST = "test_", "can_test_"
 
@@ -110,10 +110,7 @@ class Tests:
             if law.head.atom.name.startswith(_CAN_TEST)
         ]
         named = {part.atom.name for own in self._abilities for part in roles.literals(own.law.body)}
-        symbols = (signature.symbols.get(each) for each in named)
-        has_statics = any(symbol is not None and symbol.kind == "static" for symbol in symbols)
-        statics = true_statics(refinement.strong, signature) if has_statics else ()
-        self._statics = frozenset(static for static in statics if name(static) in named)
+        self._statics = frozenset(static for static in refinement.statics if static.name in named)
 
     def of(self, fluent: str) -> str | None:
         """The test of a fluent; None where there is none."""

@@ -6,15 +6,13 @@ executability condition which fluent `can_test_...` it needs, and constraints wh
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import defaultdict
 from functools import lru_cache
 from itertools import product
 from typing import Self
 
-from asp.language import Literal, Signature, ground, syntax
+from asp.language import NOTHING, Literal, Pattern, Signature, pattern_of, syntax, variable_domains
 from asp.language import variable_sorts as roles
-from testbed.world.matched.facts import Facts, GroundAtom, atom_of, literal_of
-from testbed.world.matched.laws import Instance, Pattern, Reader
 from testbed.world.matched.world import MatchedWorld
 
 
@@ -23,30 +21,38 @@ class Sensing:
 
     def __init__(self, world: MatchedWorld, strong: syntax.Source, signature: Signature) -> None:
         self._world = world
-        self._signature = signature
-        physical = world.signature.symbols
         tests = [d for d in signature.symbols.values() if d.kind == "agent"]
-        tests = [d for d in tests if d.name not in physical]
+        tests = [d for d in tests if d.name not in world.signature.symbols]
         self.names = frozenset(declaration.name for declaration in tests)
         self.actions = tuple(
-            ground(d.name, args)
+            Literal.of(d.name, args)
             for d in tests
             for args in product(*(signature.sorts[sort.name] for sort in d.sorts))
         )
-        observing = [law for law in strong.each(syntax.CausalLaw) if law.action.name in self.names]
-        pairs = [(law.action, lit.atom, law) for law in observing for lit in _observed(law)]
-        self._fluents = {test.name: self._map(test, atom, law) for test, atom, law in pairs}
-        self._tests = {atom.name: self._map(atom, test, law) for test, atom, law in pairs}
+
+        def mapping(law: syntax.Statement, one: syntax.Atom, other: syntax.Atom) -> Pattern:
+            """From an atom of a law to another with the same variables."""
+            domains = variable_domains(law, signature)
+            return Pattern(domains, (), NOTHING, one.args, syntax.Literal(other, True))
+
+        self._fluents: dict[str, Pattern] = {}
+        self._tests: dict[str, Pattern] = {}
         self._needs: dict[str, Pattern] = {}
-        for law in strong.each(syntax.ExecutabilityCondition):
-            for test in law.actions:
+        self._abilities: dict[str, list[Pattern]] = defaultdict(list)
+        for law in strong.each(syntax.CausalLaw):
+            for part in roles.literals(law.body if law.action.name in self.names else ()):
+                if part.positive:
+                    self._fluents[law.action.name] = mapping(law, law.action, part.atom)
+                    self._tests[part.atom.name] = mapping(law, part.atom, law.action)
+        for condition in strong.each(syntax.ExecutabilityCondition):
+            for test in condition.actions:
                 if test.name in self.names:
-                    needed = next(roles.literals(law.body)).atom
-                    self._needs[test.name] = self._map(test, needed, law)
-        self._abilities: dict[str, list[Pattern]] = {}
+                    needed = next(roles.literals(condition.body)).atom
+                    self._needs[test.name] = mapping(condition, test, needed)
         for constraint in strong.each(syntax.StateConstraint):
-            name = constraint.head.atom.name
-            self._abilities.setdefault(name, []).append(self._ability(constraint))
+            head = constraint.head.atom
+            ability = pattern_of(constraint, signature, world.statics, head.args)
+            self._abilities[head.name].append(ability)
         self.fluent = lru_cache(4096)(self._fluent)
         self._made_of = (world, strong, signature)
 
@@ -56,53 +62,25 @@ class Sensing:
 
     def can(self, state: int, action: str) -> bool:
         """Whether the test is possible in the state."""
-        test = atom_of(action)
-        facts = self._world.facts(state)
+        test, facts = Literal.parse(action), self._world.facts(state)
         return all(
-            any(ability.search([need], facts, _stop) for ability in self._abilities[need[0]])
-            for need in _images(self._needs[test[0]], test)
+            any(
+                True
+                for ability in self._abilities[need.name]
+                for _ in ability.matches(need.arguments, facts)
+            )
+            for need in self._needs[test.name].heads(test.arguments, facts)
         )
 
     def _fluent(self, action: str) -> Literal:
         """The fluent that a test observes."""
-        test = atom_of(action)
-        return literal_of((_images(self._fluents[test[0]], test)[0], True))
+        test = Literal.parse(action)
+        return next(self._fluents[test.name].heads(test.arguments, NOTHING))
 
     def test_of(self, robot: str, fluent: str) -> Literal | None:
         """The robot's test of a fluent, if there is one."""
-        atom = atom_of(fluent)
-        if atom[0] not in self._tests:
+        atom = Literal.parse(fluent)
+        if atom.name not in self._tests:
             return None
-        tests = (test for test in _images(self._tests[atom[0]], atom) if test[1] == robot)
-        return next((literal_of((test, True)) for test in tests), None)
-
-    def _map(self, one: syntax.Atom, other: syntax.Atom, law: syntax.Statement) -> Pattern:
-        """From an atom of a law to another with the same variables."""
-        read = Reader(law, self._signature, self._world.statics)
-        head = read.membership(syntax.Literal(other, True))
-        return Pattern(read.scope, [read.template(one)], head, [], [])
-
-    def _ability(self, law: syntax.StateConstraint) -> Pattern:
-        read = Reader(law, self._signature, self._world.statics)
-        head, body = read.membership(law.head), read.conditions(law.body)
-        return Pattern(read.scope, [head.atom], head, body, body)
-
-
-def _observed(law: syntax.CausalLaw) -> Iterator[syntax.Literal]:
-    """The literal of whose truth a test's law says that it is observed."""
-    return (literal for literal in roles.literals(law.body) if literal.positive)
-
-
-def _images(mapping: Pattern, atom: GroundAtom) -> list[GroundAtom]:
-    found: list[GroundAtom] = []
-
-    def keep(instance: Instance) -> bool:
-        found.append(instance.head[0])
-        return False
-
-    mapping.search([atom], Facts(()), keep)
-    return found
-
-
-def _stop(_instance: Instance) -> bool:
-    return True
+        tests = self._tests[atom.name].heads(atom.arguments, NOTHING)
+        return next((test for test in tests if test.arguments[0] == robot), None)

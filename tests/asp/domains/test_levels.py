@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
 from asp.language import arguments, name
-from asp.refinement import Refinement, load, true_statics
+from asp.refinement import Refinement, load
 
 TABLE = {  # objects by their parts, rooms, cells a room
     "L1": ({1: 1}, 2, 2),
@@ -31,7 +31,7 @@ def refinement(size: LevelSize) -> Refinement:
 
 
 def neighbours(of: Refinement, static: str) -> set[tuple[str, ...]]:
-    statics = true_statics(of.weak, of.weak_signature)
+    statics = of.statics
     return {arguments(fact) for fact in statics if name(fact) == static}
 
 

@@ -130,7 +130,7 @@ class TestThePaperSExample:
 def rules(refinement: Refinement, transition: Transition, goal: list[str]) -> dict[int, set[str]]:
     """What each of the five rules makes relevant, read off the definition instance by instance."""
     coarse, declared = refinement.coarse, refinement.coarse_signature
-    every = Instances(coarse, declared, frozenset(), frozenset())
+    every = Instances(coarse, declared, frozenset())
     before = {
         fluent if fluent in transition.before else complement(fluent)
         for fluent in refinement.description.fluents
