@@ -14,7 +14,13 @@ from asp.language.description import (
 )
 from asp.language.errors import Problems, SourceError, nearest, suggestion
 from asp.language.functions import Function, excluding_place, functions, schematic, subject
-from asp.language.grounding import Instances, ground_description, pattern_of, static_truth
+from asp.language.grounding import (
+    Instances,
+    closed_world,
+    ground_description,
+    pattern_of,
+    static_truth,
+)
 from asp.language.literals import (
     Action,
     Fluent,
@@ -84,6 +90,7 @@ __all__ = [
     "check",
     "check_cycles",
     "check_one_robot",
+    "closed_world",
     "complement",
     "condition_text",
     "excluding_place",

@@ -155,6 +155,12 @@ def static_truth(
     return true, possible - true
 
 
+def closed_world(statics: Iterable[Literal], signature: Signature) -> Facts:
+    """The true statics of a description as facts: a static is false everywhere else."""
+    names = (name for name, symbol in signature.symbols.items() if symbol.kind == "static")
+    return Facts(statics, names)
+
+
 class _Assumed(Facts):
     """Statics known so far; one is false where it is not among the assumed ones."""
 

@@ -8,7 +8,16 @@ from typing import Protocol
 
 from clingo import Symbol
 
-from asp.language import Signature, arguments, atom, is_positive, narrowed, restrict, syntax
+from asp.language import (
+    Literal,
+    Signature,
+    arguments,
+    atom,
+    is_positive,
+    narrowed,
+    restrict,
+    syntax,
+)
 from asp.language import variable_sorts as roles
 from asp.refinement import Refinement
 from asp.solving import Recent, fact, first_model, ground, theory
@@ -111,7 +120,8 @@ class ReferenceFineKnowledge:
         every = refinement.weak_signature.constants
         gone = every.difference(about, parts)
         source = restrict(refinement.weak, gone)
-        return inference_program(source, narrowed(refinement.weak_signature, gone))
+        statics = [s for s in refinement.statics if gone.isdisjoint(s.arguments)]
+        return inference_program(source, narrowed(refinement.weak_signature, gone), statics)
 
 
 def _known(known: Known) -> Iterator[Symbol]:
@@ -139,7 +149,9 @@ def _read(model: Iterable[Symbol]) -> Inferred:
     return Inferred(known, frozenset(found["possible"]), frozenset(coarse))
 
 
-def inference_program(source: syntax.Source, signature: Signature) -> str:
+def inference_program(
+    source: syntax.Source, signature: Signature, statics: Iterable[Literal]
+) -> str:
     """The rules for a description (D_f, perhaps restricted) over holds(F,I), I a `step`.
 
     Completed by `asp/theories/fine_inference.lp`. Each state constraint derives its head from what
@@ -149,10 +161,9 @@ def inference_program(source: syntax.Source, signature: Signature) -> str:
     bridge(F,G) says that the defined fluent F is true where G is; it is there of fluents whose
     every law has one fluent, to be true, as its condition.
     """
-    every = list(source.each(syntax.StateConstraint))
+    every = source.each(syntax.StateConstraint)
     laws = [law for law in every if _kind(law.head, signature) != "static"]
-    statics = [law for law in every if _kind(law.head, signature) == "static"]
-    lines = [*_sort_facts(signature), *_static_rules(source, statics, laws, signature)]
+    lines = [*_sort_facts(signature), *_static_rules(statics, laws, signature)]
     lines += (line for law in laws for line in _derivations(law, signature))
     lines += _bridges([law for law in laws if _kind(law.head, signature) == "defined"], signature)
     lines += (_carried(d) for d in source.each(syntax.Declaration) if d.kind == "inertial")
@@ -198,23 +209,18 @@ def _sort_facts(signature: Signature) -> Iterator[str]:
         yield f"{sort}({'; '.join(members)})." if members else f"#defined {sort}/1."
 
 
-def _static_rules(
-    source: syntax.Source, constraints: Laws, laws: Laws, signature: Signature
-) -> Iterator[str]:
+def _static_rules(statics: Iterable[Literal], laws: Laws, signature: Signature) -> Iterator[str]:
     """The statics that laws speak of, closed where a law asks for one to be false."""
     asked = [
-        part for law in laws for part in roles.literals(law.body) if _is_static(part, signature)
+        part
+        for law in laws
+        for part in roles.literals(law.body)
+        if _kind(part, signature) == "static"
     ]
     named = {literal.atom.name for literal in asked}
     for symbol in sorted(named):
         yield f"#defined {symbol}/{len(signature.symbols[symbol].sorts)}."
-    for stated in source.each(syntax.Fact):
-        if stated.literal.atom.name in named:
-            yield f"{stated.literal.atom}."
-    for law in constraints:
-        if law.head.atom.name in named:
-            body = (condition(part, signature) for part in law.body)
-            yield rule(law.head.atom, [*body, *sort_conditions(law, signature)])
+    yield from (f"{static}." for static in sorted(statics) if static.name in named)
     for symbol in sorted({literal.atom.name for literal in asked if not literal.positive}):
         atom, _, sorts = schema(signature.symbols[symbol])
         yield rule(f"-{atom}", [*sorts, f"not {atom}"])
@@ -222,10 +228,6 @@ def _static_rules(
 
 def _fluents(law: syntax.StateConstraint, signature: Signature) -> list[syntax.Literal]:
     return [part for part in roles.literals(law.body) if _kind(part, signature) in roles.FLUENTS]
-
-
-def _is_static(literal: syntax.Literal, signature: Signature) -> bool:
-    return _kind(literal, signature) == "static"
 
 
 def _kind(literal: syntax.Literal, signature: Signature) -> str:

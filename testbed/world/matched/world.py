@@ -15,6 +15,7 @@ from asp.language import (
     Literal,
     Row,
     Signature,
+    closed_world,
     ground_description,
     syntax,
 )
@@ -34,8 +35,7 @@ class MatchedWorld(World):
         self._arguments = (source, signature)
         self._defined = frozenset(fluent.name for fluent in self.description.defined)
         self.signature = signature
-        names = (name for name, symbol in signature.symbols.items() if symbol.kind == "static")
-        self.statics = Facts(self.description.statics, names)
+        self.statics = closed_world(self.description.statics, signature)
         self._laws = Laws(source, signature, self.statics)
         self.facts = lru_cache(_STATES)(self._decode)
         self._described = lru_cache(1)(self._describe)
