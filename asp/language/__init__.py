@@ -12,7 +12,7 @@ from asp.language.description import (
     Shows,
     Trigger,
 )
-from asp.language.errors import Problems, SourceError, nearest, suggestion
+from asp.language.errors import Problems, SourceError, suggestion
 from asp.language.functions import Function, excluding_place, functions, schematic, subject
 from asp.language.grounding import (
     Instances,
@@ -46,14 +46,8 @@ from asp.language.loading import (
 from asp.language.matching import NOTHING, Facts, Pattern, Row
 from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
-from asp.language.signature import (
-    Signature,
-    is_reserved_constant,
-    is_reserved_sort,
-    is_reserved_symbol,
-    signature_of,
-)
-from asp.language.stratification import check_cycles, may_have_cycles
+from asp.language.signature import Signature, signature_of
+from asp.language.stratification import check_cycles
 from asp.language.syntax import Source
 from asp.language.variable_sorts import variable_domains
 from asp.language.writer import atom_text, condition_text, text_of
@@ -99,15 +93,10 @@ __all__ = [
     "ground",
     "ground_description",
     "is_positive",
-    "is_reserved_constant",
-    "is_reserved_sort",
-    "is_reserved_symbol",
     "load_description",
-    "may_have_cycles",
     "name",
     "named",
     "narrowed",
-    "nearest",
     "packaged_domains",
     "parse",
     "parse_description",

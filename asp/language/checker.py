@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterator
 
 from asp.language import syntax
 from asp.language import variable_sorts as roles
 from asp.language.errors import Problems, suggestion
-from asp.language.signature import Signature, is_reserved_constant, report_reserved
-from asp.language.variable_sorts import places_of, variable_domains
+from asp.language.signature import Signature, check_reserved
+
+_NOUNS = {
+    roles.SORT: "a sort",
+    "static": "a static",
+    "inertial": "an inertial fluent",
+    "defined": "a defined fluent",
+    "agent": "an agent action",
+    "exogenous": "an exogenous action",
+}
 
 
 def check(source: syntax.Source, signature: Signature, problems: Problems) -> None:
@@ -18,7 +26,8 @@ def check(source: syntax.Source, signature: Signature, problems: Problems) -> No
         found = len(problems)
         for use in roles.uses(statement):
             _check_use(use, signature, problems)
-        _check_form(statement, signature, problems)
+        for place, message in _mistakes_of_form(statement, signature):
+            problems.report(place, message)
         if len(problems) > found or _uses_unknown(statement, signature):
             faulty.add(statement)
     _check_defaults(source, problems)
@@ -39,19 +48,13 @@ def _uses_unknown(statement: syntax.Statement, signature: Signature) -> bool:
     )
 
 
-def _may_be_meant(use: roles.Use, failed: Iterable[syntax.Declaration]) -> bool:
-    """Whether a declaration that failed may have been of this atom."""
-    return any(d.kind in use.kinds and len(d.sorts) == len(use.atom.args) for d in failed)
-
-
 def _check_defaults(source: syntax.Source, problems: Problems) -> None:
     lines: dict[str, int] = {}
     for default in source.each(syntax.DefaultStatement):
         if default.name in lines:
             first = f"first in line {lines[default.name]}"
             problems.report(default.place, f"two defaults have the name '{default.name}'; {first}")
-        if is_reserved_constant(default.name):
-            report_reserved(default.name, default.place, problems)
+        check_reserved(default.name, "constant", default.place, problems)
         lines.setdefault(default.name, default.place.line)
     for exception in source.each(syntax.ExceptionStatement):
         if exception.of is None:
@@ -64,8 +67,7 @@ def _check_scenarios(source: syntax.Source, problems: Problems) -> None:
         trigger.scenario: trigger.place.line for trigger in source.each(syntax.TriggerStatement)
     }
     for quiet in source.each(syntax.QuietStatement):
-        if quiet.scenario in lines:
-            line = lines[quiet.scenario]
+        if line := lines.get(quiet.scenario):
             problems.report(
                 quiet.place, f"in scenario '{quiet.scenario}' something happens; see line {line}"
             )
@@ -75,15 +77,14 @@ def _check_use(use: roles.Use, signature: Signature, problems: Problems) -> None
     atom = use.atom
     kind = _kind(atom.name, signature)
     if kind is None:
-        if _may_be_meant(use, problems.failed):
-            return
+        if any(d.kind in use.kinds and len(d.sorts) == len(atom.args) for d in problems.failed):
+            return  # a declaration that failed may have been of this atom
         known = [n for n, d in signature.symbols.items() if d.kind in use.kinds]
-        noun = roles.noun(use.kinds)
-        problems.report(atom.place, f"unknown {noun} '{atom.name}'; {suggestion(atom.name, known)}")
+        message = f"unknown {roles.noun(use.kinds)} '{atom.name}'; {suggestion(atom.name, known)}"
+        problems.report(atom.place, message)
     elif kind not in use.kinds:
-        problems.report(
-            atom.place, f"'{atom.name}' is {_noun(kind)}; this place needs {use.wanted}"
-        )
+        message = f"'{atom.name}' is {_NOUNS[kind]}; this place needs {use.wanted}"
+        problems.report(atom.place, message)
     else:
         _check_arguments(atom, signature, problems)
 
@@ -95,23 +96,9 @@ def _kind(name: str, signature: Signature) -> str | None:
     return None if declaration is None else declaration.kind
 
 
-def _noun(kind: str) -> str:
-    return {
-        "sort": "a sort",
-        "static": "a static",
-        "inertial": "an inertial fluent",
-        "defined": "a defined fluent",
-        "agent": "an agent action",
-        "exogenous": "an exogenous action",
-    }[kind]
-
-
 def _check_arguments(atom: syntax.Atom, signature: Signature, problems: Problems) -> None:
-    sorts = (
-        [atom.name]
-        if atom.name in signature.sorts
-        else [sort.name for sort in signature.symbols[atom.name].sorts]
-    )
+    is_sort = atom.name in signature.sorts
+    sorts = [atom.name] if is_sort else [s.name for s in signature.symbols[atom.name].sorts]
     if len(sorts) != len(atom.args):
         form = f"{atom.name}({', '.join(sorts)})" if sorts else atom.name
         problems.report(
@@ -122,96 +109,67 @@ def _check_arguments(atom: syntax.Atom, signature: Signature, problems: Problems
     for term, sort in zip(atom.args, sorts, strict=True):
         members = signature.sorts.get(sort, ())
         if not term.is_variable and members and term.name not in members:
-            problems.report(
-                term.place,
-                f"'{term.name}' is not of sort '{sort}'; {suggestion(term.name, members)}",
-            )
+            known = suggestion(term.name, members)
+            problems.report(term.place, f"'{term.name}' is not of sort '{sort}'; {known}")
 
 
-def _check_form(statement: syntax.Statement, signature: Signature, problems: Problems) -> None:
-    if isinstance(statement, syntax.Fact) and not statement.literal.positive:
-        problems.report(statement.place, "a fact is positive; what is not stated is false")
-    if isinstance(statement, syntax.StateConstraint):
-        _check_constraint(statement, signature, problems)
-    if isinstance(statement, syntax.TriggerStatement) and not 0 <= statement.probability <= 1:
-        problems.report(statement.place, "a probability lies between 0 and 1")
+def _mistakes_of_form(
+    statement: syntax.Statement, signature: Signature
+) -> Iterator[tuple[syntax.Place, str]]:
+    match statement:
+        case syntax.Fact(literal=literal) if not literal.positive:
+            yield statement.place, "a fact is positive; what is not stated is false"
+        case syntax.StateConstraint(head=head):
+            kind = _kind(head.atom.name, signature)
+            if kind == "static":
+                yield from _mistakes_of_static_law(statement, signature)
+            if kind == "defined" and not head.positive:
+                yield (
+                    statement.place,
+                    f"'{head.atom.name}' is defined: it is false unless derived, "
+                    "so it cannot stand negated in a head",
+                )
+        case syntax.TriggerStatement(probability=probability) if not 0 <= probability <= 1:
+            yield statement.place, "a probability lies between 0 and 1"
     for literal in roles.literals(roles.bodies(statement)):
         if literal.atom.name in signature.sorts and not literal.positive:
-            problems.report(literal.atom.place, "a sort in a body cannot be negated")
+            yield literal.atom.place, "a sort in a body cannot be negated"
 
 
-def _check_constraint(
-    law: syntax.StateConstraint, signature: Signature, problems: Problems
-) -> None:
-    kind = _kind(law.head.atom.name, signature)
-    if kind == "defined" and not law.head.positive:
-        problems.report(
-            law.place,
-            f"'{law.head.atom.name}' is defined: it is false unless derived, "
-            "so it cannot stand negated in a head",
-        )
-    if kind == "static":
-        for literal in roles.literals(law.body):
-            if _kind(literal.atom.name, signature) in roles.FLUENTS:
-                problems.report(
-                    literal.atom.place,
-                    f"the static '{law.head.atom.name}' cannot depend on the fluent "
-                    f"'{literal.atom.name}'",
-                )
-        if not law.head.positive:
-            problems.report(law.place, "a static is false unless derived; drop the negation")
+def _mistakes_of_static_law(
+    law: syntax.StateConstraint, signature: Signature
+) -> Iterator[tuple[syntax.Place, str]]:
+    for atom in (literal.atom for literal in roles.literals(law.body)):
+        if _kind(atom.name, signature) in roles.FLUENTS:
+            yield (
+                atom.place,
+                f"the static '{law.head.atom.name}' cannot depend on the fluent '{atom.name}'",
+            )
+    if not law.head.positive:
+        yield law.place, "a static is false unless derived; drop the negation"
 
 
 def _check_variables(statement: syntax.Statement, signature: Signature, problems: Problems) -> None:
-    domains = variable_domains(statement, signature)
-    for name, members in domains.items():
-        if not members and not _may_be_empty(statement, name, signature):
-            problems.report(statement.place, f"no constant fits all the places of variable {name}")
-    for comparison in roles.comparisons(roles.bodies(statement)):
-        for term in (comparison.left, comparison.right):
-            if term.is_variable and term.name not in domains:
-                _report_unbound(term, problems)
-            elif not term.is_variable:
-                _check_constant(term, signature, problems)
-    for field in ("drawn", "variable", "robot"):
-        named = getattr(statement, field, None)
-        if named is not None:
-            _check_named(named, statement, signature, problems)
-
-
-def _check_named(
-    term: syntax.Term, statement: syntax.Statement, signature: Signature, problems: Problems
-) -> None:
-    if term.is_variable and _stands_nowhere(statement, term.name):
-        _report_unbound(term, problems)
-    elif not term.is_variable:
-        _check_constant(term, signature, problems)
-
-
-def _check_constant(term: syntax.Term, signature: Signature, problems: Problems) -> None:
-    if term.name not in signature.constants:
-        known = suggestion(term.name, signature.constants)
-        problems.report(term.place, f"unknown constant '{term.name}'; {known}")
-
-
-def _stands_nowhere(statement: syntax.Statement, variable: str) -> bool:
-    """Whether a variable of a comparison, or named beside the atoms, stands in no atom."""
-    return not any(
-        term.name == variable for use in roles.scope(statement) for term in use.atom.args
-    )
-
-
-def _may_be_empty(statement: syntax.Statement, name: str, signature: Signature) -> bool:
-    """Whether another mistake is to blame: a sort without members, or a place in no atom."""
-    return _stands_nowhere(statement, name) or any(
-        term.name == name and not members
+    places = [
+        (term.name, members)
         for use in roles.scope(statement)
-        for term, members in zip(use.atom.args, places_of(use.atom, signature), strict=True)
-    )
-
-
-def _report_unbound(term: syntax.Term, problems: Problems) -> None:
-    problems.report(
-        term.place,
-        f"variable {term.name} is bound by nothing: it stands in no fluent, static or action",
-    )
+        for term, members in zip(use.atom.args, roles.places_of(use.atom, signature), strict=True)
+    ]
+    bound = {name for name, _ in places}
+    of_no_member = {name for name, members in places if not members}  # another mistake is to blame
+    for name, members in roles.variable_domains(statement, signature).items():
+        if not members and name in bound - of_no_member:
+            problems.report(statement.place, f"no constant fits all the places of variable {name}")
+    beside = [getattr(statement, field, None) for field in ("drawn", "variable", "robot")]
+    for comparison in roles.comparisons(roles.bodies(statement)):
+        beside += (comparison.left, comparison.right)
+    for term in {term.name: term for term in reversed(beside) if term is not None}.values():
+        if term.is_variable and term.name not in bound:
+            problems.report(
+                term.place,
+                f"variable {term.name} is bound by nothing: "
+                "it stands in no fluent, static or action",
+            )
+        elif not term.is_variable and term.name not in signature.constants:
+            known = suggestion(term.name, signature.constants)
+            problems.report(term.place, f"unknown constant '{term.name}'; {known}")

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from importlib.resources import files
 from math import prod
 from pathlib import Path
-from typing import TypeVar
 
 from asp.language import syntax
 from asp.language.checker import check
@@ -94,42 +93,25 @@ MOST_SYMBOLS = 500_000
 MOST_INSTANCES = 5_000_000
 """Instances of all statements of a description, those included that their bodies rule out."""
 
-S = TypeVar("S", bound=syntax.Statement)
-
 
 def check_sizes(source: syntax.Source, signature: Signature, problems: Problems) -> None:
     """Reports what has most instances where there are too many of them."""
-    declared = [own for own in signature.symbols.values() if own.kind != "static"]
-    _check(
-        declared,
-        lambda own: prod(len(signature.sorts[sort.name]) for sort in own.sorts),
-        MOST_SYMBOLS,
-        "all fluents and actions together",
-        problems,
-    )
-    _check(
-        _instantiated(source),
-        lambda own: prod(map(len, variable_domains(own, signature).values())),
-        MOST_INSTANCES,
-        "all statements together",
-        problems,
-    )
-
-
-def _instantiated(source: syntax.Source) -> list[syntax.Statement]:
-    others = syntax.SortDefinition | syntax.Declaration
-    return [own for own in source.statements if not isinstance(own, others)]
-
-
-def _check(
-    items: Iterable[S], size: Callable[[S], int], most: int, whose: str, problems: Problems
-) -> None:
-    sizes = [(size(item), item) for item in items]
-    if sum(number for number, _ in sizes) > most:
-        number, largest = max(sizes, key=lambda own: own[0])
-        problems.report(
-            largest.place, f"has {number} instances; {most} are the most for {whose}: smaller sorts"
-        )
+    symbols: dict[syntax.Statement, int] = {
+        own: prod(len(signature.sorts[sort.name]) for sort in own.sorts)
+        for own in signature.symbols.values()
+        if own.kind != "static"
+    }
+    statements = {
+        own: prod(map(len, variable_domains(own, signature).values())) for own in source.statements
+    }
+    for sizes, most, whose in (
+        (symbols, MOST_SYMBOLS, "all fluents and actions together"),
+        (statements, MOST_INSTANCES, "all statements together"),
+    ):
+        if sum(sizes.values()) > most:
+            largest = max(sizes, key=sizes.__getitem__)
+            message = f"has {sizes[largest]} instances; {most} are the most for {whose}"
+            problems.report(largest.place, f"{message}: smaller sorts")
 
 
 def check_one_robot(text: str, file: str) -> None:
@@ -145,7 +127,12 @@ def check_one_robot(text: str, file: str) -> None:
     source, signature = analyse(text, file)
     second = next(_second(seers, signature), None)
     if second is not None:
-        place = _declared(second, source)
+        place = next(
+            definition.place
+            for definition in source.each(syntax.SortDefinition)
+            for part in definition.parts
+            if isinstance(part, tuple) and second in (constant.name for constant in part)
+        )
         raise SourceError(
             file,
             place.line,
@@ -156,27 +143,18 @@ def check_one_robot(text: str, file: str) -> None:
 
 
 def _second(seers: Sequence[str], signature: Signature) -> Iterator[str]:
+    actions = [
+        [set(signature.sorts[sort.name]) for sort in symbol.sorts]
+        for symbol in signature.symbols.values()
+        if symbol.kind == "agent"
+    ]
     for robot in seers[:1]:
-        own = [places for places in _places(signature) if any(robot in sort for sort in places)]
-        alike = [{c for sort in places if robot in sort for c in sort} for places in own]
-        if len(own) == len(_places(signature)):
-            yield from sorted(set.intersection(*alike) - {robot}) if own else ()
-        acted_upon = {constant for places in own for sort in places for constant in sort}
-        acting = {c for places in _places(signature) for sort in places for c in sort}
+        own = [places for places in actions if any(robot in members for members in places)]
+        if own and len(own) == len(actions):
+            alike = (set().union(*(m for m in places if robot in m)) for places in own)
+            yield from sorted(set.intersection(*alike) - {robot})
+        acted_upon, acting = (
+            {constant for places in some for members in places for constant in members}
+            for some in (own, actions)
+        )
         yield from (seer for seer in seers[1:] if own and seer in acting - acted_upon)
-
-
-def _places(signature: Signature) -> list[list[tuple[str, ...]]]:
-    """The members of the sorts of the arguments, by action of an agent."""
-    actions = [symbol for symbol in signature.symbols.values() if symbol.kind == "agent"]
-    return [[signature.sorts[sort.name] for sort in action.sorts] for action in actions]
-
-
-def _declared(constant: str, source: syntax.Source) -> syntax.Place:
-    """Where the sort stands that lists the constant."""
-    sorts = source.each(syntax.SortDefinition)
-    return next(s.place for s in sorts if any(constant == t.name for t in _listed(s)))
-
-
-def _listed(definition: syntax.SortDefinition) -> list[syntax.Term]:
-    return [term for part in definition.parts if isinstance(part, tuple) for term in part]

@@ -58,10 +58,8 @@ def named(statement: syntax.Statement) -> Iterator[str]:
 
 
 def _without(definition: syntax.SortDefinition, gone: frozenset[str]) -> syntax.SortDefinition:
-    parts: list[syntax.Term | tuple[syntax.Term, ...]] = []
-    for part in definition.parts:
-        if not isinstance(part, tuple):
-            parts.append(part)
-        elif kept := tuple(constant for constant in part if constant.name not in gone):
-            parts.append(kept)
-    return replace(definition, parts=tuple(parts))
+    parts = (
+        tuple(each for each in part if each.name not in gone) if isinstance(part, tuple) else part
+        for part in definition.parts
+    )
+    return replace(definition, parts=tuple(part for part in parts if part))

@@ -15,7 +15,6 @@ from clingo import ast
 
 from asp.language import syntax
 from asp.language.errors import Problems, suggestion
-from asp.language.syntax import SymbolKind
 
 _CONSTANTS = frozenset({"n", "not"})
 _ENVIRONMENT = frozenset({"wait", "none"})
@@ -41,36 +40,29 @@ def signature_of(source: syntax.Source, problems: Problems) -> Signature:
     symbols: dict[str, syntax.Declaration] = {}
     taken: dict[str, int] = {}
     for statement in source.statements:
+        if not isinstance(statement, syntax.SortDefinition | syntax.Declaration):
+            continue
+        name, found = statement.name, len(problems)
+        if name in taken:
+            message = f"the name '{name}' is used twice; first in line {taken[name]}"
+            problems.report(statement.place, message)
+        taken.setdefault(name, statement.place.line)
         if isinstance(statement, syntax.SortDefinition):
-            _claim(statement.name, statement, taken, problems)
-            if is_reserved_sort(statement.name):
-                report_reserved(statement.name, statement.place, problems)
-            sorts[statement.name] = _members(statement, sorts, problems)
-        elif isinstance(statement, syntax.Declaration):
-            found = len(problems)
-            _claim(statement.name, statement, taken, problems)
-            if is_reserved_symbol(statement.name, statement.kind):
-                report_reserved(statement.name, statement.place, problems)
-            if len(problems) > found:
-                first = symbols.get(statement.name, statement)
-                problems.failed += [first, statement]
-            _check_sorts(statement, sorts, problems)
-            symbols[statement.name] = statement
+            check_reserved(name, "sort", statement.place, problems)
+            sorts[name] = _members(statement, sorts, problems)
+            continue
+        check_reserved(name, statement.kind, statement.place, problems)
+        if len(problems) > found:
+            problems.failed += [symbols.get(name, statement), statement]
+        for sort in statement.sorts:
+            if sort.name not in sorts:
+                _report_sort(sort, sorts, problems)
+        symbols[name] = statement
     return Signature(sorts, symbols)
 
 
 def _report_sort(sort: syntax.Term, sorts: Iterable[str], problems: Problems) -> None:
     problems.report(sort.place, f"unknown sort '{sort.name}'; {suggestion(sort.name, sorts)}")
-
-
-def _claim(
-    name: str, statement: syntax.Statement, taken: dict[str, int], problems: Problems
-) -> None:
-    if name in taken:
-        problems.report(
-            statement.place, f"the name '{name}' is used twice; first in line {taken[name]}"
-        )
-    taken.setdefault(name, statement.place.line)
 
 
 def _members(
@@ -103,39 +95,24 @@ def _check_constants(
     for constant in constants:
         if constant.name in seen:
             problems.report(constant.place, f"the name '{constant.name}' is used twice in one sort")
-        elif is_reserved_constant(constant.name):
-            report_reserved(constant.name, constant.place, problems)
+        else:
+            check_reserved(constant.name, "constant", constant.place, problems)
         seen.add(constant.name)
 
 
-def report_reserved(name: str, place: syntax.Place, problems: Problems) -> None:
-    """Reports a name to which the programs give a meaning of their own."""
-    problems.report(place, f"the name '{name}' means something else in programs; take another")
+def check_reserved(name: str, kind: str, place: syntax.Place, problems: Problems) -> None:
+    """Reports a name of a constant, sort or symbol that means something else in programs."""
+    if name in _reserved(kind):
+        problems.report(place, f"the name '{name}' means something else in programs; take another")
 
 
-def _check_sorts(
-    declaration: syntax.Declaration, sorts: Mapping[str, tuple[str, ...]], problems: Problems
-) -> None:
-    for sort in declaration.sorts:
-        if sort.name not in sorts:
-            _report_sort(sort, sorts, problems)
-
-
-def is_reserved_constant(name: str) -> bool:
-    """Whether a member of a sort cannot have this name."""
-    return name in _CONSTANTS or name in _words().constants
-
-
-def is_reserved_symbol(name: str, kind: SymbolKind) -> bool:
-    """Whether a static, fluent or action cannot have this name."""
-    if kind == "static":
-        return is_reserved_sort(name)
-    return is_reserved_constant(name) or name in _ENVIRONMENT or name in _words().terms
-
-
-def is_reserved_sort(name: str) -> bool:
-    """Whether a sort cannot have this name."""
-    return name in _CONSTANTS or name in _words().predicates - _REFINED
+@cache
+def _reserved(kind: str) -> frozenset[str]:
+    words = _words()
+    if kind in ("sort", "static"):
+        return _CONSTANTS | (words.predicates - _REFINED)
+    names = _CONSTANTS | words.constants
+    return names if kind == "constant" else names | words.terms | _ENVIRONMENT
 
 
 class _Words(ast.Transformer):
@@ -145,9 +122,6 @@ class _Words(ast.Transformer):
         self.predicates: set[str] = set()
         self.terms: set[str] = set()
         self.constants: set[str] = set()
-
-    def collect(self, statement: ast.AST) -> None:
-        self.visit(statement)
 
     def visit_SymbolicAtom(self, node: ast.AST) -> ast.AST:  # noqa: N802 (clingo's name)
         symbol = node.symbol
@@ -176,7 +150,10 @@ class _Words(ast.Transformer):
 def _words() -> _Words:
     """The names in all of `asp/theories`."""
     words = _Words()
+    statements: list[ast.AST] = []
     for entry in files("asp").joinpath("theories").iterdir():
         if entry.name.endswith(".lp"):
-            ast.parse_string(entry.read_text(encoding="utf-8"), words.collect)
+            ast.parse_string(entry.read_text(encoding="utf-8"), statements.append)
+    for statement in statements:
+        words.visit(statement)
     return words

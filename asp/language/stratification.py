@@ -9,98 +9,79 @@ nothing derives it, can also depend on its own negation by way of negative liter
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from asp.language import syntax
 from asp.language import variable_sorts as roles
 from asp.language.errors import Problems
-from asp.language.grounding import instance, instances_of, static_truth
-from asp.language.literals import Literal, atom, complement, is_positive, name
+from asp.language.grounding import Instances, instance, static_truth
+from asp.language.literals import Literal
 from asp.language.signature import Signature
 
-Graph = Mapping[str, set[str]]
+Law = tuple[syntax.StateConstraint, Literal, Iterable[Literal]]
+"""A state constraint with the head and the body of an instance, or with their names alone."""
 
 
 def check_cycles(source: syntax.Source, signature: Signature, problems: Problems) -> None:
     """Reports each state constraint that closes a cycle through negation."""
-    _check_statics(source, signature, problems)
-    atoms: dict[str, set[str]] = {}
-    literals: dict[str, set[str]] = {}
-    laws: list[tuple[syntax.StateConstraint, Literal, Literal]] = []
-    instances = instances_of(source, signature)
-    for law in source.each(syntax.StateConstraint):
-        for binding, body in instances.of(law):
-            head = instance(law.head, binding)
-            literals.setdefault(head, set()).update(body)
-            laws += [(law, head, condition) for condition in body]
-            if is_positive(head):
-                atoms.setdefault(head, set()).update(map(atom, body))
-                if signature.symbols[name(head)].kind == "defined":
-                    literals.setdefault(complement(head), set()).add(head)
-    reported: set[syntax.StateConstraint] = set()
-    for law, head, condition in laws:
-        if law not in reported and _closes(head, condition, atoms, literals, signature):
-            reported.add(law)
-            problems.report(
-                law.place, f"'{head}' is defined through its own negation by way of '{condition}'"
-            )
-
-
-def may_have_cycles(source: syntax.Source, signature: Signature) -> bool:
-    """Whether names alone leave a cycle through negation possible; no: `check_cycles` finds none.
-
-    It looks at laws, not at their instances, so that it takes no longer for larger sorts.
-    """
-    graph: dict[str, set[str]] = {}
     laws = list(source.each(syntax.StateConstraint))
+    # Where the names alone close no cycle the instances, which larger sorts have more of, do not.
+    by_name = [(law, _named(law.head), [*map(_named, roles.literals(law.body))]) for law in laws]
+    if not any(_closing(by_name, signature)):
+        return
+    statics, open_statics = static_truth(source, signature)
+    undecided = {static.name for static in open_statics}
     for law in laws:
-        body = {_named(part) for part in law.body if isinstance(part, syntax.Literal)}
-        graph.setdefault(_named(law.head), set()).update(body)
-    for symbol, declaration in signature.symbols.items():
-        if declaration.kind in ("defined", "static"):
-            graph.setdefault("-" + symbol, set()).add(symbol)
-    positive = {head: set(map(atom, body)) for head, body in graph.items() if is_positive(head)}
-    for law in laws:
-        head = law.head.atom.name
-        for part in roles.literals(law.body if law.head.positive else ()):
-            if not part.positive and head in _reachable(part.atom.name, positive):
-                return True
-            if "-" + head in _reachable(_named(part), graph) and "-" + head in graph:
-                return True
-    return False
-
-
-def _named(literal: syntax.Literal) -> str:
-    return ("" if literal.positive else "-") + literal.atom.name
-
-
-def _closes(head: str, condition: str, atoms: Graph, literals: Graph, signature: Signature) -> bool:
-    """Whether this condition of a law makes its head depend on its own negation."""
-    if not is_positive(head):
-        return False
-    if not is_positive(condition) and head in _reachable(atom(condition), atoms):
-        return True
-    defined = signature.symbols[name(head)].kind == "defined"
-    return defined and complement(head) in _reachable(condition, literals)
-
-
-def _check_statics(source: syntax.Source, signature: Signature, problems: Problems) -> None:
-    _, undecided = static_truth(source, signature)
-    names = {name(static) for static in undecided}
-    for law in source.each(syntax.StateConstraint):
-        if law.head.atom.name in names:
+        if law.head.atom.name in undecided:
             problems.report(
                 law.place, f"'{law.head.atom.name}' is defined through its own negation"
             )
+    instances = Instances(source, signature, statics)
+    ground = [(law, instance(law.head, b), body) for law in laws for b, body in instances.of(law)]
+    told: dict[syntax.StateConstraint, str] = {}
+    for law, head, condition in _closing(ground, signature):
+        told.setdefault(
+            law, f"'{head}' is defined through its own negation by way of '{condition}'"
+        )
+    for law, message in told.items():
+        problems.report(law.place, message)
 
 
-def _reachable(start: str, graph: Graph) -> set[str]:
+def _named(literal: syntax.Literal) -> Literal:
+    return Literal.of(literal.atom.name, (), literal.positive)
+
+
+def _closing(
+    laws: Sequence[Law], signature: Signature
+) -> Iterator[tuple[syntax.StateConstraint, Literal, Literal]]:
+    """The laws with a condition that makes the head depend on its own negation, and these two."""
+    atoms: dict[Literal, set[Literal]] = defaultdict(set)
+    literals: dict[Literal, set[Literal]] = defaultdict(set)
+    for _, head, body in laws:
+        literals[head].update(body)
+        if head.is_positive:
+            atoms[head].update(condition.atom for condition in body)
+            if _is_defined(head, signature):
+                literals[head.complement].add(head)
+    for law, head, body in laws:
+        for condition in body if head.is_positive else ():
+            through_atoms = not condition.is_positive and head in _reachable(condition.atom, atoms)
+            if through_atoms or (
+                _is_defined(head, signature) and head.complement in _reachable(condition, literals)
+            ):
+                yield law, head, condition
+
+
+def _is_defined(head: Literal, signature: Signature) -> bool:
+    return signature.symbols[head.name].kind == "defined"
+
+
+def _reachable(start: Literal, graph: Mapping[Literal, set[Literal]]) -> set[Literal]:
     """Everything that the definition of `start` depends on, `start` included."""
-    found = {start}
-    stack = [start]
+    found, stack = {start}, [start]
     while stack:
-        for dependency in graph.get(stack.pop(), ()):
-            if dependency not in found:
-                found.add(dependency)
-                stack.append(dependency)
+        new = graph.get(stack.pop(), set()) - found
+        found |= new
+        stack += new
     return found

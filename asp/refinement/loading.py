@@ -17,7 +17,6 @@ from asp.language import (
     check,
     check_cycles,
     functions,
-    may_have_cycles,
     parse,
     read_domain,
     read_text,
@@ -101,8 +100,6 @@ def _check_cycles(weak: syntax.Source, signature: Signature, fine: syntax.Source
 
     The place is that of the refinement's text, the message tells the law.
     """
-    if not may_have_cycles(weak, signature):
-        return
     problems = Problems(weak.file)
     check_cycles(weak, signature, problems)
     for problem in problems:

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from asp import load_description, parse_description
-from asp.language import is_reserved_constant, is_reserved_sort, is_reserved_symbol
+from asp import SourceError, load_description, parse_description
 
 PAGE = (Path(__file__).parents[3] / "docs" / "action-language.md").read_text(encoding="utf-8")
 OFFICE, _, _ = load_description("office").source.partition("scenarios\n")
@@ -37,6 +36,13 @@ def test_the_names_that_are_said_to_be_refused_are() -> None:
     told = PAGE[PAGE.index("as fluents and actions") : PAGE.index("and some more of each kind")]
     symbols, others = told.split("as sorts and")
     sorts, constants = others.split("as constants")
-    assert all(is_reserved_symbol(name, "inertial") for name in re.findall("`(.*?)`", symbols))
-    assert all(is_reserved_sort(name) for name in re.findall("`(.*?)`", sorts))
-    assert all(is_reserved_constant(name) for name in re.findall("`(.*?)`", constants))
+    assert_refused("fluents\n  inertial {}.", symbols)
+    assert_refused("sorts\n  {} = {{ordinary}}.", sorts)
+    assert_refused("sorts\n  ordinary = {{{}}}.", constants)
+
+
+def assert_refused(declaration: str, told: str) -> None:
+    parse_description(declaration.format("other"))
+    for name in re.findall("`(.*?)`", told):
+        with pytest.raises(SourceError, match=f"'{name}'"):
+            parse_description(declaration.format(name))
