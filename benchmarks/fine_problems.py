@@ -71,7 +71,7 @@ def _problem(refinement: Refinement, draw: random.Random) -> FineProblem:
         after, action = before ^ in_hand, f"{kind}({robot},{item})"
     transition = Transition(before, action, after)
     other = draw.choice([room for room in sorts["room"] if room != where[item]])
-    about = relevant(refinement.coarse, transition, (f"loc({item},{other})",))
+    about = relevant(refinement, transition, (f"loc({item},{other})",))
     start = _start(refinement, where, robot, item if held else None, draw)
     return FineProblem(refinement, start, transition, about)
 

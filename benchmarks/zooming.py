@@ -19,7 +19,7 @@ from asp.reasoning.fine_planning import (
     NoPlan,
     physical,
 )
-from asp.refinement import zoom_strong
+from asp.refinement import zoom as zoomed_of
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, quantile, within
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
@@ -162,7 +162,7 @@ def _slow(problem: FineProblem, zoom: bool, only_last: bool) -> float:
     refinement = problem.refinement
     source, signature = refinement.strong, refinement.strong_signature
     if zoom:
-        source = zoom_strong(refinement, problem.relevant)
+        source = zoomed_of(refinement.strong, refinement, problem.relevant)
         signature = signature_of(source, Problems(source.file))
     start = problem.start.within(signature.constants)
     lengths = _lengths(expected)

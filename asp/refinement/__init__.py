@@ -10,9 +10,7 @@ from asp.refinement.zooming import (
     fine_constants,
     fine_goal,
     relevant,
-    zoom_coarse,
-    zoom_strong,
-    zoom_weak,
+    zoom,
 )
 
 __all__ = [
@@ -28,7 +26,5 @@ __all__ = [
     "refined_name",
     "relevant",
     "shared_places",
-    "zoom_coarse",
-    "zoom_strong",
-    "zoom_weak",
+    "zoom",
 ]

@@ -5,23 +5,26 @@ D_c(T, G) and D_f(T, G) are those of P 3.3, Definition 2, relCon(T, G) that of D
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
+from functools import lru_cache
 
 from asp.language import (
+    NOTHING,
+    Facts,
     Literal,
+    Pattern,
     Problems,
-    Signature,
-    arguments,
-    name,
     restrict,
     signature_of,
     syntax,
     variable_domains,
 )
 from asp.language import variable_sorts as roles
-from asp.refinement.refinement import Facts, Refinement
+from asp.refinement.refinement import Refinement
+
+_REFINEMENTS = 16
 
 
 @dataclass(frozen=True)
@@ -33,59 +36,40 @@ class Transition:
     after: frozenset[str]
 
 
-def relevant(coarse: syntax.Source, transition: Transition, goal: Iterable[str]) -> frozenset[str]:
-    """relCon(T, G): the constants relevant to a transition or a goal (coarse literals)."""
-    in_action = arguments(transition.action)
-    in_goal = (constant for literal in goal for constant in arguments(literal))
-    changed = transition.before ^ transition.after
-    in_changes = (constant for fluent in changed for constant in arguments(fluent))
-    return frozenset([*in_action, *in_goal, *in_changes, *_in_conditions(coarse, transition)])
+def relevant(refinement: Refinement, transition: Transition, goal: Iterable[str]) -> frozenset[str]:
+    """relCon(T, G): the constants relevant to a transition or a goal (coarse literals).
 
-
-def _in_conditions(coarse: syntax.Source, transition: Transition) -> Iterator[str]:
-    """The constants of what is so before the action and stands in a condition on it (rule 4).
-
-    Whether the rest of the condition holds does not matter, so that `next_to` and `!=` in it are
-    not looked at.
+    By rule 4 these are, too, those of what is so before the action and stands in a condition on
+    it. Whether the rest of the condition holds does not matter, so that `next_to` and `!=` in it
+    are not looked at.
     """
-    signature = _signature(coarse)
-    for law in coarse.each(syntax.ExecutabilityCondition):
+    action = Literal.parse(transition.action)
+    before = frozenset(map(Literal.parse, transition.before))
+    changed = before ^ frozenset(map(Literal.parse, transition.after))
+    facts = Facts(before)
+    in_conditions = (
+        met
+        for condition in _conditions(refinement).get(action.name, ())
+        for met in condition.heads(action.arguments, facts)
+    )
+    literals = [action, *map(Literal.parse, goal), *changed, *in_conditions]
+    return frozenset(constant for literal in literals for constant in literal.arguments)
+
+
+@lru_cache(_REFINEMENTS)
+def _conditions(refinement: Refinement) -> Mapping[str, Sequence[Pattern]]:
+    """The fluent literals in conditions on coarse actions, by the action's name; it is given."""
+    found: dict[str, list[Pattern]] = defaultdict(list)
+    signature = refinement.coarse_signature
+    for law in refinement.coarse.each(syntax.ExecutabilityCondition):
         domains = variable_domains(law, signature)
-        for action in law.actions:
-            binding = _binding(action, transition.action, domains)
-            if binding is None:
-                continue
-            for literal in roles.literals(law.body):
-                declared = signature.symbols.get(literal.atom.name)
-                if declared is not None and declared.kind in roles.FLUENTS:
-                    yield from _met(literal, {**domains, **binding}, transition.before)
-
-
-Domains = Mapping[str, tuple[str, ...]]
-
-
-def _binding(action: syntax.Atom, given: str, domains: Domains) -> Domains | None:
-    """The one value of each variable that makes the action the given one, if there are such."""
-    if action.name != name(given):
-        return None
-    values: dict[str, tuple[str, ...]] = {}
-    for term, value in zip(action.args, arguments(given), strict=True):
-        possible = domains[term.name] if term.is_variable else (term.name,)
-        if value not in values.get(term.name, possible):
-            return None
-        values[term.name] = (value,)
-    return values
-
-
-def _met(literal: syntax.Literal, domains: Domains, before: frozenset[str]) -> Iterator[str]:
-    """The constants of the literal's instances that hold in the state."""
-    terms = literal.atom.args
-    variables = dict.fromkeys(term.name for term in terms if term.is_variable)
-    for values in product(*(domains[variable] for variable in variables)):
-        value = dict(zip(variables, values, strict=True))
-        constants = [value.get(term.name, term.name) for term in terms]
-        if (Literal.of(literal.atom.name, constants) in before) == literal.positive:
-            yield from constants
+        for literal in roles.literals(law.body):
+            declared = signature.symbols.get(literal.atom.name)
+            if declared is not None and declared.kind in roles.FLUENTS:
+                for action in law.actions:
+                    pattern = Pattern(domains, [literal], NOTHING, action.args, literal)
+                    found[action.name].append(pattern)
+    return found
 
 
 @dataclass(frozen=True)
@@ -100,32 +84,17 @@ class FineGoal:
     effects: tuple[Literal, ...]
 
 
-def zoom_coarse(coarse: syntax.Source, constants: Collection[str]) -> syntax.Source:
-    """D_c(T, G): the coarse description restricted to the relevant constants."""
-    dropped = _signature(coarse).constants.difference(constants)
-    return _commented(coarse, _writable(restrict(coarse, dropped)))
+def zoom(
+    source: syntax.Source, refinement: Refinement, constants: Collection[str]
+) -> syntax.Source:
+    """A description of the refinement restricted to relevant constants and their components.
 
-
-def zoom_weak(refinement: Refinement, constants: Collection[str]) -> syntax.Source:
-    """D_f(T, G) without the theory of observation: the weak refinement about the components."""
-    return _zoomed(refinement, refinement.weak_facts, constants)
-
-
-def zoom_strong(refinement: Refinement, constants: Collection[str]) -> syntax.Source:
-    """D_f(T, G): the strong refinement restricted to the components of the relevant constants."""
-    return _zoomed(refinement, refinement.strong_facts, constants)
-
-
-def _zoomed(refinement: Refinement, whole: Facts, constants: Collection[str]) -> syntax.Source:
-    """A refined description about the components of the relevant constants.
-
-    Most of its statements are ground facts; they are looked up by their constants, so that the
-    time that this takes depends on what is relevant.
+    D_c(T, G) is that of `coarse`, D_f(T, G) that of `strong`, and without the theory of
+    observation that of `weak`.
     """
     kept = fine_constants(refinement, constants).union(constants)
-    rules = _writable(restrict(whole.rules, refinement.constants - kept))
-    statements = sorted([*rules, *whole.about(kept)], key=lambda s: s.place.line)
-    return _commented(whole.rules, statements)
+    restricted = restrict(source, refinement.constants - kept)
+    return _commented(source, _writable(restricted))
 
 
 def fine_constants(refinement: Refinement, constants: Collection[str]) -> frozenset[str]:
@@ -151,13 +120,9 @@ def fine_goal(
     return FineGoal(literals, tuple(effects))
 
 
-def _signature(source: syntax.Source) -> Signature:
-    return signature_of(source, Problems(source.file))
-
-
 def _writable(source: syntax.Source) -> list[syntax.Statement]:
     """The statements without sorts that are empty now, and without all that speaks of them."""
-    signature = _signature(source)
+    signature = signature_of(source, Problems(source.file))
     empty = {sort for sort, members in signature.sorts.items() if not members}
     known = {
         symbol
@@ -167,7 +132,8 @@ def _writable(source: syntax.Source) -> list[syntax.Statement]:
     return [
         _without_parts(statement, empty)
         for statement in source.statements
-        if _is_writable(statement, empty, known) and _has_instances(statement, signature)
+        if _is_writable(statement, empty, known)
+        and all(variable_domains(statement, signature).values())
     ]
 
 
@@ -178,10 +144,6 @@ def _is_writable(statement: syntax.Statement, empty: set[str], known: set[str]) 
         return statement.name in known
     names = {use.atom.name for use in roles.scope(statement)}
     return empty.isdisjoint(names) and names <= known
-
-
-def _has_instances(statement: syntax.Statement, signature: Signature) -> bool:
-    return all(variable_domains(statement, signature).values())
 
 
 def _without_parts(statement: syntax.Statement, empty: set[str]) -> syntax.Statement:

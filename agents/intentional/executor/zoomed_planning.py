@@ -33,7 +33,7 @@ class ZoomedPlanner:
         self._inertial = before.intersection(inertial)
         transition = Transition(before, action, after)
         with mind.tally.timing("planning"):
-            self.relevant = relevant(mind.refinement.coarse, transition, mind.goal)
+            self.relevant = relevant(mind.refinement, transition, mind.goal)
             goal = fine_goal(mind.refinement, transition, self.relevant)
             self.effects = goal.effects
             self._lasting = tuple(each for each in goal.literals if each not in goal.effects)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from asp.language import ground
-from asp.refinement import Refinement, Transition, load_refinement, relevant, zoom_weak
+from asp.refinement import Refinement, Transition, load_refinement, relevant, zoom
 from testbed.world import world_of
 from tests.asp.refinement.levels import coarse_world, level, transitions, transitions_from
 from tests.asp.refinement.paths import Paths, drawn_refinement, literals_of, some_refinement
@@ -28,7 +28,7 @@ def whole(refinement: Refinement, kind: str, steps: int) -> Paths:
 
 @cache
 def zoomed(refinement: Refinement, constants: frozenset[str], kind: str, steps: int) -> Paths:
-    return Paths(zoom_weak(refinement, constants), kind, steps)
+    return Paths(zoom(refinement.weak, refinement, constants), kind, steps)
 
 
 def kind_of(refinement: Refinement, transition: Transition) -> str:
@@ -64,7 +64,7 @@ def check_zoomed(
     steps: int,
 ) -> tuple[list[str], list[str]]:
     """The start drawn for a transition and the path that the zoomed description has from it."""
-    constants = relevant(refinement.coarse, transition, goal)
+    constants = relevant(refinement, transition, goal)
     paths = zoomed(refinement, constants, "agent", steps)
     start = drawn_refinement(refinement, transition.before, rng)
     path = paths.find(start, literals_of(refinement, transition.after))

@@ -18,7 +18,6 @@ from asp.language import (
     ground,
     ground_description,
     is_positive,
-    restrict,
     signature_of,
     syntax,
 )
@@ -29,9 +28,7 @@ from asp.refinement import (
     fine_goal,
     load_refinement,
     relevant,
-    zoom_coarse,
-    zoom_strong,
-    zoom_weak,
+    zoom,
 )
 from asp.translation import translate_source
 from testbed.world import world_of
@@ -74,7 +71,7 @@ class TestThePaperSExample:
 
     @property
     def constants(self) -> frozenset[str]:
-        return relevant(of("assistant").coarse, self.MOVE, ["loc(tb1,library)"])
+        return relevant(of("assistant"), self.MOVE, ["loc(tb1,library)"])
 
     def test_it_is_a_transition_of_the_domain(self) -> None:
         assert self.MOVE in acts("assistant")
@@ -83,11 +80,11 @@ class TestThePaperSExample:
         assert self.constants == {"rob1", "tb1", "kitchen", "office1", "library"}
 
     def test_without_the_goal_the_book_would_not_be(self) -> None:
-        found = relevant(of("assistant").coarse, self.MOVE, [])
+        found = relevant(of("assistant"), self.MOVE, [])
         assert found == {"rob1", "kitchen", "office1"}
 
     def test_there_is_no_cup_and_nothing_to_do_with_one(self) -> None:
-        coarse = signature(zoom_coarse(of("assistant").coarse, self.constants))
+        coarse = signature(zoom(of("assistant").coarse, of("assistant"), self.constants))
         assert "cup" not in coarse.sorts
         assert "wash" not in coarse.symbols
         assert coarse.sorts["object"] == ("tb1",)
@@ -99,8 +96,8 @@ class TestThePaperSExample:
             *("c1", "c2", "c5", "c6", "c7", "c8", "rob1", "tb1"),
         }
         for source in (
-            zoom_weak(refinement, self.constants),
-            zoom_strong(refinement, self.constants),
+            zoom(refinement.weak, refinement, self.constants),
+            zoom(refinement.strong, refinement, self.constants),
         ):
             fine = signature(source)
             assert "part" not in fine.sorts
@@ -111,8 +108,8 @@ class TestThePaperSExample:
     def test_without_an_object_there_is_no_pickup(self) -> None:
         """The move for a goal that is about the robot: D_f(T,G) has no action on objects."""
         refinement = of("assistant")
-        constants = relevant(refinement.coarse, self.MOVE, ["loc(rob1,office1)"])
-        fine = signature(zoom_strong(refinement, constants))
+        constants = relevant(refinement, self.MOVE, ["loc(rob1,office1)"])
+        fine = signature(zoom(refinement.strong, refinement, constants))
         assert {s for s, d in fine.symbols.items() if d.kind in ("agent", "exogenous")} == {
             *("fine_move", "test_fine_loc"),
         }
@@ -176,7 +173,7 @@ class TestRelevance:
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
         domain, transition, goal = question
-        found = relevant(of(domain).coarse, transition, goal)
+        found = relevant(of(domain), transition, goal)
         by_rule = rules(of(domain), transition, goal)
         for number, constants in by_rule.items():
             assert constants <= found, f"rule {number}"
@@ -190,13 +187,13 @@ class TestRelevance:
             {"loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,office1)", "locked(library)"}
         )
         unlock = Transition(before, "unlock(rob1,library)", before - {"locked(library)"})
-        assert relevant(of("office").coarse, unlock, []) == {"rob1", "library", "kitchen"}
+        assert relevant(of("office"), unlock, []) == {"rob1", "library", "kitchen"}
 
     def test_what_is_carried_along_is_relevant_by_its_change(self) -> None:
         before = frozenset({"loc(rob1,room1)", "loc(object1,room1)", "in_hand(rob1,object1)"})
         after = frozenset({"loc(rob1,room2)", "loc(object1,room2)", "in_hand(rob1,object1)"})
         move = Transition(before, "move(rob1,room2)", after)
-        assert relevant(level("L2").coarse, move, []) == {"rob1", "object1", "room1", "room2"}
+        assert relevant(level("L2"), move, []) == {"rob1", "object1", "room1", "room2"}
 
 
 class TestZoomedDescriptions:
@@ -206,8 +203,8 @@ class TestZoomedDescriptions:
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
         domain, transition, goal = question
-        constants = relevant(of(domain).coarse, transition, goal)
-        source = zoom_coarse(of(domain).coarse, constants)
+        constants = relevant(of(domain), transition, goal)
+        source = zoom(of(domain).coarse, of(domain), constants)
         world = world_of(ground_description(source, signature(source), "zoomed"))
         inertial = frozenset(world.description.inertial)
         before, after = (inertial & s for s in (transition.before, transition.after))
@@ -226,10 +223,10 @@ class TestZoomedDescriptions:
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
-        constants = relevant(refinement.coarse, transition, goal)
+        constants = relevant(refinement, transition, goal)
         kept = constants | fine_constants(refinement, constants)
         whole = signature(refinement.strong)
-        zoomed = signature(zoom_strong(refinement, constants))
+        zoomed = signature(zoom(refinement.strong, refinement, constants))
         for sort, members in whole.sorts.items():
             left = tuple(m for m in members if m in kept or sort == "outcome")
             assert zoomed.sorts.get(sort, ()) == left
@@ -238,33 +235,17 @@ class TestZoomedDescriptions:
             assert (symbol in zoomed.symbols) == written
 
     @given(questions())
-    @settings(max_examples=40)
-    def test_looking_facts_up_finds_those_that_a_restriction_of_all_leaves(
-        self, question: tuple[str, Transition, list[str]]
-    ) -> None:
-        domain, transition, goal = question
-        refinement = of(domain)
-        constants = relevant(refinement.coarse, transition, goal)
-        kept = constants | fine_constants(refinement, constants)
-        for zoom, source in ((zoom_weak, refinement.weak), (zoom_strong, refinement.strong)):
-            expected = restrict(source, refinement.constants - kept)
-            found = zoom(refinement, constants)
-            assert list(found.each(syntax.Fact)) == list(expected.each(syntax.Fact))
-            lines = [statement.place.line for statement in found.statements]
-            assert lines == sorted(lines)
-
-    @given(questions())
     @settings(max_examples=30)
     def test_clingo_accepts_the_zoomed_programs_without_a_warning(
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
-        constants = relevant(refinement.coarse, transition, goal)
+        constants = relevant(refinement, transition, goal)
         for source in (
-            zoom_coarse(refinement.coarse, constants),
-            zoom_weak(refinement, constants),
-            zoom_strong(refinement, constants),
+            zoom(refinement.coarse, refinement, constants),
+            zoom(refinement.weak, refinement, constants),
+            zoom(refinement.strong, refinement, constants),
         ):
             assert warnings_of(translate_source(source, signature(source))) == []
 
@@ -275,7 +256,7 @@ class TestZoomedDescriptions:
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
-        source = zoom_strong(refinement, relevant(refinement.coarse, transition, goal))
+        source = zoom(refinement.strong, refinement, relevant(refinement, transition, goal))
         assert set(pairs(source)) <= set(pairs(refinement.strong))
 
 
@@ -293,7 +274,7 @@ class TestFineGoals:
         self, question: tuple[str, Transition, list[str]]
     ) -> None:
         domain, transition, goal = question
-        constants = relevant(of(domain).coarse, transition, goal)
+        constants = relevant(of(domain), transition, goal)
         found = fine_goal(of(domain), transition, constants)
         for fluent in of(domain).description.inertial:
             if constants.issuperset(arguments(fluent)):
@@ -309,7 +290,7 @@ class TestFineGoals:
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
-        constants = relevant(refinement.coarse, transition, goal)
+        constants = relevant(refinement, transition, goal)
         changed = {
             fluent
             for fluent in transition.before ^ transition.after

@@ -62,7 +62,7 @@ def drawn_problem(refinement: Refinement, draw: random.Random) -> FineProblem:
     coarse |= {f"in_hand(rob1,{held})"} if held else set()
     goal = (f"loc({draw.choice(sorts['object'])},{draw.choice(sorts['room'])})",)
     transition = _drawn_transition(refinement, frozenset(coarse), draw)
-    about = relevant(refinement.coarse, transition, goal)
+    about = relevant(refinement, transition, goal)
     return FineProblem(refinement, FineStart(frozenset(true), tuple(candidates)), transition, about)
 
 

@@ -14,7 +14,7 @@ from asp.reasoning.fine_planning import (
     ReferenceFinePlanner,
     physical,
 )
-from asp.refinement import Refinement, zoom_strong
+from asp.refinement import Refinement, zoom
 from tests.asp.reasoning.fine_planning.fine_problems import (
     FineProblem,
     drawn_problem,
@@ -39,7 +39,7 @@ def _planner(refinement: Refinement) -> IncrementalFinePlanner:
 
 def _plain(problem: FineProblem) -> tuple[str, ...] | NoPlan:
     """The plan of the literal translation of the zoomed strong refinement, tests included."""
-    source = zoom_strong(problem.refinement, problem.relevant)
+    source = zoom(problem.refinement.strong, problem.refinement, problem.relevant)
     known = signature(source)
     start = problem.start.within(known.constants)
     return ReferenceFinePlanner(source, known).plan(start, problem.goal, TESTS)
