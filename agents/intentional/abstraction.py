@@ -9,11 +9,12 @@ task, and share what is prepared for it in a process.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from msgspec import structs
 
 from agents.intentional.renaming import renamed_decision, renamed_event
+from agents.shared.sessions import sessions_of
 from asp.language import (
     Signature,
     analyse,
@@ -27,8 +28,9 @@ from asp.language import (
     text_of,
 )
 from asp.language import variable_sorts as roles
+from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.reasoning.relevance import Relevance, interchangeable
-from asp.solving import deciding, preparation
+from asp.solving import State, deciding, preparation
 from testbed.protocol import Decision, Percept, Robot, Task
 
 TASK_ABSTRACTION = True
@@ -50,7 +52,7 @@ _SILENT = (syntax.CostStatement, syntax.TriggerStatement, syntax.QuietStatement)
 
 
 class AbstractTask:
-    """The task that is left of another, and the way between their names.
+    """The task that is left of another, its transitions, and the way between their names.
 
     Where the domain has defaults, everything is kept.
     """
@@ -77,13 +79,52 @@ class AbstractTask:
         """Literals or actions of the task that is left, in their own names."""
         return [renamed(literal, self._back) for literal in literals]
 
-    def constant(self, left: str) -> str:
-        """A constant of the task that is left, in its own name."""
-        return self._back.get(left, left)
-
     def is_about(self, literal: str) -> bool:
         """Whether a literal or action names nothing that is left out."""
         return self._gone.isdisjoint(arguments(literal))
+
+    @cached_property
+    def _known(self) -> Knowledge:
+        return knowledge(self.task.domain, self.task.source)
+
+    @cached_property
+    def robot(self) -> str:
+        """The robot that plays, as the domain's statements name it."""
+        robot = self._known.description.robots[0]
+        return self._back.get(robot, robot)
+
+    @cached_property
+    def fluents(self) -> list[str]:
+        """The fluents about what is left."""
+        return self.back(self._known.description.fluents)
+
+    @cached_property
+    def inertial(self) -> list[str]:
+        """Those of the fluents that are inertial."""
+        return self.back(self._known.description.inertial)
+
+    def after(self, state: State, action: str | None, events: Iterable[str]) -> State | None:
+        """The next state, where the action and the events occur together; None: they cannot."""
+        attempt = None if action is None else self.seen([action])[0]
+        found = sessions_of(self._known).transitions.after(
+            frozenset(self.seen(state)), attempt, tuple(self.seen(events))
+        )
+        if found is None or (action is not None and not found[1]):
+            return None
+        return frozenset(self.back(found[0]))
+
+    def news(self, state: State, action: str | None, events: Iterable[str]) -> list[str]:
+        """Those of the events, told in this order, that can have occurred with the action.
+
+        An event that undoes an earlier one takes its place; one that changes nothing is no event.
+        """
+        found: list[str] = []
+        for event in filter(self.is_about, events):
+            if self.after(state, action, [event]) is not None:
+                found.append(event)
+                while self.after(state, action, found) is None:
+                    found.pop(0)
+        return found
 
     def percept(self, percept: Percept) -> Percept:
         """What is told of a step, as far as it is about what is left."""

@@ -9,16 +9,17 @@ from msgspec import structs
 
 from agents.intentional.abstraction import AbstractingRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.executor.belief import Mind
-from agents.intentional.executor.coarse import CoarseDiagram, Outcome, Reporter
-from agents.intentional.executor.execution import Execution, Steps
-from agents.intentional.executor.trace import Calendar
+from agents.intentional.executor.belief import FineTracker
+from agents.intentional.executor.coarse import Reporter
+from agents.intentional.executor.execution import Execution
+from agents.intentional.executor.sensing import Asking
+from agents.intentional.executor.trace import CoarseSteps
 from asp.language import Literal, is_positive
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
 from testbed.protocol import Capabilities, Decision, Percept, Robot, Task, Trace
 
-_WAIT, _FINISH = "wait", "finish"
+_WAIT, _FINISH = Literal.of("wait"), Literal.of("finish")
 
 
 class RefinedRobot:
@@ -38,27 +39,23 @@ class RefinedRobot:
         Raises SourceError for the task's texts.
         """
         with deciding():
-            self._take_on(task)
-
-    def _take_on(self, task: Task) -> None:
-        began = reasoning_clock()
-        with preparation():
-            file = f"{task.domain}.al"
-            refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
-        self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
-        self._diagram = CoarseDiagram(self._coarse.abstract)
-        self._mind = Mind(refinement, self._diagram.robot, task, self._zooms)
-        known = [literal for literal in task.initial if self._coarse.abstract.is_about(literal)]
-        self._mind.know(task.initial_fine, known)
-        self._calendar = Calendar()
-        self._reporter = Reporter(self._mind, self._diagram, self._calendar)
-        self._believed: State = frozenset(filter(is_positive, known))
-        self._execution: Execution | None = None
-        self._steps: Steps | None = None
-        self._outcome: Outcome | None = None
-        spent = reasoning_clock().since(began)
-        self._mind.tally.spend("planning", spent)
-        self._prepared = spent.preparation_cpu
+            began = reasoning_clock()
+            with preparation():
+                file = f"{task.domain}.al"
+                refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
+            self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
+            abstract = self._abstract = self._coarse.abstract
+            self._fine = FineTracker(refinement, abstract.robot, task, self._zooms)
+            known = [literal for literal in task.initial if abstract.is_about(literal)]
+            self._fine.know(task.initial_fine, known)
+            self._steps = CoarseSteps()
+            self._reporter = Reporter(self._fine, abstract, self._steps)
+            self._believed: State = frozenset(filter(is_positive, known))
+            self._execution: Execution | None = None
+            self._running: Asking[None] | None = None
+            spent = reasoning_clock().since(began)
+            self._fine.trace.spend("planning", spent)
+            self._prepared = spent.preparation_cpu
 
     def act(self, percept: Percept) -> Decision:
         """The next concrete action. Raises RobotStops."""
@@ -67,42 +64,59 @@ class RefinedRobot:
             decision = self._next(percept)
             self._prepared = 0.0
             spent = prepared + reasoning_clock().since(began).preparation_cpu
-        trace = structs.replace(decision.trace, preparation_cpu_s=spent, deadline=limited.late)
+        trace = structs.replace(
+            decision.trace,
+            fine=self._fine.trace.take(),
+            preparation_cpu_s=spent,
+            deadline=limited.late,
+        )
         return structs.replace(decision, trace=trace)
 
     def _next(self, percept: Percept) -> Decision:
-        if self._steps is None:
-            self._mind.hear(percept)
+        """A decision in the middle of an abstract action; where none is carried out, of one."""
+        if self._running is None:
+            self._fine.hear(percept)
             return self._decide(percept)
-        action = self._advance(percept)
-        return self._decide(percept) if action is None else self._concrete(percept, action)
-
-    def _advance(self, percept: Percept | None) -> str | None:
-        """The next concrete action of the abstract one; None if it is over."""
-        execution = self._execution
-        assert execution is not None
-        assert self._steps is not None
         try:
-            return next(self._steps) if percept is None else self._steps.send(percept)
-        except StopIteration as stop:
-            self._outcome = Outcome(execution.action, bool(stop.value), execution.effects)
-            self._steps = None
-            return None
+            action = self._running.send(percept)
+        except StopIteration:
+            self._running = None
+            return self._decide(percept)
+        return Decision(
+            trial=percept.trial,
+            step=percept.step,
+            action=Literal.parse(action),
+            believes_goal=False,
+            trace=Trace(),
+        )
 
     def _decide(self, percept: Percept) -> Decision:
-        """What the coarse robot decides, with what it is told of the last abstract action."""
-        outcome, self._outcome = self._outcome, None
-        told, expected = self._reporter.percept(percept, self._believed, outcome)
-        if outcome is not None:
-            inferred = [*self._reporter.inferred(outcome), *told.visible]
-            self._mind.tally.end(outcome.happened, inferred)
+        """What the coarse robot decides, with what it is told of the abstract action before.
+
+        An abstract action is begun; where nothing needs to be done for it the robot waits a step.
+        """
+        over, self._execution = self._execution, None
+        told, expected = self._reporter.percept(percept, self._believed, over)
+        if over is not None:
+            effects = filter(self._fine.is_magnified, self._fine.holding(over.effects))
+            inferred, happened = sorted([*effects, *told.visible]), over.happened
+            self._fine.trace.note(
+                abstract="", begun=None, ended=over.action, happened=happened, inferred=inferred
+            )
         decision = self._ask(percept, told)
-        self._believe(expected, decision)
-        trace = self._calendar.trace(decision.trace)
-        decision = structs.replace(decision, step=percept.step, trace=trace)
-        if decision.action in (_WAIT, _FINISH):
-            return self._with_trace(decision)
-        return self._begin(percept, decision)
+        action, belief = decision.action, decision.trace.belief
+        self._believed = frozenset(belief) if belief else expected
+        self._fine.agree(expected, self._believed, self._abstract.fluents)
+        if action not in (_WAIT, _FINISH):
+            self._execution = Execution(
+                self._fine, self._abstract, action, self._believed, percept.step
+            )
+            self._running = self._execution.run()
+            first = next(self._running, None)
+            self._running = None if first is None else self._running
+            action = Literal.parse(first or _WAIT)
+        trace = self._steps.trace(decision.trace)
+        return structs.replace(decision, step=percept.step, trace=trace, action=action)
 
     def _ask(self, percept: Percept, told: Percept) -> Decision:
         """The coarse robot's decision.
@@ -110,47 +124,15 @@ class RefinedRobot:
         That the goal does not hold it is told a coarse step after what it saw before: in between
         something may have happened.
         """
-        self._calendar.begin(percept.step)
+        self._steps.begin(percept.step)
         decision = self._coarse.act(structs.replace(told, goal_holds=None))
         if told.goal_holds is None or decision.action != _FINISH:
             return decision
-        self._calendar.begin(percept.step)
-        step = self._calendar.step
+        self._steps.begin(percept.step)
+        step = self._steps.present
         return self._coarse.act(
             Percept(trial=told.trial, step=step, visible=[], goal_holds=told.goal_holds)
         )
-
-    def _believe(self, expected: State, decision: Decision) -> None:
-        """What is believed now; what was known to the contrary at the fine resolution is old."""
-        belief = decision.trace.belief
-        self._believed = frozenset(belief) if belief else expected
-        fluents = [f for f in self._diagram.fluents if self._mind.is_magnified(f)]
-        with self._mind.tally.timing("infer"):
-            self._mind.belief.adapt(expected, self._believed, fluents)
-        self._mind.agree(self._believed, self._diagram.fluents)
-
-    def _begin(self, percept: Percept, decision: Decision) -> Decision:
-        """Begins the abstract action that was decided."""
-        action, believed = decision.action, self._believed
-        self._execution = Execution(self._mind, self._diagram, action, believed, percept.step)
-        self._steps = self._execution.run()
-        first = self._advance(None)
-        return self._with_trace(structs.replace(decision, action=first or _WAIT))
-
-    def _concrete(self, percept: Percept, action: str) -> Decision:
-        """A decision in the middle of an abstract action."""
-        decision = Decision(
-            trial=percept.trial,
-            step=percept.step,
-            action=Literal.parse(action),
-            believes_goal=False,
-            trace=Trace(),
-        )
-        return self._with_trace(decision)
-
-    def _with_trace(self, decision: Decision) -> Decision:
-        trace = structs.replace(decision.trace, fine=self._mind.tally.take())
-        return structs.replace(decision, trace=trace)
 
 
 class EitherRobot:

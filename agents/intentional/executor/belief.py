@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 from itertools import chain
 
-from agents.intentional.executor.means import means_of
-from agents.intentional.executor.trace import Tally
+from agents.intentional.executor.model import fine_model
+from agents.intentional.executor.trace import FineTraceBuilder
 from agents.shared.robot import limits_of
 from asp.language import arguments, atom, complement, is_positive, name
 from asp.reasoning.fine_knowledge import Known
 from asp.refinement import Refinement
+from asp.solving import State
 from testbed.protocol import Percept, Task
 
 
@@ -20,10 +21,8 @@ class FineBelief:
     def __init__(self, refinement: Refinement, literals: Iterable[str]) -> None:
         """`literals` are known to begin with."""
         self._refinement = refinement
-        means = means_of(refinement)
-        self._knowledge = means.knowledge
-        self._is_value = means.is_value
-        self._unmagnified, self._carriers = means.unmagnified, means.carriers
+        self._model = fine_model(refinement)
+        self._knowledge, self._carriers = self._model.knowledge, self._model.carriers
         self._carrying: frozenset[str] = frozenset()
         self.known = Known()
         self.see(literals)
@@ -34,7 +33,8 @@ class FineBelief:
         What was known gives way to them; where that does not suffice, the least is forgotten.
         """
         after = self._knowledge.after(self._with_carriers(), list(literals))
-        self.known = Known(after.true - self._unmagnified, after.false - self._unmagnified)
+        unmagnified = self._model.unmagnified
+        self.known = Known(after.true - unmagnified, after.false - unmagnified)
 
     def suppose(self, unmagnified: Collection[str]) -> None:
         """Goes by these fluents without counterparts: of those that matter here others are false.
@@ -53,10 +53,6 @@ class FineBelief:
             return known
         idle = self._carriers - self._carrying
         return Known(known.true | self._carrying, known.false | idle)
-
-    def forget(self, literals: Iterable[str]) -> None:
-        """Takes literals no longer for certain."""
-        self.known = self.known.without(literals)
 
     def is_open(self, fluent: str) -> bool:
         """Whether it is not known if a fluent holds."""
@@ -77,7 +73,7 @@ class FineBelief:
         a single one. None where one is known.
         """
         groups = self._knowledge.groups(fluent)
-        if not self._is_value(groups[0][0]):
+        if not self._model.is_value(groups[0][0]):
             groups = (tuple(chain(*groups)),)
         if any(not self.known.true.isdisjoint(group) for group in groups):
             return ()
@@ -98,10 +94,10 @@ class FineBelief:
             changed = (fluent in before) != (fluent in now)
             if complement(literal) in follows or (changed and literal not in follows):
                 groups = self._refinement.counterpart(literal)
-                self.forget(complement(part) for group in groups for part in group)
+                self.known = self.known.without(complement(p) for group in groups for p in group)
 
 
-class Mind:
+class FineTracker:
     """The robot's knowledge and means at the fine resolution, for one trial.
 
     `unmagnified` are the true fluents without counterparts, as far as they are believed; `shown`
@@ -117,10 +113,10 @@ class Mind:
         self.goal = tuple(task.goal)
         self.limits = limits_of(task)
         self.zooms = zooms
-        self.tally = Tally()
-        self.means = means_of(refinement)
-        self.tests = self.means.tests(robot)
-        self.effects = self.means.effects
+        self.trace = FineTraceBuilder()
+        self.model = fine_model(refinement)
+        self.tests = self.model.tests(robot)
+        self.effects = self.model.effects
         self.belief = FineBelief(refinement, ())
         self.unmagnified: frozenset[str] = frozenset()
         self.shown: frozenset[str] = frozenset()
@@ -151,17 +147,18 @@ class Mind:
         """Whether a coarse literal has a counterpart."""
         return name(literal) in self.refinement.counterparts
 
+    @property
+    def true(self) -> frozenset[str]:
+        """The fluents that are known, or believed, to be true."""
+        return self.belief.known.true | self.unmagnified
+
     def testable(self, things: Collection[str]) -> Iterator[str]:
         """The fluents about these things that can be tested now, by what is known and believed."""
-        return self.tests.possible(self.belief.known.true | self.unmagnified, things)
-
-    def can_test(self, fluent: str) -> bool:
-        """Whether a fluent of which there is a test can be tested now, by what is known."""
-        return self.tests.is_possible(fluent, self.belief.known.true | self.unmagnified)
+        return self.tests.possible(self.true, things)
 
     def is_value(self, fluent: str) -> bool:
         """Whether a coarse fluent is one of several of which one always holds, as of places."""
-        return self.means.is_value(self.refinement.counterpart(fluent)[0][0])
+        return self.model.is_value(self.refinement.counterpart(fluent)[0][0])
 
     def hear(self, percept: Percept) -> frozenset[str]:
         """Takes in what is told beside the outcome of a test; the constants it is about.
@@ -214,6 +211,15 @@ class Mind:
             )
         ]
 
+    def holding(self, literals: Collection[str]) -> list[str]:
+        """Those of coarse literals that follow from what is known, or are believed."""
+        follows = self.belief.coarse([atom(each) for each in literals if self.is_magnified(each)])
+        return [
+            each
+            for each in literals
+            if (each in follows if self.is_magnified(each) else self.holds(each))
+        ]
+
     def holds(self, literal: str) -> bool:
         """Whether a literal without a counterpart is believed."""
         return (atom(literal) in self.unmagnified) == is_positive(literal)
@@ -224,8 +230,13 @@ class Mind:
         gone = (atom(literal) for literal in unmagnified)
         self._suppose(self.unmagnified.difference(gone).union(filter(is_positive, unmagnified)))
 
-    def agree(self, believed: Collection[str], fluents: Collection[str]) -> None:
-        """Believes of these fluents, if they have no counterparts, what the coarse robot does."""
+    def agree(self, expected: State, believed: State, fluents: Collection[str]) -> None:
+        """Believes of these fluents what the coarse robot does, which expected something else.
+
+        What was known to the contrary at the fine resolution is old.
+        """
+        with self.trace.timing("infer"):
+            self.belief.adapt(expected, believed, list(filter(self.is_magnified, fluents)))
         left = self.unmagnified.difference(fluents)
         self._suppose(left.union(f for f in believed if not self.is_magnified(f)))
         self.noticed.clear()
@@ -237,7 +248,7 @@ class Mind:
     def looked_for(self, wholes: Iterable[str]) -> frozenset[str]:
         """What is tested for of some coarse constants: one component, where they share a place."""
         components = (self.refinement.components[whole] for whole in wholes)
-        shares = self.means.shares_places
+        shares = self.model.shares_places
         return frozenset(part for parts in components for part in (parts[:1] if shares else parts))
 
     def is_doubtful(self, literal: str) -> bool:

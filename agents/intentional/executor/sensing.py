@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Collection, Generator, Iterable
 from typing import TypeVar
 
-from agents.intentional.executor.belief import Mind
+from agents.intentional.executor.belief import FineTracker
 from asp.language import arguments, atom, complement, is_positive
+from asp.solving import State
 from testbed.protocol import Percept
 
 T = TypeVar("T")
 
 Asking = Generator[str, Percept, T]
-"""Yields tests and is sent the percepts after them."""
+"""Yields concrete actions and tests, and is sent the percepts after them."""
 
 
 class Sensing:
@@ -23,10 +24,10 @@ class Sensing:
     """
 
     def __init__(
-        self, mind: Mind, before: Collection[str], after: Collection[str], things: Collection[str]
+        self, fine: FineTracker, before: State, after: State, things: Collection[str]
     ) -> None:
         """`before` and `after` are the states of the coarse transition; `things` is tested for."""
-        self._mind = mind
+        self._fine = fine
         self._before, self._after = before, after
         self._things = things
         self._disturbed: set[str] = set()
@@ -43,31 +44,29 @@ class Sensing:
 
         What a test finds may be what another one needs.
         """
-        mind, true = self._mind, self._mind.belief.known.true
-        robots = {c for f in true if mind.robot in arguments(f) for c in arguments(f)}
+        true = self._fine.belief.known.true
+        robots = {c for f in true if self._fine.robot in arguments(f) for c in arguments(f)}
         tested: set[str] = set()
         while possible := self._open(tested):
-            for fluent in filter(mind.belief.is_open, possible):
+            for fluent in filter(self._fine.belief.is_open, possible):
                 things = set(arguments(fluent)) - robots
-                self.looked_for.update(mind.refinement.wholes[thing] for thing in things)
+                self.looked_for.update(self._fine.refinement.wholes[thing] for thing in things)
                 yield from self._test(fluent)
             tested.update(possible)
 
     def _open(self, tested: Collection[str]) -> list[str]:
         """What can be tested here and is not known, apart from what has been tested."""
-        mind = self._mind
-        possible = mind.testable(self._things)
-        return [f for f in possible if f not in tested and mind.belief.is_open(f)]
+        possible = self._fine.testable(self._things)
+        return [f for f in possible if f not in tested and self._fine.belief.is_open(f)]
 
     def doubt(self, action: str) -> Asking[None]:
         """Tests again what an action that failed took for granted, and what is not certain."""
-        mind = self._mind
-        about = {mind.refinement.wholes.get(part, part) for part in arguments(action)}
-        things = mind.looked_for(about)
-        with mind.tally.timing("infer"):
-            doubtful = mind.belief.known.true - mind.certain().known.true
-        for fluent in [*mind.testable(things)]:
-            if fluent in doubtful and fluent in mind.belief.known.true:
+        about = {self._fine.refinement.wholes.get(part, part) for part in arguments(action)}
+        things = self._fine.looked_for(about)
+        with self._fine.trace.timing("infer"):
+            doubtful = self._fine.belief.known.true - self._fine.certain().known.true
+        for fluent in [*self._fine.testable(things)]:
+            if fluent in doubtful and fluent in self._fine.belief.known.true:
                 yield from self._test(fluent)
 
     def outcome(self, effect: str, percept: Percept) -> Asking[str | None]:
@@ -78,29 +77,27 @@ class Sensing:
         not possible: the robot is not where it wanted to be.
         """
         failed = percept.happened is False
-        if self._mind.tests.of(effect) is None:
+        if self._fine.tests.of(effect) is None:
             if complement(effect) in percept.visible:
                 return complement(effect)
             return None if failed and effect not in percept.visible else effect
-        if failed and not self._mind.can_test(effect):
+        if failed and not self._fine.tests.is_possible(effect, self._fine.true):
             return None
         holds = yield from self._read(effect)
         return effect if holds == is_positive(effect) else complement(effect)
 
     def commit(self, literals: Iterable[str]) -> None:
         """Takes observations of the present moment for certain."""
-        mind = self._mind
-        with mind.tally.timing("infer"):
-            seen = mind.believable(literals)
-        new = [literal for literal in seen if not self._is_known(literal)]
-        with mind.tally.timing("infer"):
-            mind.belief.see(seen)
-        mind.tally.committed(new)
+        with self._fine.trace.timing("infer"):
+            seen = self._fine.believable(literals)
+            new = [literal for literal in seen if not self._is_known(literal)]
+            self._fine.belief.see(seen)
+        self._fine.trace.add("committed", new)
         self.seen += new
 
     def hear(self, percept: Percept) -> None:
-        with self._mind.tally.timing("infer"):
-            touched = self._mind.hear(percept)
+        with self._fine.trace.timing("infer"):
+            touched = self._fine.hear(percept)
         self.heard |= touched
         self._disturbed |= touched
 
@@ -120,7 +117,7 @@ class Sensing:
 
     def _expected(self, fluent: str) -> bool | None:
         """Whether a fine fluent may be true by the coarse belief; None where that is changing."""
-        for coarse in self._mind.refinement.coarse_of(fluent):
+        for coarse in self._fine.refinement.coarse_of(fluent):
             if not self._disturbed.isdisjoint(arguments(coarse)):
                 return None
             if (coarse in self._before) == (coarse in self._after):
@@ -129,9 +126,9 @@ class Sensing:
 
     def _read(self, fluent: str) -> Asking[bool | None]:
         """The outcome of a test; None if it shows nothing."""
-        test = self._mind.tests.of(atom(fluent))
+        test = self._fine.tests.of(atom(fluent))
         assert test is not None, "only what can be tested is tested"
-        self._mind.tally.count("tests")
+        self._fine.trace.add("tests")
         percept = yield test
         self.hear(percept)
         if atom(fluent) in percept.visible:
@@ -139,5 +136,5 @@ class Sensing:
         return False if complement(atom(fluent)) in percept.visible else None
 
     def _is_known(self, literal: str) -> bool:
-        known = self._mind.belief.known
+        known = self._fine.belief.known
         return atom(literal) in (known.true if is_positive(literal) else known.false)

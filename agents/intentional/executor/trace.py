@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Literal, TypeVar
 
@@ -20,8 +20,8 @@ Phase = Literal["planning", "infer"]
 T = TypeVar("T", Explanation, Event, Contradiction)
 
 
-class Tally:
-    """Numbers of a trial so far, and what is new at the present step (`FineTrace`)."""
+class FineTraceBuilder:
+    """What is told of the present step of a trial at the fine resolution (`FineTrace`)."""
 
     def __init__(self) -> None:
         self._now = FineTrace()
@@ -36,26 +36,14 @@ class Tally:
         """Tells this of the present step."""
         self._now = structs.replace(self._now, **told)
 
-    def count(self, what: Literal["plans", "actions", "tests"]) -> None:
-        """One more of these."""
-        self.note(**{what: getattr(self._now, what) + 1})
-
-    def end(self, happened: bool, inferred: Iterable[str]) -> None:
-        """The abstract action is over."""
-        ended = self._now.abstract
-        self.note(
-            abstract="", begun=None, ended=ended, happened=happened, inferred=sorted(inferred)
-        )
-
-    def committed(self, literals: Iterable[str]) -> None:
-        """These literals are newly taken for certain."""
-        self.note(committed=[*self._now.committed, *literals])
+    def add(self, field: str, more: Any = 1) -> None:
+        """Tells so much, or so many, more in a field."""
+        self.note(**{field: getattr(self._now, field) + more})
 
     def spend(self, phase: Phase, spent: Reading) -> None:
         """So much was spent on a phase."""
-        wall, cpu = f"{phase}_time_s", f"{phase}_cpu_s"
-        before = getattr(self._now, wall), getattr(self._now, cpu)
-        self.note(**{wall: before[0] + spent.wall, cpu: before[1] + spent.cpu})
+        self.add(f"{phase}_time_s", spent.wall)
+        self.add(f"{phase}_cpu_s", spent.cpu)
 
     @contextmanager
     def timing(self, phase: Phase) -> Iterator[None]:
@@ -67,7 +55,7 @@ class Tally:
             self.spend(phase, reasoning_clock().since(began))
 
 
-class Calendar:
+class CoarseSteps:
     """When each coarse step began, in steps of the environment.
 
     Step 0 is that of both, at which the goal is selected.
@@ -77,7 +65,7 @@ class Calendar:
         self._began = [0]
 
     @property
-    def step(self) -> int:
+    def present(self) -> int:
         """The present coarse step."""
         return len(self._began) - 1
 
@@ -91,7 +79,7 @@ class Calendar:
 
     def own(self, step: int) -> int:
         """The step of the environment at which a coarse step began, or may begin at the soonest."""
-        ahead = max(0, step - self.step)
+        ahead = max(0, step - self.present)
         return self._began[step - ahead] + ahead
 
     def trace(self, trace: Trace) -> Trace:

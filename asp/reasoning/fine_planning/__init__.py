@@ -1,7 +1,6 @@
 """Shortest plans at the fine resolution."""
 
 from asp.reasoning.fine_planning.incremental import (
-    MOST_STEPS,
     Horizons,
     IncrementalFinePlanner,
     fine_planner,
@@ -17,7 +16,6 @@ from asp.reasoning.fine_planning.reference import (
 )
 
 __all__ = [
-    "MOST_STEPS",
     "FinePlan",
     "FinePlanner",
     "FineStart",

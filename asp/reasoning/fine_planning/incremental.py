@@ -178,11 +178,12 @@ class IncrementalFinePlanner:
         return Problem(frozenset(part.seen(start.true)), candidates, part.seen(goal))
 
 
-def fine_planner(
-    source: syntax.Source, signature: Signature, horizons: Horizons | None = None
-) -> FinePlanner:
-    """The fastest planner for a description of the physics; its sessions are in `horizons`."""
+_HORIZONS: Horizons = Recent(MOST_STEPS)
+
+
+def fine_planner(source: syntax.Source, signature: Signature) -> FinePlanner:
+    """The fastest planner for a description of the physics; all of them share their sessions."""
     try:
-        return IncrementalFinePlanner(source, signature, horizons)
+        return IncrementalFinePlanner(source, signature, _HORIZONS)
     except NotCompactError:
         return ReferenceFinePlanner(source, signature)

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.executor import zoomed_planning
-from agents.intentional.executor.belief import Mind
+from agents.intentional.executor.belief import FineTracker
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
 from asp.language import read_domain
@@ -247,7 +247,7 @@ def test_what_is_put_down_may_be_taken_away_at_once(reported: bool) -> None:
     assert "fine_pickup(rob1,object1_1)" in went.actions
 
 
-def _mind() -> Mind:
+def _fine() -> FineTracker:
     """That of a robot which knows its own cell and nothing else."""
     robot = RefinedRobot()
     task = Task(
@@ -263,20 +263,20 @@ def _mind() -> Mind:
         seed=0,
     )
     robot.begin(task)
-    return robot._mind
+    return robot._fine
 
 
 def test_which_part_it_holds_is_nothing_to_assume_in_a_plan() -> None:
     held = ("fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)")
     zoom = ["rob1", "object1", "room1"]
     assert (
-        zoomed_planning.shortest_plan(_mind(), ("-in_hand(rob1,object1)",), (held,), zoom) is None
+        zoomed_planning.shortest_plan(_fine(), ("-in_hand(rob1,object1)",), (held,), zoom) is None
     )
 
 
 def test_what_is_wrong_with_a_plan_is_not_taken_for_none() -> None:
     with pytest.raises(ValueError, match="room3"):
-        zoomed_planning.shortest_plan(_mind(), ("loc(rob1,room3)",), (), ["rob1", "room1", "room2"])
+        zoomed_planning.shortest_plan(_fine(), ("loc(rob1,room3)",), (), ["rob1", "room1", "room2"])
 
 
 def test_where_the_time_runs_out_it_waits_and_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:

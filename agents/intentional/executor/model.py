@@ -1,4 +1,7 @@
-"""What laws of D_f say of single actions and tests, instance by instance, when asked for."""
+"""What is made once of a refinement: its planner, its inferences, and what its laws say.
+
+Laws of D_f are read instance by instance, when asked for.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +14,21 @@ from asp.language import (
     arguments,
     atom,
     complement,
+    functions,
     ground,
     name,
+    subject,
     syntax,
     variable_domains,
 )
 from asp.language import variable_sorts as roles
-from asp.refinement import TRUE, Refinement
+from asp.reasoning.fine_knowledge import IncrementalFineKnowledge
+from asp.reasoning.fine_planning import fine_planner
+from asp.refinement import TRUE, Refinement, shared_places
+from asp.solving import Recent, preparation
+
+MOST_REFINEMENTS = 16
+"""Of how many refinements this is kept: those that were used last."""
 
 _TEST, _CAN_TEST = "test_", "can_test_"
 
@@ -169,3 +180,64 @@ def _fluent(law: syntax.CausalLaw) -> syntax.Atom:
 
 def _instance(pattern: syntax.Atom, binding: Binding) -> str:
     return ground(pattern.name, (binding.get(term.name, term.name) for term in pattern.args))
+
+
+class FineModel:
+    """Planner, inferences and laws of one refinement.
+
+    `shares_places` says whether the components of anything are always in the same place;
+    `unmagnified` are the inertial fluents without counterparts, and `carriers` those of them that
+    constraints on fine fluents depend on. Of each coarse action, `conditions` are the fluents on
+    which it depends whether it is possible, and `direct_effects` what causal laws say that it may
+    bring about.
+    """
+
+    def __init__(self, refinement: Refinement) -> None:
+        weak, magnified = refinement.weak, refinement.counterparts
+        self.planner = fine_planner(weak, refinement.weak_signature)
+        self.knowledge = IncrementalFineKnowledge(refinement)
+        self.effects = Effects(refinement)
+        self.shares_places = bool(shared_places(weak))
+        self.unmagnified = frozenset(
+            fluent for fluent in refinement.description.inertial if name(fluent) not in magnified
+        )
+        fine = frozenset(magnified.values())
+        named = {
+            literal.atom.name
+            for law in weak.each(syntax.StateConstraint)
+            if law.head.atom.name in fine
+            for literal in roles.literals(law.body)
+        }
+        self.carriers = frozenset(fluent for fluent in self.unmagnified if name(fluent) in named)
+        self.conditions: dict[str, frozenset[str]] = {}
+        for law in refinement.description.executability:
+            for action in law.actions:
+                before = self.conditions.get(action, frozenset())
+                self.conditions[action] = before.union(map(atom, law.body))
+        self.direct_effects: dict[str, frozenset[str]] = {}
+        for causal in refinement.description.causal:
+            found = self.direct_effects.get(causal.action, frozenset())
+            self.direct_effects[causal.action] = found | {causal.head}
+        self._functions = functions(weak, refinement.weak_signature)
+        self._refinement = refinement
+        self._tests: dict[str, Tests] = {}
+
+    def tests(self, robot: str) -> Tests:
+        """The tests of a robot."""
+        if robot not in self._tests:
+            with preparation():
+                self._tests[robot] = Tests(self._refinement, robot)
+        return self._tests[robot]
+
+    def is_value(self, fluent: str) -> bool:
+        """Whether a fine fluent is one of several of which one always holds."""
+        return subject(fluent, self._functions) is not None
+
+
+_MODELS: Recent[Refinement, FineModel] = Recent(MOST_REFINEMENTS)
+
+
+def fine_model(refinement: Refinement) -> FineModel:
+    """The model of a refinement, made when it is first asked for, as preparation."""
+    with preparation():
+        return _MODELS.get(refinement, lambda: FineModel(refinement))

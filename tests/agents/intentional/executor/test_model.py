@@ -8,11 +8,11 @@ from weakref import ref
 
 import pytest
 
-from agents.intentional.executor import means
-from agents.intentional.executor.means import Means, means_of
+from agents.intentional.executor import model
+from agents.intentional.executor.model import FineModel, fine_model
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
-from asp.reasoning.fine_planning import Horizons
+from asp.reasoning.fine_planning import Horizons, incremental
 from asp.reasoning.fine_planning.horizon import Horizon
 from asp.refinement import Refinement, load
 from asp.solving import Recent
@@ -30,11 +30,11 @@ def _row(cells: int) -> Refinement:
     return refinement
 
 
-def _played(refinement: Refinement) -> ref[Means]:
-    """The means with which an object was taken from one room to the next."""
+def _played(refinement: Refinement) -> ref[FineModel]:
+    """The model with which an object was taken from one room to the next."""
     initial = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]
     assert play(RefinedRobot(), refinement, initial, GOAL).achieved
-    return ref(means_of(refinement))
+    return ref(fine_model(refinement))
 
 
 @pytest.fixture
@@ -48,16 +48,16 @@ def uncollected() -> Iterator[None]:
 
 @pytest.mark.usefixtures("uncollected")
 def test_of_many_refinements_the_last_ones_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(means, "_MEANS", Recent(2))
+    monkeypatch.setattr(model, "_MODELS", Recent(2))
     kept = [_played(_row(cells)) for cells in CELLS]
     assert [found() is None for found in kept] == [True, True, False, False]
-    assert means_of(_row(CELLS[-1])) is kept[-1]()
+    assert fine_model(_row(CELLS[-1])) is kept[-1]()
 
 
 def test_controls_of_all_refinements_have_one_bound(monkeypatch: pytest.MonkeyPatch) -> None:
     horizons = Horizons(20)
-    monkeypatch.setattr(means, "_HORIZONS", horizons)
-    monkeypatch.setattr(means, "_MEANS", Recent(len(CELLS)))
+    monkeypatch.setattr(incremental, "_HORIZONS", horizons)
+    monkeypatch.setattr(model, "_MODELS", Recent(len(CELLS)))
     gc.collect()
     before = len(_horizons())
     for cells in CELLS:
