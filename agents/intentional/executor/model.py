@@ -5,18 +5,19 @@ Laws of D_f are read instance by instance, when asked for.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
-from itertools import product
-from typing import Generic, TypeVar
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator
+from itertools import chain
+from typing import NamedTuple
 
 from asp.language import (
-    Signature,
-    arguments,
-    atom,
-    complement,
+    NOTHING,
+    Facts,
+    Literal,
+    Pattern,
+    closed_world,
     functions,
-    ground,
-    name,
+    pattern_of,
     subject,
     syntax,
     variable_domains,
@@ -32,154 +33,98 @@ MOST_REFINEMENTS = 16
 
 _TEST, _CAN_TEST = "test_", "can_test_"
 
-Binding = Mapping[str, str]
-S = TypeVar("S", bound=syntax.CausalLaw | syntax.StateConstraint)
-
-
-class _Law(Generic[S]):
-    """A law of D_f, with the constants over which each of its variables ranges, in their order."""
-
-    def __init__(self, law: S, signature: Signature) -> None:
-        self.law = law
-        domains = variable_domains(law, signature)
-        self.domains = {variable: dict.fromkeys(members) for variable, members in domains.items()}
-        literals = roles.literals(law.body)
-        self._fluents = [part for part in literals if part.atom.name in signature.symbols]
-
-    def bound(
-        self, pattern: syntax.Atom, instance: str, given: Binding | None = None
-    ) -> dict[str, str] | None:
-        """The binding, beyond what is given, that makes a pattern the instance; None: none does."""
-        if name(instance) != pattern.name:
-            return None
-        binding = dict(given or {})
-        for term, value in zip(pattern.args, arguments(instance), strict=True):
-            if value != (binding.setdefault(term.name, value) if term.is_variable else term.name):
-                return None
-            if term.is_variable and value not in self.domains[term.name]:
-                return None
-        return binding
-
-    def matches(self, given: Binding, true: Collection[str]) -> Iterator[Binding]:
-        """The bindings under which all fluents of the body are among the true ones."""
-        bindings = [given]
-        for part in self._fluents:
-            if part.positive:
-                bindings = [
-                    found
-                    for binding in bindings
-                    for instance in true
-                    if (found := self.bound(part.atom, instance, binding)) is not None
-                ]
-        return (binding for binding in bindings if self.is_met(binding, true))
-
-    def is_met(self, binding: Binding, true: Collection[str]) -> bool:
-        """Whether what the body says of bound variables is known; negatives are believed."""
-        return all(
-            (_instance(part.atom, binding) in true) == part.positive for part in self._fluents
-        ) and all(
-            (binding.get(c.left.name, c.left.name) == binding.get(c.right.name, c.right.name))
-            == c.equal
-            for c in roles.comparisons(self.law.body)
-        )
-
 
 class Effects:
     """The direct effects of concrete actions and of events."""
 
-    def __init__(self, refinement: Refinement) -> None:
-        self._laws: dict[str, list[_Law[syntax.CausalLaw]]] = {}
+    def __init__(self, refinement: Refinement, statics: Facts) -> None:
+        self._laws: dict[str, list[Pattern]] = defaultdict(list)
         for law in refinement.weak.each(syntax.CausalLaw):
-            own = _Law(law, refinement.weak_signature)
-            self._laws.setdefault(law.action.name, []).append(own)
+            given, signature = law.action.args, refinement.weak_signature
+            pattern = pattern_of(law, signature, statics, given, law.head)
+            self._laws[law.action.name].append(pattern)
 
-    def of(self, action: str, true: Collection[str]) -> tuple[str, ...]:
+    def of(self, action: str, true: Iterable[str]) -> tuple[Literal, ...]:
         """The literals that the action brings about where these fluents are known to be true."""
-        found: dict[str, None] = {}
-        for own in self._laws.get(name(action), []):
-            binding = own.bound(own.law.action, action)
-            if binding is not None and own.is_met(binding, true):
-                effect = _instance(own.law.head.atom, binding)
-                found[effect if own.law.head.positive else complement(effect)] = None
-        return tuple(found)
+        one, facts = Literal.parse(action), Facts(map(Literal.parse, true))
+        heads = (law.heads(one.arguments, facts) for law in self._laws.get(one.name, ()))
+        return tuple(dict.fromkeys(chain.from_iterable(heads)))
+
+
+class _Ability(NamedTuple):
+    """When a fluent can be tested, by one law, of whose variables nothing binds the `free` ones."""
+
+    fluent: str
+    head: syntax.Atom
+    of_robot: Pattern
+    of_test: Pattern
+    free: set[str]
 
 
 class Tests:
     """The tests of one robot: of which fluents there are some, and when they are possible."""
 
-    def __init__(self, refinement: Refinement, robot: str) -> None:
-        self._robot = robot
+    def __init__(self, refinement: Refinement, robot: str, statics: Facts) -> None:
         signature = refinement.strong_signature
-        self._tests = {
-            _fluent(law).name: _Law(law, signature)
-            for law in refinement.strong.each(syntax.CausalLaw)
-            if law.action.name.startswith(_TEST) and law.head.atom.args[-1].name == TRUE
-        }
-        self._abilities = [
-            _Law(law, signature)
-            for law in refinement.strong.each(syntax.StateConstraint)
-            if law.head.atom.name.startswith(_CAN_TEST)
-        ]
-        named = {part.atom.name for own in self._abilities for part in roles.literals(own.law.body)}
-        self._statics = frozenset(static for static in refinement.statics if static.name in named)
+        self._robot = robot
+        constants = dict.fromkeys(m for members in signature.sorts.values() for m in members)
+        self._rank = {constant: rank for rank, constant in enumerate(constants)}
+        self._tests: dict[str, Pattern] = {}
+        self._fluents: dict[str, Pattern] = {}
+        for law in refinement.strong.each(syntax.CausalLaw):
+            if law.action.name.startswith(_TEST) and law.head.atom.args[-1].name == TRUE:
+                test, domains = law.action, variable_domains(law, signature)
+                fluent = next(each for each in roles.literals(law.body) if each.positive)
+                given, name = (test.args[0], *fluent.atom.args), fluent.atom.name
+                head = syntax.Literal(test, True)
+                self._tests[name] = Pattern(domains, (), NOTHING, given, head)
+                self._fluents[name] = Pattern(domains, (), NOTHING, test.args, fluent)
+        self._abilities: list[_Ability] = []
+        for ability in refinement.strong.each(syntax.StateConstraint):
+            head = ability.head
+            name = head.atom.name.removeprefix(_CAN_TEST)
+            if name != head.atom.name:
+                args, parts = head.atom.args, roles.literals(ability.body)
+                bound = {term.name for part in parts if part.positive for term in part.atom.args}
+                free = {term.name for term in args[1:]} - bound
+                of_robot = pattern_of(ability, signature, statics, args[:1], head)
+                of_test = pattern_of(ability, signature, statics, args, head)
+                self._abilities.append(_Ability(name, head.atom, of_robot, of_test, free))
 
-    def of(self, fluent: str) -> str | None:
+    def of(self, fluent: str) -> Literal | None:
         """The test of a fluent; None where there is none."""
-        if name(fluent) not in self._tests:
+        atom = Literal.parse(fluent).atom
+        if atom.name not in self._tests:
             return None
-        own = self._tests[name(fluent)]
-        robot = {own.law.action.args[0].name: self._robot}
-        binding = own.bound(_fluent(own.law), atom(fluent), robot)
-        return None if binding is None else _instance(own.law.action, binding)
+        return next(self._tests[atom.name].heads((self._robot, *atom.arguments), NOTHING), None)
 
-    def is_possible(self, fluent: str, true: Collection[str]) -> bool:
+    def is_possible(self, fluent: str, true: Iterable[str]) -> bool:
         """Whether a fluent can be tested where fluents are known to be true."""
-        test = self.of(fluent)
-        if test is None:
-            return False
-        needed = ground(f"{_CAN_TEST}{name(fluent)}", arguments(test))
-        true = self._statics.union(true)
-        bound = ((own, own.bound(own.law.head.atom, needed)) for own in self._abilities)
-        return any(
-            True for own, given in bound if given is not None for _ in own.matches(given, true)
+        test, facts = self.of(fluent), Facts(map(Literal.parse, true))
+        name = Literal.parse(fluent).name
+        return test is not None and any(
+            True
+            for ability in self._abilities
+            if ability.fluent == name
+            for _ in ability.of_test.matches(test.arguments, facts)
         )
 
-    def possible(self, true: Collection[str], things: Collection[str]) -> Iterator[str]:
+    def possible(self, true: Iterable[str], things: Collection[str]) -> Iterator[Literal]:
         """The fluents about these things that can be tested where fluents are known to be true.
 
         What is about the robot itself is left out: that it knows by its own actions.
         """
-        true = self._statics.union(true)
+        facts = Facts(map(Literal.parse, true))
         for ability in self._abilities:
-            test = self._tests[ability.law.head.atom.name.removeprefix(_CAN_TEST)].law
-            names = [term.name for term in test.action.args]
-            for can_test in self._instances(ability, true, things):
-                binding = dict(zip(names, arguments(can_test), strict=True))
-                fluent = _instance(_fluent(test), binding)
-                if self._robot not in arguments(fluent):
+            rows = [
+                tuple(values[term.name] for term in ability.head.args)
+                for values in ability.of_robot.matches((self._robot,), facts)
+                if all(values[variable] in things for variable in ability.free)
+            ]
+            for row in sorted(rows, key=lambda row: [self._rank[each] for each in row]):
+                fluent = next(self._fluents[ability.fluent].heads(row, NOTHING))
+                if self._robot not in fluent.arguments:
                     yield fluent
-
-    def _instances(
-        self, own: _Law[syntax.StateConstraint], true: Collection[str], things: Collection[str]
-    ) -> Iterator[str]:
-        """The instances of what a law says can be tested; what nothing binds is a thing."""
-        robot = own.law.head.atom.args[0]
-        given = {robot.name: self._robot} if robot.is_variable else {}
-        for binding in own.matches(given, true):
-            free = [variable for variable in own.domains if variable not in binding]
-            choices = ([m for m in own.domains[v] if m in things] for v in free)
-            for values in product(*choices):
-                whole = {**binding, **dict(zip(free, values, strict=True))}
-                yield _instance(own.law.head.atom, whole)
-
-
-def _fluent(law: syntax.CausalLaw) -> syntax.Atom:
-    """The fluent that a test is about: the condition under which it is observed to be true."""
-    return next(literal.atom for literal in roles.literals(law.body) if literal.positive)
-
-
-def _instance(pattern: syntax.Atom, binding: Binding) -> str:
-    return ground(pattern.name, (binding.get(term.name, term.name) for term in pattern.args))
 
 
 class FineModel:
@@ -196,10 +141,11 @@ class FineModel:
         weak, magnified = refinement.weak, refinement.counterparts
         self.planner = fine_planner(weak, refinement.weak_signature)
         self.knowledge = IncrementalFineKnowledge(refinement)
-        self.effects = Effects(refinement)
+        self._statics = closed_world(refinement.statics, refinement.strong_signature)
+        self.effects = Effects(refinement, self._statics)
         self.shares_places = bool(shared_places(weak))
         self.unmagnified = frozenset(
-            fluent for fluent in refinement.description.inertial if name(fluent) not in magnified
+            fluent for fluent in refinement.description.inertial if fluent.name not in magnified
         )
         fine = frozenset(magnified.values())
         named = {
@@ -208,12 +154,12 @@ class FineModel:
             if law.head.atom.name in fine
             for literal in roles.literals(law.body)
         }
-        self.carriers = frozenset(fluent for fluent in self.unmagnified if name(fluent) in named)
+        self.carriers = frozenset(fluent for fluent in self.unmagnified if fluent.name in named)
         self.conditions: dict[str, frozenset[str]] = {}
         for law in refinement.description.executability:
             for action in law.actions:
                 before = self.conditions.get(action, frozenset())
-                self.conditions[action] = before.union(map(atom, law.body))
+                self.conditions[action] = before.union(each.atom for each in law.body)
         self.direct_effects: dict[str, frozenset[str]] = {}
         for causal in refinement.description.causal:
             found = self.direct_effects.get(causal.action, frozenset())
@@ -226,7 +172,7 @@ class FineModel:
         """The tests of a robot."""
         if robot not in self._tests:
             with preparation():
-                self._tests[robot] = Tests(self._refinement, robot)
+                self._tests[robot] = Tests(self._refinement, robot, self._statics)
         return self._tests[robot]
 
     def is_value(self, fluent: str) -> bool:
