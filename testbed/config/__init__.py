@@ -1,6 +1,5 @@
 """Configurations: YAML with dotted overrides in, a validated `ExperimentConfig` out."""
 
-from testbed.config.checking import Check
 from testbed.config.composing import write_yaml
 from testbed.config.levels import (
     SCENARIO_KEYS,
@@ -30,7 +29,6 @@ __all__ = [
     "SCENARIO_KEYS",
     "TRIGGERS",
     "AdversarySettings",
-    "Check",
     "ConfigError",
     "ExperimentConfig",
     "Finding",

@@ -4,16 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
 
-import asp
 from asp import Description
-from asp.language import SourceError, atom, check_one_robot, complement, read_domain, suggestion
+from asp.language import (
+    Signature,
+    SourceError,
+    analyse,
+    atom,
+    check_one_robot,
+    complement,
+    parse_description,
+    read_domain,
+    suggestion,
+)
 from asp.reasoning.diagnosis import cannot_hold, never_together
+from asp.refinement import Refinement
 from asp.translation import translate
-from testbed.config.levels import ground_findings, grounds, map_findings, settings_findings
+from testbed.config.levels import drawn_findings, grounds, map_findings, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings
 from testbed.config.places import (
-    NO_ROBOT,
     ConfigError,
     Finding,
     Key,
@@ -25,10 +36,25 @@ from testbed.config.places import (
     without_left_out,
 )
 from testbed.config.scenarios import scenario_findings, scenarios_of, script_findings
-from testbed.world import StateError, world_of
+from testbed.world import StateError, World, world_of
 
 Check = Callable[[ExperimentConfig], Iterable[Finding]]
 """Finds what is wrong with a configuration for those who use it, such as its robots."""
+
+NO_ROBOT = (
+    "has no robot: nobody sees anything in it; "
+    "in its section 'sees' write for example: R sees f(X) if robot(R)."
+)
+"""What is wrong with a domain without `sees`: the robot is the one that sees."""
+FLUENTS = ("inertial", "defined")
+
+
+@dataclass(frozen=True)
+class Diction:
+    """What literals are given in; `check` raises StateError for those that are in no state."""
+
+    signature: Signature
+    check: Callable[[Sequence[str]], object]
 
 
 def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> None:
@@ -42,11 +68,15 @@ def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> 
         *(found for own in checks for found in own(config)),
     ]
     if config.is_fine:
-        lines = [*lines_of(findings, places), *_of_the_levels(config, places)]
+        lines = lines_of(findings, places) + _of_the_levels(config, places)
     else:
-        description = _description(config, places)
+        with _texts_read(places, "domain"):
+            file, text = read_domain(config.domain)
+            check_one_robot(text, file)
+        description, (_, signature) = parse_description(text, file), analyse(text, file)
         lines = lines_of([*findings, *_coarse_alone(config)], places)
-        findings = without_left_out(_domain_findings(config, description), places)
+        findings = list(_domain_findings(config, description, signature))
+        findings = without_left_out(findings, places)
         lines += lines_of_the_domain(config, findings, places, description.scenarios)
     if lines:
         raise ConfigError(lines)
@@ -65,35 +95,9 @@ def _of_the_levels(config: ExperimentConfig, places: Places) -> list[str]:
         if findings := list(map_findings(config)):
             return lines_of(findings, places)
         for _, ground in grounds(config):
-            if findings := list(ground_findings(config, ground.refinement)):
+            if findings := list(_level_findings(config, ground.refinement)):
                 return lines_of_the_map(findings, places)
     return []
-
-
-def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
-    for key in ("level_sizes", "statistics"):
-        if getattr(config, key):
-            yield (key,), "goes with levels, or with a refinement, and there are none"
-
-
-def _domain_findings(config: ExperimentConfig, description: Description) -> list[Finding]:
-    known = description.scenarios
-    findings = [*scenario_findings(config, known), *_observability(config, description)]
-    if not description.robots:
-        findings.append((("domain",), NO_ROBOT))
-    if not config.goal:
-        findings.append((("goal",), f"should not be empty; for example {GOAL}"))
-    for key, owner in _owners(config, scenarios_of(config, known)):
-        findings += _goal((*key, "goal"), owner.goal or (), description)
-        findings += _initial((*key, "initial"), owner.initial, description)
-        findings += script_findings((*key, "script"), owner.script or (), description)
-    return findings
-
-
-def _description(config: ExperimentConfig, places: Places) -> Description:
-    with _texts_read(places, "domain"):
-        check_one_robot(*reversed(read_domain(config.domain)))
-        return asp.load_description(config.domain)
 
 
 @contextmanager
@@ -107,6 +111,40 @@ def _texts_read(places: Places, key: str) -> Iterator[None]:
         raise ConfigError([f"{places.of((key,))}: {error.strerror or error}"]) from None
 
 
+def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
+    for key in ("level_sizes", "statistics"):
+        if getattr(config, key):
+            yield (key,), "goes with levels, or with a refinement, and there are none"
+
+
+def _domain_findings(
+    config: ExperimentConfig, description: Description, signature: Signature
+) -> Iterator[Finding]:
+    """What a domain does not allow."""
+    known, world = description.scenarios, world_of(description)
+    yield from scenario_findings(config, known)
+    why = "no such exogenous action"
+    yield from _names(("observability",), config.observability, signature, "exogenous", why)
+    if not description.robots:
+        yield ("domain",), NO_ROBOT
+    if not config.goal:
+        yield ("goal",), f"should not be empty; for example {GOAL}"
+    goals = Diction(signature, partial(_check_goal, world))
+    states = Diction(signature, world.state)
+    for key, owner in _owners(config, scenarios_of(config, known)):
+        yield from _said(key, owner, goals, states)
+
+
+def _check_goal(world: World, literals: Sequence[str]) -> None:
+    """Raises StateError for literals that no state has: with a law, else by the theory."""
+    world.check_together(literals)
+    description = world.description
+    program = translate(description.source, f"{description.name}.al")
+    found = never_together(program, literals)
+    if found is not None:
+        raise StateError(cannot_hold(found))
+
+
 def _owners(
     config: ExperimentConfig, scenarios: Collection[str]
 ) -> Iterator[tuple[Key, ExperimentConfig | ScenarioSettings]]:
@@ -117,12 +155,63 @@ def _owners(
             yield ("scenario_settings", scenario), own
 
 
+def _level_findings(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:
+    """What the descriptions of one level do not allow."""
+    coarse, weak = refinement.coarse_signature, refinement.weak_signature
+    if not refinement.description.robots:
+        yield ("domain",), NO_ROBOT
+    if not config.goal:
+        yield from drawn_findings(config.draw, coarse)
+    why = "no such action at this resolution"
+    yield from _names(("observability",), config.observability, weak, "exogenous", why)
+    yield from _names(("statistics",), config.statistics, refinement.strong_signature, "agent", why)
+    goals = Diction(coarse, lambda given: world_of(refinement.description).check_together(given))
+    states = Diction(weak, lambda given: world_of(refinement).state(given))
+    yield from _said((), config, goals, states)
+
+
+def _said(
+    key: Key, owner: ExperimentConfig | ScenarioSettings, goals: Diction, states: Diction
+) -> Iterator[Finding]:
+    """What is wrong with a goal, an initial state, and a script."""
+    yield from _literals((*key, "goal"), owner.goal or None, goals, "no state has all of this")
+    yield from _literals((*key, "initial"), owner.initial, states, "no such initial state")
+    yield from script_findings((*key, "script"), owner.script or (), states.signature)
+
+
+def _literals(
+    key: Key, given: Sequence[str] | None, diction: Diction, refusal: str
+) -> Iterator[Finding]:
+    """Unknown literals and contradictory ones; where there are none, whether a state has all."""
+    findings: list[Finding] = []
+    for index, literal in enumerate(given or ()):
+        unknown = unknown_atom(atom(literal), diction.signature, FLUENTS, "fluent")
+        if unknown is not None:
+            findings.append(((*key, index), unknown))
+        elif given and complement(literal) in given[:index]:
+            twice = f"contradicts {complement(literal)}; keep one of the two"
+            findings.append(((*key, index), twice))
+    yield from findings
+    if given is not None and not findings:
+        try:
+            diction.check(given)
+        except StateError as error:
+            yield key, f"{refusal}: {error}"
+
+
+def _names(
+    key: Key, given: Iterable[str], signature: Signature, kind: str, why: str
+) -> Iterator[Finding]:
+    """Names that are none of the actions of a kind."""
+    known = [name for name, symbol in signature.symbols.items() if symbol.kind == kind]
+    for name in given:
+        if name not in known:
+            yield (*key, name), f"{why}; {suggestion(name, known)}"
+
+
 def _twice(config: ExperimentConfig) -> Iterator[Finding]:
-    for key, names in (
-        ("scenarios", config.scenarios),
-        ("robots", config.robots),
-        ("treatment", config.treatment),
-    ):
+    for key in ("scenarios", "levels", "robots", "treatment"):
+        names = getattr(config, key)
         for index, name in enumerate(names):
             if name in names[:index]:
                 yield (key, index), f"'{name}' is listed twice; keep one of the two"
@@ -130,8 +219,9 @@ def _twice(config: ExperimentConfig) -> Iterator[Finding]:
 
 def _compared(config: ExperimentConfig) -> Iterator[Finding]:
     """Robots are compared that play, and none with itself."""
-    named = [(("treatment", index), name) for index, name in enumerate(config.treatment)]
-    for key, name in [*((("baseline",), own) for own in [config.baseline] if own), *named]:
+    named: list[tuple[Key, str]] = [(("baseline",), config.baseline)] if config.baseline else []
+    named += [(("treatment", index), name) for index, name in enumerate(config.treatment)]
+    for key, name in named:
         if name not in config.robots:
             yield key, f"'{name}' is none of the robots; {suggestion(name, config.robots)}"
         elif key != ("baseline",) and name == config.baseline:
@@ -140,53 +230,3 @@ def _compared(config: ExperimentConfig) -> Iterator[Finding]:
             yield key, "compares two robots, and there is one"
     if set(config.robots) <= set(config.treatment):
         yield ("treatment",), "should leave one of the robots as the baseline"
-
-
-def _observability(config: ExperimentConfig, description: Description) -> Iterator[Finding]:
-    known = {action.partition("(")[0] for action in description.exogenous_actions}
-    for name in config.observability:
-        if name not in known:
-            yield ("observability", name), f"no such exogenous action; {suggestion(name, known)}"
-
-
-def _literals(key: Key, literals: Sequence[str], description: Description) -> Iterator[Finding]:
-    fluents = description.fluents
-    for index, literal in enumerate(literals):
-        if atom(literal) not in fluents:
-            yield (*key, index), unknown_atom(atom(literal), fluents, "fluent")
-        elif complement(literal) in literals[:index]:
-            yield (*key, index), f"contradicts {complement(literal)}; keep one of the two"
-
-
-def _goal(key: Key, literals: tuple[str, ...], description: Description) -> Iterator[Finding]:
-    unknown = list(_literals(key, literals, description))
-    yield from unknown
-    if not unknown:
-        why = _never_together(literals, description)
-        if why is not None:
-            yield key, f"no state has all of this: {why}"
-
-
-def _never_together(literals: tuple[str, ...], description: Description) -> str | None:
-    """Which literals no state has together: with the law where they follow, else by the theory."""
-    try:
-        world_of(description).check_together(literals)
-    except StateError as error:
-        return str(error)
-    program = translate(description.source, f"{description.name}.al")
-    found = never_together(program, literals)
-    return None if found is None else cannot_hold(found)
-
-
-def _initial(
-    key: Key, literals: tuple[str, ...] | None, description: Description
-) -> Iterator[Finding]:
-    if literals is None:
-        return
-    unknown = list(_literals(key, literals, description))
-    yield from unknown
-    if not unknown:
-        try:
-            world_of(description).state(literals)
-        except StateError as error:
-            yield key, f"no such initial state: {error}"

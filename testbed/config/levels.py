@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
-from itertools import islice, product
 from pathlib import Path
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language import Signature, atom, literals, read_domain, suggestion
+from asp.language import Signature, literals, read_domain, suggestion
 from asp.refinement import Refinement, load, read_refinement, refined_name
 from testbed.config.models import TRIGGERS, Drawing, ExperimentConfig
-from testbed.config.places import NO_ROBOT, Finding, Key, unknown_atom
-from testbed.config.scenarios import moment_findings
-from testbed.world import StateError, world_of
+from testbed.config.places import FLUENTS, Finding
 
 
 @dataclass(frozen=True)
@@ -40,8 +37,7 @@ def level_size(config: ExperimentConfig, name: str) -> LevelSize:
     """The size of a published level, or of one of the configuration's own. Raises KeyError."""
     if name in LEVELS:
         return LEVELS[name]
-    own = config.level_sizes[name]
-    return LevelSize(own.rooms, own.rows, own.columns, own.objects)
+    return LevelSize(**dict(config.level_sizes[name]))
 
 
 @cache
@@ -60,7 +56,6 @@ def ground_of_files(domain: str, refinement: str) -> Ground:
 
 MOST_CELLS = 20_000
 """Of a level, and parts of its objects."""
-FLUENTS = ("inertial", "defined")
 SCENARIO_KEYS = ("scenarios", "scenario_settings")
 """What goes with no levels."""
 
@@ -81,30 +76,18 @@ def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:
         yield ("domain",), "goes with no levels, which are made; with a domain give its refinement"
     if config.adversary.strategy == TRIGGERS:
         yield ("adversary", "strategy"), "triggers belong to scenarios; at levels events are random"
-    yield from _names(config)
-    yield from _sizes(config)
-
-
-def _names(config: ExperimentConfig) -> Iterator[Finding]:
     known = (*LEVELS, *config.level_sizes)
     for index, name in enumerate(config.levels):
         if name not in known:
             yield ("levels", index), f"unknown level '{name}'; {suggestion(name, known)}"
-        if name in config.levels[:index]:
-            yield ("levels", index), f"'{name}' is listed twice; keep one of the two"
-    for name in config.level_sizes:
+    for name, size in config.level_sizes.items():
         if name in LEVELS:
             yield ("level_sizes", name), "is a published level; give your own another name"
-
-
-def _sizes(config: ExperimentConfig) -> Iterator[Finding]:
-    for name, size in config.level_sizes.items():
         cells = size.rooms * size.rows * size.columns
         parts = sum(number * of_each for number, of_each in size.objects)
         for what, number in (("cells", cells), ("parts of objects", parts)):
             if number > MOST_CELLS:
-                message = f"has {number} {what}; {MOST_CELLS} are the most"
-                yield ("level_sizes", name), message
+                yield ("level_sizes", name), f"has {number} {what}; {MOST_CELLS} are the most"
 
 
 def map_findings(config: ExperimentConfig) -> Iterator[Finding]:
@@ -123,49 +106,7 @@ def map_findings(config: ExperimentConfig) -> Iterator[Finding]:
         )
 
 
-def ground_findings(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:
-    """What the descriptions of one level do not allow."""
-    coarse, weak = refinement.coarse_signature, refinement.weak_signature
-    if not refinement.description.robots:
-        yield ("domain",), NO_ROBOT
-    yield from _literals(("goal",), config.goal, coarse)
-    yield from () if config.goal else _drawn(config.draw, coarse)
-    yield from _known(("observability",), config.observability, _named(weak, "exogenous"))
-    actions = _named(refinement.strong_signature, "agent")
-    yield from _known(("statistics",), config.statistics, actions)
-    yield from _together(config, refinement)
-    for index, entry in enumerate(config.script or ()):
-        known = instances(weak, entry.action, ("exogenous",))
-        if entry.action not in known:
-            message = unknown_atom(entry.action, known, "exogenous action")
-            yield ("script", index, "action"), message
-    yield from moment_findings(("script",), config.script or ())
-
-
-def _together(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:
-    """Whether there is such a goal, and such an initial state."""
-    unknown = list(_literals(("initial",), config.initial or (), refinement.weak_signature))
-    yield from unknown
-    if config.initial is not None and not unknown:
-        try:
-            world_of(refinement).state(config.initial)
-        except StateError as error:
-            yield ("initial",), f"no such initial state: {error}"
-    if config.goal and not list(_literals(("goal",), config.goal, refinement.coarse_signature)):
-        try:
-            world_of(refinement.description).check_together(config.goal)
-        except StateError as error:
-            yield ("goal",), f"no state has all of this: {error}"
-
-
-def _literals(key: Key, given: Iterable[str], signature: Signature) -> Iterator[Finding]:
-    for index, literal in enumerate(given):
-        known = instances(signature, atom(literal), FLUENTS)
-        if atom(literal) not in known:
-            yield (*key, index), unknown_atom(atom(literal), known, "fluent")
-
-
-def _drawn(draw: Drawing, signature: Signature) -> Iterator[Finding]:
+def drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:
     """What is wrong with the goal that is drawn; in one line, where it is the one by default."""
     findings = list(_patterns(draw.goal, signature))
     if findings and "goal" not in draw.model_fields_set:
@@ -176,9 +117,9 @@ def _drawn(draw: Drawing, signature: Signature) -> Iterator[Finding]:
 
 
 def _patterns(given: Iterable[str], signature: Signature) -> Iterator[Finding]:
+    fluents = {n: s for n, s in signature.symbols.items() if s.kind in FLUENTS}
     for index, literal in enumerate(given):
         key, name = ("draw", "goal", index), literals.name(literal)
-        fluents = {n: s for n, s in signature.symbols.items() if s.kind in FLUENTS}
         if name not in fluents:
             yield key, f"no fluent '{name}'; {suggestion(name, fluents)}"
             continue
@@ -189,27 +130,3 @@ def _patterns(given: Iterable[str], signature: Signature) -> Iterator[Finding]:
         for sort in sorts:
             if sort not in signature.sorts:
                 yield key, f"unknown sort '{sort}'; {suggestion(sort, signature.sorts)}"
-
-
-def _known(key: Key, given: Iterable[str], known: Collection[str]) -> Iterator[Finding]:
-    for name in given:
-        if name not in known:
-            yield (*key, name), f"no such action at this resolution; {suggestion(name, known)}"
-
-
-def _named(signature: Signature, kind: str) -> list[str]:
-    return [name for name, symbol in signature.symbols.items() if symbol.kind == kind]
-
-
-def instances(signature: Signature, text: str, kinds: Collection[str]) -> tuple[str, ...]:
-    """The ground atoms with the name of this one; of the other symbols of these kinds one each."""
-    wanted = literals.name(text)
-    return tuple(
-        literals.ground(name, values)
-        for name, symbol in signature.symbols.items()
-        if symbol.kind in kinds
-        for values in islice(
-            product(*(signature.sorts[sort.name] for sort in symbol.sorts)),
-            None if name == wanted else 1,
-        )
-    )

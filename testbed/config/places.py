@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import cached_property
 from pathlib import Path
 
 import yaml
 
-from asp.language import literals, suggestion
+from asp.language import Signature, literals, suggestion
 from testbed.config.models import ExperimentConfig
 from testbed.config.values import NONE
 
@@ -64,7 +64,8 @@ class Places:
 
     @cached_property
     def _root(self) -> yaml.Node | None:
-        return _compose(self._text)
+        # The two implementations of YAML differ about tabs; the fast one has read the text.
+        return yaml.compose(self._text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
     def _line(self, key: Key) -> int | None:
         node, line = self._root, None
@@ -74,15 +75,6 @@ class Places:
                 return line
             node, line = found
         return line
-
-
-def _compose(text: str) -> yaml.Node | None:
-    # The two implementations of YAML differ about tabs; the text was accepted by the fast one.
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    try:
-        return yaml.compose(text, Loader=loader)
-    except yaml.YAMLError:
-        return None
 
 
 def _covers(given: str, key: Key) -> bool:
@@ -106,26 +98,26 @@ def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, int] | N
 Finding = tuple[Key, str]
 """A key, and one line that says what is wrong with its value."""
 
-NO_ROBOT = (
-    "has no robot: nobody sees anything in it; "
-    "in its section 'sees' write for example: R sees f(X) if robot(R)."
-)
-"""What is wrong with a domain without `sees`: the robot is the one that sees."""
+FLUENTS = ("inertial", "defined")
+"""The kinds of symbols that are fluents."""
 
 
-def unknown_atom(text: str, known: Sequence[str], what: str) -> str:
-    """Say what is wrong with a ground atom that is not among the known ones, and what is right."""
+def unknown_atom(text: str, signature: Signature, kinds: Collection[str], what: str) -> str | None:
+    """What is wrong with a ground atom that is none of these kinds, and what is right, if so."""
+    symbols = {name: own for name, own in signature.symbols.items() if own.kind in kinds}
     name, values = literals.name(text), literals.arguments(text)
-    same = [literals.arguments(item) for item in known if literals.name(item) == name]
-    if not same:
-        return f"no {what} '{name}'; {suggestion(name, map(literals.name, known))}"
-    if len(values) != len(same[0]):
-        return f"{name} takes {len(same[0])} arguments, as in {literals.ground(name, same[0])}"
-    for position, value in enumerate(values):
-        possible = {parts[position] for parts in same}
-        if value not in possible:
-            return f"'{value}' in {text} is not known there; {suggestion(value, possible)}"
-    return f"{text} is not a {what}; {suggestion(text, known)}"
+    if name not in symbols:
+        return f"no {what} '{name}'; {suggestion(name, symbols)}"
+    sorts = [signature.sorts[sort.name] for sort in symbols[name].sorts]
+    example = literals.ground(name, (members[0] for members in sorts))
+    if len(values) != len(sorts):
+        return f"{name} takes {len(sorts)} arguments, as in {example}"
+    for value, members in zip(values, sorts, strict=True):
+        if value not in members:
+            return f"'{value}' in {text} is not known there; {suggestion(value, members)}"
+    if text != literals.ground(name, values):
+        return f"{text} is not a {what}, which is written as in {example}"
+    return None
 
 
 OF_THE_DOMAIN = ("goal", "initial", "scenarios", "scenario_settings", "script", "observability")
@@ -154,15 +146,12 @@ def lines_of_the_domain(
 
     `scenarios` are those of the domain.
     """
-    strange = any(not places.is_overridden(key) for key, _ in findings)
-    if not (strange and places.is_overridden(("domain",))):
-        return lines_of(findings, places)
     # What would fit this domain by chance is named, too: it was not meant for it.
     written = [key for key in OF_THE_DOMAIN if _is_written(key, config)]
     foreign = {key: key for key in written if not places.is_overridden((key,))}
     if "scenarios" in foreign and not scenarios:
         foreign["scenarios"] += f" (it has none: {NONE})"
-    return _of_another("domain", [*foreign.values()], findings, places)
+    return _of_another("domain", foreign.values(), findings, places)
 
 
 def _is_written(key: str, config: ExperimentConfig) -> bool:
@@ -179,15 +168,15 @@ def lines_of_the_map(findings: list[Finding], places: Places) -> list[str]:
         for key, message in reversed(findings)
         if not places.is_overridden(key)
     }
-    if not (foreign and places.is_overridden(("refinement",))):
-        return lines_of(findings, places)
     wanted = [f"{key} ({message})" for key, message in reversed(foreign.items())]
     return _of_another("refinement", wanted, findings, places)
 
 
 def _of_another(
-    key: str, foreign: Sequence[str], findings: list[Finding], places: Places
+    key: str, foreign: Iterable[str], findings: list[Finding], places: Places
 ) -> list[str]:
-    own = [(key, message) for key, message in findings if places.is_overridden(key)]
+    own = [(at, message) for at, message in findings if places.is_overridden(at)]
+    if len(own) == len(findings) or not places.is_overridden((key,)):
+        return lines_of(findings, places)
     wanted = f"{places.file} is about another domain; with this one give also {', '.join(foreign)}"
     return [f"{places.of((key,))}: {wanted}", *lines_of(own, places)]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
-from asp import Description
-from asp.language import suggestion
+from asp.language import Signature, suggestion
 from testbed.config.models import ExperimentConfig, ScenarioSettings, ScriptEntry
 from testbed.config.places import Finding, Key, unknown_atom
 from testbed.config.values import NONE
@@ -72,19 +71,16 @@ MOMENTS = {"step": "step", "at_action": "action of the robot"}
 
 
 def script_findings(
-    key: Key, entries: Sequence[ScriptEntry], description: Description
+    key: Key, entries: Sequence[ScriptEntry], signature: Signature
 ) -> Iterator[Finding]:
-    """Entries that the domain does not know, or of which it is not clear when they happen."""
-    known = description.exogenous_actions
-    for index, entry in enumerate(entries):
-        if entry.action not in known:
-            yield (*key, index, "action"), unknown_atom(entry.action, known, "exogenous action")
-    yield from moment_findings(key, entries)
+    """Entries that are no exogenous actions, and of which it is not clear when they happen.
 
-
-def moment_findings(key: Key, entries: Sequence[ScriptEntry]) -> Iterator[Finding]:
-    """Entries without a moment or with two, and moments that have two entries."""
+    Each has one moment, and each moment has one entry.
+    """
     for index, entry in enumerate(entries):
+        why = unknown_atom(entry.action, signature, ("exogenous",), "exogenous action")
+        if why is not None:
+            yield (*key, index, "action"), why
         given = {name: getattr(entry, name) for name in MOMENTS if getattr(entry, name) is not None}
         if len(given) != 1:
             yield (*key, index), "give the entry one of step and at_action"
