@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any, ClassVar
 
 import yaml
@@ -22,6 +23,8 @@ MOST_NODES = 100_000
 """The most nodes of a document, each alias counted as what it stands for."""
 MOST_DEPTH = 20
 """How deep lists and mappings may be nested: no key of a configuration needs as much."""
+REFUSALS = (yaml.YAMLError, OmegaConfBaseException, RecursionError)
+"""What the two libraries raise for what they do not read."""
 TAG = "tag:yaml.org,2002:"
 INTEGER = r"0|-?[1-9][0-9]{0,99}"
 FLOAT = r"-?(?:(?:0|[1-9][0-9]*)(?:\.[0-9]*(?:[eE][-+]?[0-9]+)?|[eE][-+]?[0-9]+)|\.[0-9]+)"
@@ -87,15 +90,11 @@ def write_yaml(value: object) -> str:
 
     Where a character would steer what shows it, only ASCII is written, and escapes for the rest.
     """
-    document = _written(value, allow_unicode=True)
-    steers = any(not (own.isprintable() or own == "\n") for own in document)
-    return _written(value, allow_unicode=False) if steers else document
-
-
-def _written(value: object, allow_unicode: bool) -> str:
-    return str(
-        yaml.dump(value, Dumper=Dumper, sort_keys=False, width=100, allow_unicode=allow_unicode)
-    )
+    write = partial(yaml.dump, value, Dumper=Dumper, sort_keys=False, width=100)
+    document = str(write(allow_unicode=True))
+    if all(own.isprintable() or own == "\n" for own in document):
+        return document
+    return str(write(allow_unicode=False))
 
 
 def read_scalar(text: str) -> Any:
@@ -139,7 +138,10 @@ def compose(text: str, overrides: Sequence[str], places: Places) -> dict[str, An
         ConfigError: one line for the first thing that cannot be read or resolved.
     """
     try:
-        composed = OmegaConf.create(_mapping(text, places))
+        found = read_yaml(text) or {}
+        if not isinstance(found, dict):
+            raise ConfigError([f"{places.file}: should hold `key: value` lines"])
+        composed = OmegaConf.create(found)
     except yaml.YAMLError as error:
         raise ConfigError([_yaml_line(places.file, error)]) from None
     except (OmegaConfBaseException, RecursionError) as error:
@@ -151,13 +153,6 @@ def compose(text: str, overrides: Sequence[str], places: Places) -> dict[str, An
     return values
 
 
-def _mapping(text: str, places: Places) -> dict[str, Any]:
-    found = read_yaml(text) or {}
-    if not isinstance(found, dict):
-        raise ConfigError([f"{places.file}: should hold `key: value` lines"])
-    return found
-
-
 def _override(composed: DictConfig, item: str, places: Places) -> None:
     key, equals, value = item.partition("=")
     if not (equals and key.strip()):
@@ -166,42 +161,23 @@ def _override(composed: DictConfig, item: str, places: Places) -> None:
     try:
         given = read_yaml(value)
         OmegaConf.update(composed, key.strip(), given, merge=given != {}, force_add=True)
-    except (
-        yaml.YAMLError,
-        OmegaConfBaseException,
-        ValueError,
-        TypeError,
-        IndexError,
-        RecursionError,
-    ) as error:
+    except (*REFUSALS, ValueError, TypeError, IndexError) as error:
         problem = getattr(error, "problem", None) or _first_line(error)
         raise ConfigError([f"{places.elsewhere}: {key}: {problem}"]) from None
 
 
 def _resolved(given: Mapping[str, Any], places: Places) -> Any:
     """The values with interpolations resolved, which may be of keys that were not given."""
-    everything = OmegaConf.create(_filled(given, _defaults(given)))
-    try:
-        return OmegaConf.to_container(everything, resolve=True, throw_on_missing=True)
-    except (OmegaConfBaseException, RecursionError) as error:
-        key = parsed(getattr(error, "full_key", None) or "")
-        raise ConfigError([f"{places.of(key)}: {_first_line(error)}"]) from None
-
-
-def _defaults(given: Mapping[str, Any]) -> dict[str, Any]:
     fine = given.get("levels") or given.get("refinement")
     limits = Limits(steps=FINE_STEPS) if fine else Limits()
     blank = ExperimentConfig.model_construct(name="", goal=(), limits=limits)
-    return blank.model_dump(mode="json", exclude={"name", "goal"})
-
-
-def _filled(given: Mapping[str, Any], defaults: Mapping[str, Any]) -> dict[str, Any]:
-    inner = {
-        key: _filled(value, defaults[key])
-        for key, value in given.items()
-        if isinstance(value, Mapping) and isinstance(defaults.get(key), Mapping)
-    }
-    return {**defaults, **given, **inner}
+    defaults = blank.model_dump(mode="json", exclude={"name", "goal"})
+    try:
+        everything = OmegaConf.merge(defaults, given)
+        return OmegaConf.to_container(everything, resolve=True, throw_on_missing=True)
+    except REFUSALS as error:
+        key = parsed(getattr(error, "full_key", None) or "")
+        raise ConfigError([f"{places.of(key)}: {_first_line(error)}"]) from None
 
 
 def _as_given(given: Any, resolved: Any) -> Any:

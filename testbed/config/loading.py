@@ -5,25 +5,22 @@ from __future__ import annotations
 import inspect
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_type_hints
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-import asp
-from asp.language import suggestion
+from asp.language import load_description, suggestion
+from testbed.config import models
 from testbed.config.checking import Check, check
 from testbed.config.composing import compose
 from testbed.config.models import ExperimentConfig, Section
 from testbed.config.places import ConfigError, Key, Places
 from testbed.config.scenarios import with_scenarios
 
-Schema = Mapping[str, Any]
 F = TypeVar("F", bound=Callable[..., object])
-
-_TYPES = {"integer": "int", "number": "float", "string": "str", "boolean": "bool", "null": "None"}
 
 LONGEST = 80
 """How much of a value a line shows."""
@@ -38,6 +35,9 @@ FORMS = {
 
 LIKE_A_VALUE = re.compile(r"^[-+.]*\d|^\.(inf|nan)$|^(y|n|yes|no|on|off)$", re.IGNORECASE)
 """What YAML 1.1 takes for a number or a truth value."""
+
+SECTION = re.compile(rf"{re.escape(models.__name__)}\.(\w+)")
+"""A section, as types are written."""
 
 FINE_KEYS = ("levels", "level_sizes", "refinement", "draw", "statistics")
 """What a configuration of the fine resolution may have given."""
@@ -58,40 +58,32 @@ def load_config(
     Raises:
         ConfigError: one line an error, each with its place and what would be right.
     """
-    path, text = _read(source)
-    places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
-    composed = compose(text, overrides, places)
-    config = _located(_validate(composed, places), path)
-    check(config, places, checks)
-    if config.is_fine:
-        return config
-    return with_scenarios(config, asp.load_description(config.domain).scenarios)
-
-
-def _read(source: str | Path) -> tuple[Path, str]:
     try:
         path = find_config(source)
-        return path, path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise ConfigError([f"{source}: not a text file in UTF-8 ({error.reason})"]) from None
     except OSError as error:
         message = str(error) if error.strerror is None else f"{source}: {error.strerror}"
         raise ConfigError([message]) from None
-
-
-def _validate(composed: dict[str, Any], places: Places) -> ExperimentConfig:
+    places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
+    composed = compose(text, overrides, places)
     try:
-        return ExperimentConfig.model_validate(composed)
+        config = _located(ExperimentConfig.model_validate(composed), path)
     except ValidationError as error:
         lines = [_describe(item, places) for item in error.errors(include_url=False)]
         raise ConfigError(lines) from None
+    check(config, places, checks)
+    if config.is_fine:
+        return config
+    return with_scenarios(config, load_description(config.domain).scenarios)
 
 
 def _describe(error: ErrorDetails, places: Places) -> str:
     key = error["loc"]
     where = places.of(key)
     if error["type"] == "extra_forbidden":
-        return f"{where}: unknown key; {_unknown_key_hint(str(key[-1]), _known_keys(key[:-1]))}"
+        return f"{where}: unknown key; {_known_key(key)}"
     if error["input"] == "":
         return f"{where}: has no value; give one, or null for none"
     if error["type"] == "missing":
@@ -141,38 +133,26 @@ def _hint(error: ErrorDetails) -> str:
     return f"; {near}" if near.startswith("did") else ""
 
 
-def _unknown_key_hint(key: str, known: Sequence[str]) -> str:
-    if "(" in key or ")" in key:
+def _known_key(key: Key) -> str:
+    """What an unknown key should be: in quotes, or one of its section."""
+    if "(" in str(key[-1]) or ")" in str(key[-1]):
         return "put quotes around an action or a literal with a comma in it"
-    return suggestion(key, known)
-
-
-def _known_keys(parents: tuple[str | int, ...]) -> list[str]:
     section: type[BaseModel] = ExperimentConfig
-    for part in parents:
-        if isinstance(part, str) and part in section.model_fields:
-            section = _section_in(section.model_fields[part].annotation) or section
-    return list(section.model_fields)
-
-
-def _section_in(annotation: Any) -> type[Section] | None:
-    if isinstance(annotation, type) and issubclass(annotation, Section):
-        return annotation
-    inner = (_section_in(part) for part in getattr(annotation, "__args__", ()))
-    return next((found for found in inner if found is not None), None)
+    for part in key[:-1]:
+        inner = SECTION.search(str(get_type_hints(section).get(str(part))))
+        section = getattr(models, inner[1]) if inner else section
+    return suggestion(str(key[-1]), section.model_fields)
 
 
 def _located(config: ExperimentConfig, path: Path) -> ExperimentConfig:
-    found = {"domain": config.domain} if config.domain.endswith(".al") else {}
-    if config.refinement is not None:
-        found["refinement"] = config.refinement
-    return config.model_copy(update={key: _beside(path, file) for key, file in found.items()})
-
-
-def _beside(path: Path, file: str) -> str:
-    """The file beside the configuration or here; a packaged one keeps its bare name."""
-    found = (candidate for candidate in (path.parent / file, Path(file)) if candidate.is_file())
-    return str(next((candidate.resolve() for candidate in found), file))
+    """With the paths of files beside the configuration, or here; a packaged one keeps its name."""
+    files = {"refinement": config.refinement} if config.refinement is not None else {}
+    if config.domain.endswith(".al"):
+        files["domain"] = config.domain
+    for key, file in files.items():
+        found = filter(Path.is_file, (path.parent / file, Path(file)))
+        files[key] = str(next((candidate.resolve() for candidate in found), file))
+    return config.model_copy(update=files)
 
 
 SUFFIX = ".yaml"
@@ -212,10 +192,15 @@ def find_config(source: str | Path) -> Path:
 
 def listed_keys() -> Iterator[str]:
     """One line per key: `name: type = default`; of a section the names of its own keys."""
-    schema = ExperimentConfig.model_json_schema()
-    for name, own in schema["properties"].items():
-        plain = "default" in own and not isinstance(own["default"], dict)
-        yield f"{name}: {_type(own, schema)}" + (f" = {own['default']!r}" if plain else "")
+    types = get_type_hints(ExperimentConfig)
+    for name, own in ExperimentConfig.model_fields.items():
+        kind = SECTION.sub(_keys_of, inspect.formatannotation(types[name]))
+        plain = own.default_factory is None and not isinstance(own.default, Section)
+        yield f"{name}: {kind}" + (f" = {own.default!r}" if plain and not own.is_required() else "")
+
+
+def _keys_of(section: re.Match[str]) -> str:
+    return f"{{{', '.join(getattr(models, section[1]).model_fields)}}}"
 
 
 def lists_keys(function: F) -> F:
@@ -224,19 +209,3 @@ def lists_keys(function: F) -> F:
     title = "Keyword arguments beside these are keys of the configuration:"
     function.__doc__ = f"{inspect.cleandoc(function.__doc__ or '')}\n\n{title}\n\n{keys}\n"
     return function
-
-
-def _type(own: Schema, schema: Schema) -> str:
-    if "$ref" in own:
-        section = schema["$defs"][own["$ref"].rpartition("/")[2]]["properties"]
-        return "{" + ", ".join(section) + "}"
-    if "anyOf" in own:
-        return " | ".join(dict.fromkeys(_type(one, schema) for one in own["anyOf"]))
-    if "enum" in own:
-        return " | ".join(map(repr, own["enum"]))
-    if own.get("type") == "array":
-        items = own.get("prefixItems") or [own["items"]]
-        return f"list of {', '.join(dict.fromkeys(_type(item, schema) for item in items))}"
-    if own.get("type") == "object":
-        return f"names with {_type(own['additionalProperties'], schema)}"
-    return _TYPES.get(str(own.get("type")), "any")
