@@ -1,7 +1,7 @@
 """The link between a driver and its robots: in process, or over zenoh between processes."""
 
-from testbed.link.clients import InProcessRobot, connect
-from testbed.link.process import RobotProcess, SpawnedRobot, spawned_robot
+from testbed.link.exchange import InProcessRobot
+from testbed.link.process import RobotProcess, SpawnedRobot, connect, spawned_robot
 from testbed.link.remote import RemoteRobot
 from testbed.link.serving import serve, serve_forever
 from testbed.link.session import (

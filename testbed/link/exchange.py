@@ -1,13 +1,17 @@
 """One question and its answer, whatever carries them.
 
 The robot's side (:class:`Desk`) turns the bytes of a question into the bytes of a decision; the
-driver's side (:func:`read_decision`) accepts nothing but the decision it asked for. In process
-and over zenoh both are the same.
+driver's side (:class:`Client`) accepts nothing but the decision it asked for. In process and over
+zenoh both are the same.
 """
+
+import traceback
+from abc import ABC, abstractmethod
 
 from asp.language import Literal
 from testbed.protocol import (
     MOST_BYTES,
+    NOT_UNDERSTOOD,
     Decision,
     LinkError,
     Percept,
@@ -21,9 +25,9 @@ from testbed.protocol import (
     Trace,
     decode,
     encode,
+    in_one_line,
     shortened,
 )
-from testbed.protocol.errors import NOT_UNDERSTOOD
 
 
 class Desk:
@@ -31,8 +35,7 @@ class Desk:
 
     def __init__(self, make_robot: RobotFactory) -> None:
         self._make_robot = make_robot
-        self._trial: str | None = None
-        self._robot: Robot | None = None
+        self._robots: dict[str, Robot] = {}
 
     def answer(self, payload: bytes) -> bytes:
         """Return the bytes of the decision on a question.
@@ -41,62 +44,88 @@ class Desk:
         whatever the robot raises.
         """
         question = decode(payload, Question)
-        if question.task is not None:
-            self._begin(question.task)
-        percept = question.percept
-        robot = self._robot_of(percept)
-        try:
-            return encode(robot.act(percept))
-        except RobotStops as reason:
-            return encode(_stopped(percept, shortened(str(reason))))
-
-    def _begin(self, task: Task) -> None:
-        self._trial, self._robot = task.trial, None
-        robot = self._make_robot(task.robot)
-        robot.begin(task)
-        self._robot = robot
-
-    def _robot_of(self, percept: Percept) -> Robot:
-        if self._robot is None or percept.trial != self._trial:
+        task, percept = question.task, question.percept
+        if task is not None:
+            self._robots.clear()
+            robot = self._make_robot(task.robot)
+            robot.begin(task)
+            self._robots[task.trial] = robot
+        if percept.trial not in self._robots:
             raise LinkError(f"trial {percept.trial} has not begun here")
-        return self._robot
+        try:
+            return encode(self._robots[percept.trial].act(percept))
+        except RobotStops as reason:
+            stopped = Decision(
+                trial=percept.trial,
+                step=percept.step,
+                action=Literal.of("finish"),
+                believes_goal=False,
+                trace=Trace(),
+                stopped=shortened(str(reason)),
+            )
+            return encode(stopped)
 
 
-def read_decision(payload: bytes, percept: Percept) -> Decision:
-    """Return the decision in an answer to ``percept``.
+class Client(ABC):
+    """The driver's side, a RobotClient: the task of a trial goes out with its first percept."""
 
-    Raises RobotLost when it is not understood, too long, or belongs to another trial or step, and
-    RobotStopped when the robot does not go on.
+    _task: Task | None = None
+
+    def begin(self, task: Task) -> None:
+        """Prepare a trial."""
+        self._task = task
+
+    def ask(self, percept: Percept) -> Decision:
+        """Return the robot's decision.
+
+        Raises RobotLost when there is no answer, or one that is not understood, too long, or for
+        another trial or step, and RobotStopped when the robot does not go on.
+        """
+        question = encode(Question(percept=percept, task=self._task))
+        self._task = None
+        payload = self._answer(percept.trial, question)
+        if len(payload) > MOST_BYTES:
+            raise RobotLost(f"{NOT_UNDERSTOOD}: {len(payload)} bytes; {MOST_BYTES} are the most")
+        try:
+            decision = decode(payload, Decision)
+        except LinkError as error:
+            raise RobotLost(f"{NOT_UNDERSTOOD}: {error}") from error
+        given, asked = (f"step {own.step} of trial {own.trial}" for own in (decision, percept))
+        if given != asked:
+            raise RobotLost(f"answer is for {given}, the question was for {asked}")
+        if decision.stopped is not None:
+            raise RobotStopped(decision.stopped)
+        return decision
+
+    @abstractmethod
+    def close(self) -> None:
+        """Let go of the robot."""
+
+    @abstractmethod
+    def _answer(self, trial: str, question: bytes) -> bytes:
+        """The bytes of the answer to those of a question. Raises RobotLost."""
+
+
+class InProcessRobot(Client):
+    """A client that calls the robot directly, which it makes at the first percept of a trial.
+
+    Questions and answers still pass as bytes, so that a robot cannot tell where it runs. What a
+    single process cannot do is outlive its robot: there is no answer limit here.
     """
-    if len(payload) > MOST_BYTES:
-        raise RobotLost(f"{NOT_UNDERSTOOD}: {len(payload)} bytes; {MOST_BYTES} are the most")
-    try:
-        decision = decode(payload, Decision)
-    except LinkError as error:
-        raise RobotLost(f"{NOT_UNDERSTOOD}: {error}") from error
-    given, asked = (decision.trial, decision.step), (percept.trial, percept.step)
-    if given != asked:
-        raise RobotLost(f"answer is for {_place(*given)}, the question was for {_place(*asked)}")
-    if decision.stopped is not None:
-        raise RobotStopped(decision.stopped)
-    return decision
+
+    def __init__(self, make_robot: RobotFactory) -> None:
+        self._desk = Desk(make_robot)
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+    def _answer(self, _trial: str, question: bytes) -> bytes:
+        try:
+            return self._desk.answer(question)
+        except Exception as error:
+            raise failed(in_one_line(error), traceback.format_exc()) from error
 
 
 def failed(text: str, details: str = "") -> RobotLost:
     """Return the loss of a robot that raised an exception with this text."""
     return RobotLost(shortened(f"robot failed: {' '.join(text.split())}"), details)
-
-
-def _stopped(percept: Percept, reason: str) -> Decision:
-    return Decision(
-        trial=percept.trial,
-        step=percept.step,
-        action=Literal.parse("finish"),
-        believes_goal=False,
-        trace=Trace(),
-        stopped=reason,
-    )
-
-
-def _place(trial: str, step: int) -> str:
-    return f"step {step} of trial {trial}"

@@ -40,18 +40,14 @@ def question(run: str, trial: str, name: str) -> str:
 
 def alive(act_key: str) -> str:
     """The liveliness key that goes with a key to ask on."""
-    return _sibling(act_key, "alive")
+    return act_key.removesuffix("act") + "alive"
 
 
 def trace(act_key: str) -> str:
     """The key on which the decisions given at ``act_key`` are published."""
-    return _sibling(act_key, "trace")
+    return act_key.removesuffix("act") + "trace"
 
 
 def robot(name: str) -> str:
     """The liveliness key of a robot that offers to serve."""
     return f"{ROOT}/robots/{chunk(name)}"
-
-
-def _sibling(act_key: str, last: str) -> str:
-    return f"{act_key.removesuffix('/act')}/{last}"

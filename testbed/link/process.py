@@ -1,4 +1,7 @@
-"""A robot as a process of this machine, started and ended by its driver, and a new one after it."""
+"""A robot as a process of this machine, started and ended by its driver, and a new one after it.
+
+`connect` gives a driver such a robot, or one in its own process.
+"""
 
 import signal
 import subprocess
@@ -10,9 +13,19 @@ from itertools import count
 
 import zenoh
 
+from testbed.link.exchange import InProcessRobot
 from testbed.link.remote import RemoteRobot
 from testbed.link.session import endpoint, open_driver
-from testbed.protocol import Decision, Percept, RobotGone, RobotLost, RobotStopped, Task
+from testbed.protocol import (
+    Decision,
+    Percept,
+    RobotClient,
+    RobotFactory,
+    RobotGone,
+    RobotLost,
+    RobotStopped,
+    Task,
+)
 
 COMMAND = (sys.executable, "-P", "-m", "testbed", "robot")
 """Nothing is imported from the working directory (-P)."""
@@ -63,14 +76,10 @@ class RobotProcess:
         last_words = self.errors.splitlines()[-1:]
         return ": ".join([f"process ended with status {status}", *last_words])
 
-    def kill(self) -> None:
+    def close(self) -> None:
         """End the process at once, whatever it is doing: a robot has nothing to save."""
         self._process.kill()
         self._process.wait()
-
-    def close(self) -> None:
-        """End the process and let go of what it left."""
-        self.kill()
         self._errors.close()
 
 
@@ -136,17 +145,15 @@ class SpawnedRobot:
         self._remote = self.process = None
 
     def _present(self) -> RemoteRobot:
-        return self._remote or self._start()
-
-    def _start(self) -> RemoteRobot:
-        name = next(self._names)
-        process = RobotProcess(endpoint(self._session), name, self._command, self._group)
-        self.process = self._belongings.enter_context(closing(process))
-        remote = RemoteRobot(self._session, self._run, name, self._answer_s)
-        self._belongings.enter_context(closing(remote))
-        _await_start(process, remote)
-        self._remote = remote
-        return remote
+        if self._remote is None:
+            name = next(self._names)
+            process = RobotProcess(endpoint(self._session), name, self._command, self._group)
+            self.process = self._belongings.enter_context(closing(process))
+            remote = RemoteRobot(self._session, self._run, name, self._answer_s)
+            self._belongings.enter_context(closing(remote))
+            _await_start(process, remote)
+            self._remote = remote
+        return self._remote
 
     @contextmanager
     def _ending_on_loss(self) -> Iterator[None]:
@@ -155,15 +162,12 @@ class SpawnedRobot:
         except RobotStopped:
             raise
         except RobotLost as loss:
-            post_mortem = self._post_mortem(loss)
+            reason, details = loss.reason, loss.details
+            if self.process is not None:
+                how = self.process.ending(_EXIT_S) if isinstance(loss, RobotGone) else None
+                reason, details = how or reason, self.process.errors
             self.close()
-            raise post_mortem from loss
-
-    def _post_mortem(self, loss: RobotLost) -> RobotLost:
-        if self.process is None:
-            return loss
-        how = self.process.ending(_EXIT_S) if isinstance(loss, RobotGone) else None
-        return type(loss)(how or loss.reason, self.process.errors)
+            raise type(loss)(reason, details) from loss
 
 
 def _await_start(process: RobotProcess, remote: RemoteRobot) -> None:
@@ -173,3 +177,21 @@ def _await_start(process: RobotProcess, remote: RemoteRobot) -> None:
         if process.ending() is not None:
             raise RobotGone("robot ended before it was there")
     raise RobotGone(f"robot did not start within {START_S:g} s")
+
+
+@contextmanager
+def connect(
+    link: str, make_robot: RobotFactory, run: str, answer_s: float, group: int = 0
+) -> Iterator[RobotClient]:
+    """Yield a robot that plays trial after trial; ends its process, if it has one.
+
+    It is in this process (``link`` is ``"inprocess"``), made by ``make_robot``, or in a process of
+    its own, in the process group ``group``, with ``answer_s`` seconds for an answer
+    (``"zenoh"``). Raises RobotLost when that does not start.
+    """
+    if link == "inprocess":
+        yield InProcessRobot(make_robot)
+        return
+    with spawned_robot(run, answer_s, group=group) as robot:
+        robot.start()
+        yield robot

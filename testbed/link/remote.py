@@ -1,6 +1,6 @@
 """A robot behind zenoh, seen from its driver."""
 
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from math import ceil
 from queue import Empty, SimpleQueue
 from threading import Event
@@ -9,9 +9,9 @@ from typing import TypeAlias
 import zenoh
 
 from testbed.link import keys
-from testbed.link.exchange import failed, read_decision
+from testbed.link.exchange import Client, failed
 from testbed.link.session import LEASE_S
-from testbed.protocol import Decision, Percept, Question, RobotGone, RobotLost, Task, encode
+from testbed.protocol import RobotGone, RobotLost, Task
 
 PRESENCE_S = 10.0
 _PIECE_S = 1.0
@@ -20,8 +20,8 @@ _LEFT = "robot is gone"
 _Inbox: TypeAlias = SimpleQueue[zenoh.Reply | RobotLost]
 
 
-class RemoteRobot:
-    """A RobotClient for the robot that serves under ``name`` where ``session`` can reach it.
+class RemoteRobot(Client):
+    """A client of the robot that serves under ``name`` where ``session`` can reach it.
 
     A question ends with whatever comes first: the answer, the loss of the robot's liveliness
     token, the end of the query without an answer (nobody there), or the answer limit in seconds.
@@ -32,15 +32,10 @@ class RemoteRobot:
         self._run = run
         self._name = name
         self._answer_s = answer_s
-        self._task: Task | None = None
         self._present = Event()
         self._inbox: _Inbox = SimpleQueue()
-        self._watch = ExitStack()
-        self._watch.enter_context(
-            session.liveliness().declare_subscriber(
-                keys.robot(name), self._on_presence, history=True
-            )
-        )
+        liveliness, key = session.liveliness(), keys.robot(name)
+        self._watch = liveliness.declare_subscriber(key, self._on_presence, history=True)
 
     def wait(self, seconds: float) -> bool:
         """Wait until the robot is there, at most so long; return whether it is."""
@@ -50,35 +45,20 @@ class RemoteRobot:
         """Prepare a trial. Raises RobotLost when the robot is not there."""
         if not self.wait(PRESENCE_S):
             raise RobotGone("robot is not there")
-        self._task = task
-
-    def ask(self, percept: Percept) -> Decision:
-        """Return the robot's decision. Raises RobotLost."""
-        question = encode(Question(percept=percept, task=self._task))
-        self._task = None
-        return read_decision(self._first_answer(percept.trial, question), percept)
+        super().begin(task)
 
     def close(self) -> None:
         """Stop watching the robot, which itself serves on."""
-        self._watch.close()
+        self._watch.undeclare()  # type: ignore[no-untyped-call]
 
-    def _first_answer(self, trial: str, question: bytes) -> bytes:
+    def _answer(self, trial: str, question: bytes) -> bytes:
         inbox = self._inbox = SimpleQueue()
         if not self._present.is_set():
             raise RobotGone(_LEFT)
-        self._send(trial, question, inbox)
-        try:
-            return _payload(_next(inbox, self._answer_s))
-        except Empty:
-            raise RobotLost(f"no answer within {self._answer_s:g} s") from None
-
-    def _send(self, trial: str, question: bytes, inbox: _Inbox) -> None:
-        def ended() -> None:
-            inbox.put(RobotGone("robot is unavailable: nobody answered"))
-
+        unanswered = RobotGone("robot is unavailable: nobody answered")
         self._session.get(
             keys.question(self._run, trial, self._name),
-            zenoh.handlers.Callback(inbox.put, ended),
+            zenoh.handlers.Callback(inbox.put, lambda: inbox.put(unanswered)),
             # Every robot hears the question and one answers; the others may be busy meanwhile.
             target=zenoh.QueryTarget.ALL,
             consolidation=zenoh.ConsolidationMode.NONE,
@@ -87,6 +67,16 @@ class RemoteRobot:
             # and it counts the time in which this process is paused.
             timeout=self._answer_s + LEASE_S,
         )
+        try:
+            received = _next(inbox, self._answer_s)
+        except Empty:
+            raise RobotLost(f"no answer within {self._answer_s:g} s") from None
+        if isinstance(received, RobotLost):
+            raise received
+        if received.err is not None:
+            raise failed(bytes(received.err.payload).decode(errors="replace"))
+        assert received.ok is not None
+        return bytes(received.ok.payload)
 
     def _on_presence(self, sample: zenoh.Sample) -> None:
         if sample.kind == zenoh.SampleKind.PUT:
@@ -106,12 +96,3 @@ def _next(inbox: _Inbox, seconds: float) -> zenoh.Reply | RobotLost:
         with suppress(Empty):
             return inbox.get(timeout=seconds / pieces)
     raise Empty
-
-
-def _payload(received: zenoh.Reply | RobotLost) -> bytes:
-    if isinstance(received, RobotLost):
-        raise received
-    if received.err is not None:
-        raise failed(bytes(received.err.payload).decode(errors="replace"))
-    assert received.ok is not None
-    return bytes(received.ok.payload)

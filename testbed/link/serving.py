@@ -65,24 +65,18 @@ class _Post:
         if query.parameters.get(keys.ADDRESSEE) not in (None, self._addressee):
             return
         try:
-            self._reply(query)
+            key = str(query.key_expr)
+            if key != self._key:
+                self._presence.close()
+                token = self._session.liveliness().declare_token(keys.alive(key))
+                self._presence.enter_context(token)
+                self._key = key
+            answer = self._desk.answer(bytes(query.payload or b""))
+            query.reply(key, answer)
+            self._session.put(keys.trace(key), answer)
         except Exception as error:
             traceback.print_exc()
             query.reply_err(in_one_line(error))
-
-    def _reply(self, query: zenoh.Query) -> None:
-        key = str(query.key_expr)
-        self._attend(key)
-        answer = self._desk.answer(bytes(query.payload or b""))
-        query.reply(key, answer)
-        self._session.put(keys.trace(key), answer)
-
-    def _attend(self, key: str) -> None:
-        if key != self._key:
-            self._presence.close()
-            token = self._session.liveliness().declare_token(keys.alive(key))
-            self._presence.enter_context(token)
-            self._key = key
 
 
 def _leave_when_closed(event: zenoh.TransportEvent) -> None:

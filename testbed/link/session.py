@@ -48,26 +48,21 @@ def open_robot(driver: str) -> zenoh.Session:
 
     Raises zenoh.ZError when nobody listens there.
     """
-    return _open(
-        {
-            "listen/endpoints": [],
-            "connect/endpoints": [driver],
-            "connect/timeout_ms": int(CONNECT_S * 1000),
-            "connect/exit_on_failure": True,
-        }
-    )
+    return _open(_connecting(driver, int(CONNECT_S * 1000), True))
 
 
 def open_waiting(endpoint: str) -> zenoh.Session:
     """Open a session that connects to an endpoint as soon, and as often, as somebody is there."""
-    return _open(
-        {
-            "listen/endpoints": [],
-            "connect/endpoints": [endpoint],
-            "connect/timeout_ms": -1,
-            "connect/exit_on_failure": False,
-        }
-    )
+    return _open(_connecting(endpoint, -1, False))
+
+
+def _connecting(endpoint: str, timeout_ms: int, exit_on_failure: bool) -> dict[str, Any]:
+    return {
+        "listen/endpoints": [],
+        "connect/endpoints": [endpoint],
+        "connect/timeout_ms": timeout_ms,
+        "connect/exit_on_failure": exit_on_failure,
+    }
 
 
 def open_as_configured(file: Path, also: str | None = None) -> zenoh.Session:
@@ -94,16 +89,10 @@ def _with(endpoint: str, stated: Any) -> Any:
 
 def endpoint(session: zenoh.Session) -> str:
     """Return the endpoint at which a driver's session listens, ``tcp/127.0.0.1:<port>``."""
-    replies = session.get(f"@/{session.zid()}/peer")
-    for reply in replies:
+    for reply in session.get(f"@/{session.zid()}/peer"):
         if reply.ok is not None:
-            return _first_locator(reply.ok.payload.to_string())
+            return str(json.loads(reply.ok.payload.to_string())["locators"][0])
     raise RuntimeError("the zenoh session does not tell where it listens")
-
-
-def _first_locator(description: str) -> str:
-    locators: list[str] = json.loads(description)["locators"]
-    return locators[0]
 
 
 def _open(settings: dict[str, Any]) -> zenoh.Session:
