@@ -47,7 +47,7 @@ from asp.language.matching import NOTHING, Facts, Pattern, Row
 from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
 from asp.language.signature import Signature, signature_of
-from asp.language.stratification import check_cycles
+from asp.language.stratification import check_cycles, reachable
 from asp.language.syntax import Source
 from asp.language.variable_sorts import variable_domains
 from asp.language.writer import atom_text, condition_text, text_of
@@ -102,6 +102,7 @@ __all__ = [
     "parse_description",
     "parse_with",
     "pattern_of",
+    "reachable",
     "read_domain",
     "read_text",
     "renamed",

@@ -10,7 +10,8 @@ nothing derives it, can also depend on its own negation by way of negative liter
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import TypeVar
 
 from asp.language import syntax
 from asp.language import variable_sorts as roles
@@ -19,6 +20,7 @@ from asp.language.grounding import Instances, instance, static_truth
 from asp.language.literals import Literal
 from asp.language.signature import Signature
 
+T = TypeVar("T", bound=Hashable)
 Law = tuple[syntax.StateConstraint, Literal, Iterable[Literal]]
 """A state constraint with the head and the body of an instance, or with their names alone."""
 
@@ -66,9 +68,9 @@ def _closing(
                 literals[head.complement].add(head)
     for law, head, body in laws:
         for condition in body if head.is_positive else ():
-            through_atoms = not condition.is_positive and head in _reachable(condition.atom, atoms)
+            through_atoms = not condition.is_positive and head in reachable(condition.atom, atoms)
             if through_atoms or (
-                _is_defined(head, signature) and head.complement in _reachable(condition, literals)
+                _is_defined(head, signature) and head.complement in reachable(condition, literals)
             ):
                 yield law, head, condition
 
@@ -77,8 +79,8 @@ def _is_defined(head: Literal, signature: Signature) -> bool:
     return signature.symbols[head.name].kind == "defined"
 
 
-def _reachable(start: Literal, graph: Mapping[Literal, set[Literal]]) -> set[Literal]:
-    """Everything that the definition of `start` depends on, `start` included."""
+def reachable(start: T, graph: Mapping[T, set[T]]) -> set[T]:
+    """The nodes to which the arcs of a graph lead from one of them, itself included."""
     found, stack = {start}, [start]
     while stack:
         new = graph.get(stack.pop(), set()) - found

@@ -6,15 +6,16 @@ condition, as `next_to` does where nothing moves between places that are not nex
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 
-from asp.language import Literal, Problems, syntax
+from asp.language import Literal, Problems, reachable, syntax
 from asp.language import variable_sorts as roles
 from asp.refinement.language import Components, Magnification
 from asp.refinement.vocabulary import Vocabulary
 
 Pairs = frozenset[tuple[str, str]]
+Found = Iterator[tuple[syntax.Place, str]]
 
 
 def check_maps(
@@ -25,17 +26,8 @@ def check_maps(
     problems: Problems,
 ) -> None:
     """Reports where a fine map does not fit the coarse one, at a place of the refinement's text."""
-    places = _Places(fine)
-    for way in _ways(coarse, vocabulary):
-        fitting = _Map(way, vocabulary, _pairs(way, statics))
-        finer = _pairs(vocabulary.counterparts[way], statics)
-        for place, message in (
-            *fitting.missing(places),
-            *fitting.unreachable(finer, places),
-            *fitting.cut_off(places),
-            *fitting.unconnected(finer, places),
-            *fitting.too_many(finer, places),
-        ):
+    for static in _ways(coarse, vocabulary):
+        for place, message in _Map(static, fine, vocabulary, statics).mistakes():
             problems.report(place, message)
 
 
@@ -63,114 +55,102 @@ def _pairs(static: str, statics: Iterable[Literal]) -> Pairs:
     return frozenset((s.arguments[0], s.arguments[1]) for s in statics if s.name == static)
 
 
-class _Places:
-    """Where a refinement's text speaks of a constant, or of two at once."""
-
-    def __init__(self, fine: syntax.Source) -> None:
-        self._fine = fine
-        self._listed = {s.whole.name: s.place for s in fine.each(Components)}
-        self._parts = {p.name: p.place for s in fine.each(Components) for p in s.parts}
-        self.named = {t.name for fact in fine.each(syntax.Fact) for t in fact.literal.atom.args}
-
-    def of(self, constant: str) -> syntax.Place:
-        found = self._parts.get(constant) or self._listed.get(constant)
-        return found or next(self._fine.each(Magnification)).place
-
-    def of_fact(self, static: str, *constants: str) -> syntax.Place | None:
-        """The place of the fact, if it is one of the text's."""
-        for fact in self._fine.each(syntax.Fact):
-            atom = fact.literal.atom
-            if atom.name == static and tuple(term.name for term in atom.args) == constants:
-                return fact.place
-        return None
-
-
-Found = Iterator[tuple[syntax.Place, str]]
-
-
-@dataclass(frozen=True)
 class _Map:
-    """A coarse map, and what has to be so in a fine one."""
+    """A coarse map, and what has to be so in the fine one."""
 
-    static: str
-    vocabulary: Vocabulary
-    coarse: Pairs
-
-    @property
-    def _counterpart(self) -> str:
-        return self.vocabulary.counterparts[self.static]
-
-    def _wholes(self) -> list[str]:
-        sorts = self.vocabulary.coarse.symbols[self.static].sorts
-        members = (member for s in sorts for member in self.vocabulary.coarse.sorts[s.name])
-        return list(dict.fromkeys(members))
-
-    def missing(self, places: _Places) -> Found:
-        """A place without components that no fact connects to a component of another."""
-        for whole in self._lost(places):
-            yield places.of(whole), f"'{whole}' has no components, and no fact speaks of it"
-
-    def _lost(self, places: _Places) -> set[str]:
-        components = self.vocabulary.components
-        return {
+    def __init__(
+        self,
+        static: str,
+        fine: syntax.Source,
+        vocabulary: Vocabulary,
+        statics: frozenset[Literal],
+    ) -> None:
+        self._static, self._counterpart = static, vocabulary.counterparts[static]
+        self._coarse, self._fine = _pairs(static, statics), _pairs(self._counterpart, statics)
+        sorts = vocabulary.coarse.symbols[static].sorts
+        members = (member for sort in sorts for member in vocabulary.coarse.sorts[sort.name])
+        self._components = {whole: vocabulary.components[whole] for whole in members}
+        self._wholes = list(self._components)
+        self._owner = {part: whole for whole, parts in self._components.items() for part in parts}
+        self._anywhere = next(fine.each(Magnification)).place
+        lists = list(fine.each(Components))
+        self._listed = {listed.whole.name: listed.place for listed in lists}
+        self._listed |= {part.name: part.place for listed in lists for part in listed.parts}
+        atoms = [fact.literal.atom for fact in fine.each(syntax.Fact)]
+        named = {term.name for atom in atoms for term in atom.args}
+        self._stated = {
+            tuple(term.name for term in atom.args): atom.place
+            for atom in reversed(atoms)
+            if atom.name == self._counterpart
+        }
+        self._lost = {
             whole
-            for whole in self._wholes()
-            if components[whole] == (whole,) and whole not in places.named
+            for whole, parts in self._components.items()
+            if parts == (whole,) and whole not in named
         }
 
-    def unreachable(self, finer: Pairs, places: _Places) -> Found:
-        """From each component of a whole one gets to each other without leaving the whole."""
-        back = frozenset((other, one) for one, other in finer)
-        for whole in self._wholes():
-            first, *others = self.vocabulary.components[whole]
-            there, and_back = (_reached(first, {first, *others}, way) for way in (finer, back))
-            for part in others:
-                if part not in there & and_back:
-                    one, other = (part, first) if part not in there else (first, part)
-                    message = f"'{one}' cannot be reached from '{other}' inside '{whole}'"
-                    yield places.of(part), message
+    def mistakes(self) -> Found:
+        """Where the fine map does not fit the coarse one, and how."""
+        for whole in self._lost:
+            yield self._place(whole), f"'{whole}' has no components, and no fact speaks of it"
+        for whole, parts in self._components.items():
+            for part, one, other in _apart(parts, self._fine):
+                message = f"'{one}' cannot be reached from '{other}' inside '{whole}'"
+                yield self._place(part), message
+        for whole, one, other in _apart(self._wholes, self._coarse):
+            if whole not in self._lost:
+                message = f"'{one}' cannot be reached from '{other}' by {self._static}"
+                yield self._place(whole), message
+        yield from self._unconnected()
+        yield from self._too_many()
 
-    def cut_off(self, places: _Places) -> Found:
-        """From each whole one gets to each other, so that nobody is caught in one."""
-        first, *others = self._wholes()
-        back = frozenset((other, one) for one, other in self.coarse)
-        there, and_back = (_reached(first, {first, *others}, way) for way in (self.coarse, back))
-        for whole in others:
-            if whole not in there & and_back and whole not in self._lost(places):
-                one, other = (whole, first) if whole not in there else (first, whole)
-                message = f"'{one}' cannot be reached from '{other}' by {self.static}"
-                yield places.of(whole), message
+    def _place(self, constant: str) -> syntax.Place:
+        return self._listed.get(constant, self._anywhere)
 
-    def unconnected(self, finer: Pairs, places: _Places) -> Found:
+    def _unconnected(self) -> Found:
         """Where the coarse map has a way there is one between components."""
-        owner, lost = self._owner(), self._lost(places)
-        ways = {(owner[one], owner[other]) for one, other in finer}
-        missing = {(a, b) for a, b in self.coarse - ways if a != b and not lost & {a, b}}
-        for one, other in _once(missing, self._wholes()):
+        ways = {(self._owner[one], self._owner[other]) for one, other in self._fine}
+        missing = {(a, b) for a, b in self._coarse - ways if a != b and not self._lost & {a, b}}
+        for one, other in _once(missing, self._wholes):
             yield (
-                places.of(one),
-                f"{self.static}({one}, {other}), but no component of '{one}' is "
+                self._place(one),
+                f"{self._static}({one}, {other}), but no component of '{one}' is "
                 f"{self._counterpart} to one of '{other}'",
             )
 
-    def too_many(self, finer: Pairs, places: _Places) -> Found:
+    def _too_many(self) -> Found:
         """A way between components of two wholes that have none between them."""
-        owner, static = self._owner(), self._counterpart
-        crossing = {(a, b): (owner[a], owner[b]) for a, b in finer if owner[a] != owner[b]}
-        wrong = {pair for pair, wholes in crossing.items() if wholes not in self.coarse}
-        stated = [pair for pair in sorted(wrong) if places.of_fact(static, *pair)]
+        owner = self._owner
+        crossing = {(a, b): (owner[a], owner[b]) for a, b in self._fine if owner[a] != owner[b]}
+        wrong = {pair for pair, wholes in crossing.items() if wholes not in self._coarse}
+        stated = [pair for pair in sorted(wrong) if pair in self._stated]
         order = [part for pair in stated for part in pair] + sorted(owner)
         for one, other in _once(wrong, order):
             whole, beyond = crossing[one, other]
             yield (
-                places.of_fact(static, one, other) or places.of(one),
-                f"{static}({one}, {other}) leads from '{whole}' to '{beyond}', "
-                f"but {self.static}({whole}, {beyond}) does not hold",
+                self._stated.get((one, other), self._place(one)),
+                f"{self._counterpart}({one}, {other}) leads from '{whole}' to '{beyond}', "
+                f"but {self._static}({whole}, {beyond}) does not hold",
             )
 
-    def _owner(self) -> Mapping[str, str]:
-        components = self.vocabulary.components
-        return {part: whole for whole in self._wholes() for part in components[whole]}
+
+def _apart(members: Sequence[str], ways: Pairs) -> Iterator[tuple[str, str, str]]:
+    """The members between which and the first there is no way inside, there or back.
+
+    Each with the one that cannot be reached, and the one from which it cannot.
+    """
+    there, back = defaultdict[str, set[str]](set), defaultdict[str, set[str]](set)
+    for one, other in ways:
+        if {one, other} <= set(members):
+            there[one].add(other)
+            back[other].add(one)
+    first, *others = members
+    onward, homeward = reachable(first, there), reachable(first, back)
+    for member in others:
+        if member not in onward:
+            yield member, member, first
+        elif member not in homeward:
+            yield member, first, member
 
 
 def _once(pairs: set[tuple[str, str]], order: list[str]) -> list[tuple[str, str]]:
@@ -178,18 +158,3 @@ def _once(pairs: set[tuple[str, str]], order: list[str]) -> list[tuple[str, str]
     rank = {name: number for number, name in reversed(list(enumerate(order)))}
     ordered = sorted(pairs, key=lambda pair: (rank[pair[0]], rank[pair[1]]))
     return [(a, b) for a, b in ordered if (b, a) not in pairs or rank[a] < rank[b]]
-
-
-def _reached(start: str, inside: set[str], steps: Pairs) -> set[str]:
-    found = {start}
-    stack = [start]
-    onward: dict[str, list[str]] = {}
-    for one, other in steps:
-        if one in inside and other in inside:
-            onward.setdefault(one, []).append(other)
-    while stack:
-        for other in onward.get(stack.pop(), ()):
-            if other not in found:
-                found.add(other)
-                stack.append(other)
-    return found

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from asp.language import Facts, Pattern, Signature, pattern_of, syntax
+from asp.language import Facts, Pattern, Signature, pattern_of, reachable, syntax
 from asp.language import variable_sorts as roles
 
 Sign = tuple[str, bool]
@@ -92,16 +91,5 @@ class Laws:
         return frozenset(
             name
             for name in defined
-            if (name, False) in _reached(first.get((name, False), ()), after)
+            if any((name, False) in reachable(h, after) for h in first.get((name, False), ()))
         )
-
-
-def _reached(starts: Iterable[Sign], after: Mapping[Sign, set[Sign]]) -> set[Sign]:
-    found: set[Sign] = set()
-    stack = list(starts)
-    while stack:
-        sign = stack.pop()
-        if sign not in found:
-            found.add(sign)
-            stack += after.get(sign, ())
-    return found
