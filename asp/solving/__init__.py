@@ -14,7 +14,6 @@ from asp.solving.solver import (
     optimal_model,
     select,
     solving,
-    symbol,
     theory,
 )
 
@@ -43,7 +42,6 @@ __all__ = [
     "reasoning_clock",
     "select",
     "solving",
-    "symbol",
     "theory",
     "undisturbed",
     "up_to",

@@ -104,31 +104,18 @@ def preferring(
     if control.is_conflicting:  # grounding alone found that there is none
         yield None
         return
+    atoms = control.symbolic_atoms.by_signature("deciding", 1)
+    groups = sorted((atom.symbol.arguments[0].number for atom in atoms), reverse=True)
     fixed = list(assumptions)
-    groups = _groups(control)
-    for group in groups[:-1]:
-        _decide(control, groups, group)
+    for group in groups:
+        if len(groups) > 1:  # a group that is alone is always on
+            for other in groups:
+                control.assign_external(fact("deciding", other), other == group)
         with solving(control, fixed) as model:
-            if model is None:
-                yield None
+            if model is None or group == groups[-1]:
+                yield model
                 return
             fixed += _decided(control, group, model)
-    _decide(control, groups, groups[-1])
-    with solving(control, fixed) as model:
-        yield model
-
-
-def _groups(control: clingo.Control) -> list[int]:
-    """The groups of decisions, in the order in which they are to be decided."""
-    atoms = control.symbolic_atoms.by_signature("deciding", 1)
-    return sorted((atom.symbol.arguments[0].number for atom in atoms), reverse=True)
-
-
-def _decide(control: clingo.Control, groups: Sequence[int], group: int) -> None:
-    """Switches on the levels of one group only; a group that is alone is always on."""
-    if len(groups) > 1:
-        for other in groups:
-            control.assign_external(fact("deciding", other), other == group)
 
 
 def _decided(control: clingo.Control, group: int, model: clingo.Model) -> Iterator[int]:

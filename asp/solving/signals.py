@@ -4,36 +4,14 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 Deliver = Callable[[], None]
 """Handles the signals that have come so far, as they would have been handled."""
-
-
-class _PutOff:
-    """Takes the place of handlers, and hands on to them once it is over."""
-
-    def __init__(self, handlers: Mapping[int, Callable[[int, FrameType | None], Any]]) -> None:
-        self.active = True
-        self._handlers = handlers
-        self._came: list[int] = []
-
-    def handle(self, number: int, frame: FrameType | None) -> None:
-        """Where an interrupt kept this in place for longer it does what the handler does."""
-        if self.active:
-            self._came.append(number)
-        else:
-            self._handlers[number](number, frame)
-
-    def deliver(self) -> None:
-        while self._came:
-            number = self._came.pop(0)
-            self._handlers[number](number, None)
 
 
 @contextmanager
@@ -46,15 +24,27 @@ def undisturbed() -> Iterator[Deliver]:
     if threading.current_thread() is not threading.main_thread():
         yield lambda: None
         return
-    found = {number: signal.getsignal(number) for number in _SIGNALS}
-    handlers = {int(number): own for number, own in found.items() if callable(own)}
-    put_off = _PutOff(handlers)
+    handlers = {int(n): own for n in _SIGNALS if callable(own := signal.getsignal(n))}
+    came: list[int] = []
+    active = True
+
+    def put_off(number: int, frame: FrameType | None) -> None:
+        if active:
+            came.append(number)
+        else:  # an interrupt has kept this in the handler's place
+            handlers[number](number, frame)
+
+    def deliver() -> None:
+        while came:
+            number = came.pop(0)
+            handlers[number](number, None)
+
     try:
         for number in handlers:
-            signal.signal(number, put_off.handle)
-        yield put_off.deliver
+            signal.signal(number, put_off)
+        yield deliver
     finally:
-        put_off.active = False
+        active = False
         for number, own in handlers.items():
             signal.signal(number, own)
-        put_off.deliver()
+        deliver()

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
-from typing import Any
+from typing import Any, TypeAlias
 
 import clingo
 from clingo import Symbol
@@ -15,8 +15,8 @@ from clingo import Symbol
 from asp.solving.budget import OUT_OF_BUDGET, BudgetError, count_rules, current
 from asp.solving.signals import Deliver, undisturbed
 
-Assumption = tuple[Symbol, bool]
-
+Assumptions: TypeAlias = Sequence[tuple[Symbol, bool]] | Sequence[int]
+"""Atoms with their truth, or literals of the solver."""
 Statement = Symbol | str
 """A fact, as a term or as its text."""
 
@@ -41,27 +41,24 @@ def theory(name: str) -> str:
     return files("asp").joinpath("theories", f"{name}.lp").read_text(encoding="utf-8")
 
 
-def symbol(text: str) -> Symbol:
-    """The ground term of a text. Raises ValueError if it is not one.
+def fact(predicate: str, *arguments: Symbol | int | str) -> Symbol:
+    """The atom of a predicate; integers become numbers, strings are read as ground terms.
 
     Every text from outside goes through here on its way into a program, so that it can never be
-    more than a term.
+    more than a term. Raises ValueError if it is not one.
     """
-    try:
-        return clingo.parse_term(text, logger=lambda _code, _text: None)
-    except RuntimeError:
-        raise ValueError(f"{text!r} is not a ground term") from None
+    return clingo.Function(predicate, [_term(argument) for argument in arguments])
 
 
-def fact(predicate: str, *arguments: Symbol | int | str) -> Symbol:
-    """The atom of a predicate; integers become numbers, strings are read as ground terms."""
-    return clingo.Function(predicate, [_argument(argument) for argument in arguments])
-
-
-def _argument(value: Symbol | int | str) -> Symbol:
+def _term(value: Symbol | int | str) -> Symbol:
     if isinstance(value, Symbol):
         return value
-    return clingo.Number(value) if isinstance(value, int) else symbol(value)
+    if isinstance(value, int):
+        return clingo.Number(value)
+    try:
+        return clingo.parse_term(value, logger=lambda _code, _text: None)
+    except RuntimeError:
+        raise ValueError(f"{value!r} is not a ground term") from None
 
 
 def ground(
@@ -90,7 +87,7 @@ def ground(
 
 @contextmanager
 def solving(
-    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int] = ()
+    control: clingo.Control, assumptions: Assumptions = ()
 ) -> Iterator[clingo.Model | None]:
     """The first model of a control made by `ground`, to be read while this is open; None: none.
 
@@ -110,18 +107,14 @@ def solving(
             yield model
 
 
-def is_satisfiable(
-    control: clingo.Control, assumptions: Sequence[Assumption] | Sequence[int] = ()
-) -> bool:
+def is_satisfiable(control: clingo.Control, assumptions: Assumptions = ()) -> bool:
     """Whether there is an answer set. Raises LimitError."""
     with solving(control, assumptions) as model:
         return model is not None
 
 
 def answer_sets(
-    control: clingo.Control,
-    assumptions: Sequence[Assumption] | Sequence[int] = (),
-    most: int | None = None,
+    control: clingo.Control, assumptions: Assumptions = (), most: int | None = None
 ) -> tuple[list[tuple[Symbol, ...]], bool]:
     """The shown symbols of the answer sets, each once, and whether there are more than `most`.
 
@@ -161,9 +154,7 @@ def _collect(
 
 @contextmanager
 def _in_background(
-    control: clingo.Control,
-    assumptions: Sequence[Assumption] | Sequence[int],
-    deliver: Deliver,
+    control: clingo.Control, assumptions: Assumptions, deliver: Deliver
 ) -> Iterator[clingo.SolveHandle]:
     """A search with what is left of the decision's conflicts, inside `undisturbed`."""
     settings: Any = control.configuration.solve
@@ -195,14 +186,14 @@ def _wait(handle: clingo.SolveHandle, deliver: Deliver) -> None:
 
 
 def first_model(
-    control: clingo.Control, assumptions: Sequence[Assumption] = ()
+    control: clingo.Control, assumptions: Sequence[tuple[Symbol, bool]] = ()
 ) -> tuple[Symbol, ...] | None:
     """The shown symbols of the first answer set, or None if there is none.
 
     Raises LimitError.
     """
-    if any(not _is_known(control, atom) for atom, truth in assumptions if truth):
-        return None
+    if any(truth and control.symbolic_atoms[atom] is None for atom, truth in assumptions):
+        return None  # no rule derives what is assumed to be true
     with solving(control, assumptions) as model:
         return None if model is None else tuple(model.symbols(shown=True))
 
@@ -215,21 +206,12 @@ def optimal_model(control: clingo.Control) -> tuple[tuple[Symbol, ...] | None, b
     LimitError where none was found.
     """
     current().check_time()
-    best = None
     with undisturbed() as deliver, _in_background(control, (), deliver) as handle:
-        while (model := handle.model()) is not None:
-            best = tuple(model.symbols(shown=True))
-            handle.resume()
-            _wait(handle, deliver)
+        found, _ = _collect(handle, None, lambda: _wait(handle, deliver))
         proved = handle.get().exhausted
-        if best is None and not proved:
+        if not (found or proved):
             raise BudgetError(OUT_OF_BUDGET)
-    return best, proved
-
-
-def _is_known(control: clingo.Control, atom: Symbol) -> bool:
-    """Assuming the truth of an atom that no rule derives has no answer set."""
-    return control.symbolic_atoms[atom] is not None
+    return (found[-1] if found else None), proved
 
 
 def select(model: Iterable[Symbol], predicate: str, arity: int) -> list[list[Symbol]]:

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 
 import clingo
-from clingo import Function, Number, Symbol
+from clingo import Number, Symbol
 
 from asp.language import atom, is_positive
-from asp.solving import ground, preparation, solving, symbol, theory
+from asp.solving import fact, ground, preparation, solving, theory
 
 MOST_LEVELS = 32_767  # of decisions, that clasp tells apart
 
@@ -24,8 +24,8 @@ class Horizon:
     def __init__(self, program: str, actions: Sequence[str], length: int) -> None:
         """`actions` are the agent actions in the order of declaration."""
         self._length = length
-        ranks = [Function("rank", [symbol(a), Number(n)]) for n, a in enumerate(actions)]
-        ranks.append(Function("ranks", [Number(len(actions))]))
+        ranks = [fact("rank", a, n) for n, a in enumerate(actions)]
+        ranks.append(fact("ranks", len(actions)))
         constants = {"n": length, "ordered": min(length, MOST_LEVELS // (len(actions) + 1))}
         with preparation():
             self.control = ground([program, theory("incremental_fine_planning")], constants, ranks)
@@ -67,7 +67,7 @@ class Horizon:
     def _wanted(self, fluent: str) -> int | None:
         """The solver's literal of a fluent at the last step; None if it cannot hold."""
         if fluent not in self._goals:
-            holds = Function("holds", [symbol(fluent), Number(self._length)])
+            holds = fact("holds", fluent, self._length)
             found = self.control.symbolic_atoms[holds]
             self._goals[fluent] = None if found is None else found.literal
         return self._goals[fluent]

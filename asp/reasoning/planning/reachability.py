@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-import clingo
 from clingo import Symbol
 
 from asp.language import Causal, Constraint, Description, atom, is_positive
@@ -17,7 +16,6 @@ from asp.solving import (
     fact,
     ground,
     is_satisfiable,
-    symbol,
     theory,
 )
 
@@ -169,4 +167,4 @@ def _conditions(predicate: str, number: int, body: Iterable[str]) -> Iterator[Sy
 
 
 def _term(literal: str) -> Symbol:
-    return clingo.Function("yes" if is_positive(literal) else "no", [symbol(atom(literal))])
+    return fact("yes" if is_positive(literal) else "no", atom(literal))

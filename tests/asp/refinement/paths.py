@@ -10,7 +10,7 @@ import clingo
 
 from asp.language import Problems, arguments, atom, complement, is_positive, signature_of, syntax
 from asp.refinement import Refinement
-from asp.solving import first_model, ground, solving, symbol
+from asp.solving import first_model, ground, solving
 from asp.translation import translate_source
 
 _TRUE = 1  # the literal that every program of clingo has for what is true
@@ -51,7 +51,7 @@ class Paths:
     def _literal(self, told: str) -> int:
         """The program's literal of an atom; one that no rule derives is false."""
         if told not in self._literals:
-            atom = self._control.symbolic_atoms[symbol(told)]
+            atom = self._control.symbolic_atoms[clingo.parse_term(told)]
             self._literals[told] = -_TRUE if atom is None else atom.literal
         return self._literals[told]
 
@@ -112,7 +112,7 @@ def some_refinement(
 
 def _model(refinement: Refinement, literals: list[str]) -> frozenset[str] | None:
     told = [
-        (symbol(f"{'' if is_positive(literal) else '-'}holds({atom(literal)},0)"), True)
+        (clingo.parse_term(f"{'' if is_positive(literal) else '-'}holds({atom(literal)},0)"), True)
         for literal in literals
     ]
     model = first_model(_states(refinement), told)

@@ -9,7 +9,7 @@ import pytest
 from clingo import Symbol
 
 from asp import load_description
-from asp.solving import fact, ground, preferring, symbol
+from asp.solving import fact, ground, preferring
 from tests.asp.reasoning.stories import CART, GATE_OPEN, GOAL, failed, lines, theories_for
 from tests.asp.theories.axioms import domain_text, lettered, theory_text
 
@@ -143,7 +143,9 @@ def _is_told(paragraph: str, against: str | None = None) -> bool:
     assumptions = [control.symbolic_atoms[n].literal for n in numbers]  # type: ignore[union-attr]
     with preferring(control, assumptions) as model:
         assert model is not None
-        return all(model.contains(symbol(atom)) == truth for atom, truth in decided.items())
+        return all(
+            model.contains(clingo.parse_term(atom)) == truth for atom, truth in decided.items()
+        )
 
 
 @pytest.mark.parametrize("paragraph", SAID)
