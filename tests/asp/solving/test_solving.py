@@ -71,7 +71,7 @@ def test_a_hard_question_is_answered_where_the_first_burst_does_not_suffice() ->
 def test_an_interrupt_reaches_python_whatever_the_solver_does(delay: float) -> None:
     program = (
         "import clingo\n"
-        "from asp.solving.solver import first_model, ground\n"
+        "from asp.solving import first_model, ground\n"
         f"control = ground([{PIGEONS!r}], {{}}, [])\n"
         "try:\n"
         "    print('ready', flush=True)\n"
