@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
 
 from asp.language import Problems, Signature, condition_text, syntax, variable_domains
 from asp.refinement.language import TestsStatement
-from asp.refinement.refining import shared_places
+from asp.refinement.refining import group, law_section, section, shared_places
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
 OUTCOME, TRUE, FALSE = "outcome", "true", "false"
@@ -27,14 +29,18 @@ class Tested:
     own: frozenset[int]
     statements: tuple[TestsStatement, ...]
 
-    def terms(self, robot: str, others: Iterable[str]) -> tuple[str, ...]:
-        """The fluent's arguments, of the robot and of what else stands in a test's places."""
-        left = iter(others)
-        return tuple(robot if p in self.own else next(left) for p in range(len(self.sorts)))
+    @cached_property
+    def terms(self) -> list[str]:
+        """The variables of the fluent's arguments in laws."""
+        return ["R" if p in self.own else f"Y{p + 1}" for p in range(len(self.sorts))]
 
-    def others(self, items: Sequence[str]) -> tuple[str, ...]:
+    def others(self, items: Sequence[str]) -> list[str]:
         """Those of a fluent's arguments that stand behind the robot in a test."""
-        return tuple(item for place, item in enumerate(items) if place not in self.own)
+        return [item for place, item in enumerate(items) if place not in self.own]
+
+    def said(self, prefix: str, *last: str) -> str:
+        """What is said of the test, or is observed, in laws."""
+        return _atom(f"{prefix}_{self.fluent}", "R", *self.others(self.terms), *last)
 
 
 def check_tested(fine: syntax.Source, vocabulary: Vocabulary, problems: Problems) -> None:
@@ -92,128 +98,86 @@ def _robot_sort(statement: TestsStatement, weak: Signature) -> str:
 
 def observation_text(fine: syntax.Source, vocabulary: Vocabulary, tested: Sequence[Tested]) -> str:
     """The theory of observation as sections of AL_d, to be put behind the weak refinement."""
-    theory = _Theory(vocabulary, shared_places(fine), tested)
-    laws = "\n\n".join(filter(None, theory.laws()))
-    return "\n\n".join(
-        [
-            "% The theory of observation.",
-            f"sorts\n  {OUTCOME} = {{{TRUE}, {FALSE}}}.",
-            "fluents\n" + "\n".join(f"  {line}" for line in theory.fluents()),
-            "actions\n" + "\n".join(f"  {line}" for line in theory.actions()),
-            f"laws\n{laws}\n",
-        ]
+    shared = shared_places(fine)
+    wholes = {counterpart: coarse for coarse, counterpart in vocabulary.counterparts.items()}
+    coarse = {
+        t.fluent: vocabulary.coarse.symbols[wholes[t.fluent]] for t in tested if t.fluent in wholes
+    }
+    indirect = (_indirect(t, coarse[t.fluent], vocabulary) for t in tested if t.fluent in coarse)
+    groups = {
+        "A test changes what is known, and nothing else (16a).": map(_effects, tested),
+        "What can be tested, and when (16b, 16c).": map(_abilities, tested),
+        "An observation of one component is one of all that share it.": (
+            _common(t, shared) for t in tested
+        ),
+        "What components tell of coarse fluents (16d).": indirect,
+    }
+    tests = (_atom(f"test_{t.fluent}", t.robot, *t.others(t.sorts)) for t in tested)
+    sections = (
+        "% The theory of observation.",
+        section("sorts", [f"{OUTCOME} = {{{TRUE}, {FALSE}}}."]),
+        section("fluents", (d for t in tested for d in _fluents(t, coarse.get(t.fluent)))),
+        section("actions", (f"agent {test}." for test in tests)),
+        law_section(group(title, chain.from_iterable(laws)) for title, laws in groups.items()),
     )
+    return "\n\n".join(sections) + "\n"
 
 
-class _Theory:
-    """The declarations and laws about tests, and about what follows for the coarse fluents."""
+def _fluents(t: Tested, coarse: syntax.Declaration | None) -> Iterator[str]:
+    own = t.robot, *t.others(t.sorts)
+    yield f"inertial {_atom(f'observed_{t.fluent}', *own, OUTCOME)}."
+    yield f"defined {_atom(f'can_test_{t.fluent}', *own)}."
+    if coarse is not None:
+        places = t.robot, *t.others([sort.name for sort in coarse.sorts])
+        yield f"defined {_atom(f'observed_{coarse.name}', *places, OUTCOME)}."
+        yield f"defined {_atom(f'possible_{coarse.name}', *places)}."
 
-    def __init__(
-        self,
-        vocabulary: Vocabulary,
-        shared: frozenset[tuple[str, int]],
-        tested: Sequence[Tested],
-    ) -> None:
-        self._vocabulary = vocabulary
-        self._shared = shared
-        self._tested = tested
-        self._whole: Mapping[str, str] = {f: c for c, f in vocabulary.counterparts.items()}
 
-    def fluents(self) -> Iterator[str]:
-        for t in self._tested:
-            places = (t.robot, *t.others(t.sorts))
-            yield f"inertial {_signed('observed_' + t.fluent, (*places, OUTCOME))}."
-            yield f"defined {_signed('can_test_' + t.fluent, places)}."
-            if t.fluent in self._whole:
-                coarse = self._whole[t.fluent]
-                sorts = [s.name for s in self._vocabulary.coarse.symbols[coarse].sorts]
-                places = (t.robot, *t.others(sorts))
-                yield f"defined {_signed('observed_' + coarse, (*places, OUTCOME))}."
-                yield f"defined {_signed('possible_' + coarse, places)}."
+def _effects(t: Tested) -> Iterator[str]:
+    for outcome, sign in ((TRUE, ""), (FALSE, "-")):
+        observed = t.said("observed", outcome)
+        yield f"{t.said('test')} causes {observed} if {sign}{_atom(t.fluent, *t.terms)}."
+    yield f"-{t.said('observed', 'V1')} if {t.said('observed', 'V2')}, V1 != V2."
 
-    def actions(self) -> Iterator[str]:
-        for t in self._tested:
-            yield f"agent {_signed('test_' + t.fluent, (t.robot, *t.others(t.sorts)))}."
 
-    def laws(self) -> Iterator[str]:
-        yield _group("A test changes what is known, and nothing else (16a).", self._effects())
-        yield _group("What can be tested, and when (16b, 16c).", self._abilities())
-        yield _group("An observation of one component is one of all that share it.", self._common())
-        yield _group("What components tell of coarse fluents (16d).", self._indirect())
+def _abilities(t: Tested) -> Iterator[str]:
+    yield f"impossible {t.said('test')} if -{t.said('can_test')}."
+    for statement in t.statements:
+        others = t.others([term.name for term in statement.fluent.args])
+        can = _atom(f"can_test_{t.fluent}", statement.robot.name, *others)
+        body = ", ".join(map(condition_text, statement.body))
+        yield f"{can} if {body}." if body else f"{can}."
 
-    def _effects(self) -> Iterator[str]:
-        for t in self._tested:
-            robot, others, fluent = self._atoms(t)
-            test = _signed("test_" + t.fluent, (robot, *others))
-            for outcome, sign in ((TRUE, ""), (FALSE, "-")):
-                observed = _signed("observed_" + t.fluent, (robot, *others, outcome))
-                yield f"{test} causes {observed} if {sign}{fluent}."
-            one, other = (
-                _signed("observed_" + t.fluent, (robot, *others, v)) for v in ("V1", "V2")
+
+def _common(t: Tested, shared: Iterable[tuple[str, int]]) -> Iterator[str]:
+    for place in (p for fluent, p in shared if fluent == t.fluent and p not in t.own):
+        one, other = (
+            _atom(
+                f"observed_{t.fluent}",
+                *("R", *t.others([*t.terms[:place], part, *t.terms[place + 1 :]]), "V"),
             )
-            yield f"-{one} if {other}, V1 != V2."
-
-    def _abilities(self) -> Iterator[str]:
-        for t in self._tested:
-            robot, others, _ = self._atoms(t)
-            places = (robot, *others)
-            can = _signed("can_test_" + t.fluent, places)
-            yield f"impossible {_signed('test_' + t.fluent, places)} if -{can}."
-            for statement in t.statements:
-                yield _ability(t, statement)
-
-    def _common(self) -> Iterator[str]:
-        for t in self._tested:
-            robot, others, _ = self._atoms(t)
-            terms = t.terms(robot, others)
-            for place in (p for f, p in self._shared if f == t.fluent and p not in t.own):
-                seen = []
-                for part in ("Y_1", "Y_2"):
-                    items = [part if p == place else term for p, term in enumerate(terms)]
-                    args = (robot, *t.others(items), "V")
-                    seen.append(_signed("observed_" + t.fluent, args))
-                links = f"{COMPONENT}(Y_1, X), {COMPONENT}(Y_2, X)"
-                yield f"{seen[0]} if {seen[1]}, {links}."
-
-    def _indirect(self) -> Iterator[str]:
-        for t in self._tested:
-            if t.fluent in self._whole:
-                yield from self._indirect_of(t, self._whole[t.fluent])
-
-    def _indirect_of(self, t: Tested, coarse: str) -> Iterator[str]:
-        robot, others, _ = self._atoms(t)
-        sorts = [sort.name for sort in self._vocabulary.coarse.symbols[coarse].sorts]
-        wholes, links = [], []
-        for sort, part in zip(t.others(sorts), others, strict=True):
-            refined = self._vocabulary.touches(sort)
-            wholes.append(part.replace("Y", "X") if refined else part)
-            links += [f"{COMPONENT}({part}, {wholes[-1]})"] if refined else []
-        tied = ", ".join(links)
-        seen = [_signed("observed_" + t.fluent, (robot, *others, v)) for v in (TRUE, FALSE)]
-        told = [_signed("observed_" + coarse, (robot, *wholes, v)) for v in (TRUE, FALSE)]
-        possible = _signed("possible_" + coarse, (robot, *wholes))
-        yield f"{told[0]} if {tied}, {seen[0]}."
-        yield f"{possible} if {tied}, -{seen[1]}.  % some component is not known to be false"
-        yield f"{told[1]} if -{possible}."
-
-    @staticmethod
-    def _atoms(t: Tested) -> tuple[str, tuple[str, ...], str]:
-        """The robot's variable, those of the other places, and the fluent over them."""
-        others = t.others([f"Y{place}" for place in range(1, len(t.sorts) + 1)])
-        return "R", others, _signed(t.fluent, t.terms("R", others))
+            for part in ("Y_1", "Y_2")
+        )
+        yield f"{one} if {other}, {COMPONENT}(Y_1, X), {COMPONENT}(Y_2, X)."
 
 
-def _ability(t: Tested, statement: TestsStatement) -> str:
-    terms = [term.name for term in statement.fluent.args]
-    can = _signed("can_test_" + t.fluent, (statement.robot.name, *t.others(terms)))
-    body = ", ".join(map(condition_text, statement.body))
-    return f"{can} if {body}." if body else f"{can}."
+def _indirect(t: Tested, coarse: syntax.Declaration, vocabulary: Vocabulary) -> Iterator[str]:
+    wholes, links = ["R"], []
+    sorts = t.others([sort.name for sort in coarse.sorts])
+    for sort, part in zip(sorts, t.others(t.terms), strict=True):
+        refined = vocabulary.touches(sort)
+        wholes.append(part.replace("Y", "X") if refined else part)
+        links += [f"{COMPONENT}({part}, {wholes[-1]})"] if refined else []
+    tied = ", ".join(links)
+    true, false = (_atom(f"observed_{coarse.name}", *wholes, v) for v in (TRUE, FALSE))
+    possible = _atom(f"possible_{coarse.name}", *wholes)
+    yield f"{true} if {tied}, {t.said('observed', TRUE)}."
+    yield (
+        f"{possible} if {tied}, -{t.said('observed', FALSE)}."
+        "  % some component is not known to be false"
+    )
+    yield f"{false} if -{possible}."
 
 
-def _signed(name: str, arguments: Iterable[str]) -> str:
+def _atom(name: str, *arguments: str) -> str:
     return f"{name}({', '.join(arguments)})"
-
-
-def _group(heading: str, laws: Iterable[str]) -> str:
-    lines = [f"  {law}" for law in laws]
-    return "\n".join([f"  % {heading}", *lines]) if lines else ""

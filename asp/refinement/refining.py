@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import starmap
 
 from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
@@ -27,10 +28,26 @@ def weak_text(
     rewriting = Rewriting(vocabulary, coarse, shared_places(fine), problems)
     results = [result for s in coarse.statements for result in refine(s, rewriting)]
     laws = [result for result in results if isinstance(result.statement, _LAWS)]
+    groups = {
+        heading: [
+            f"{text_of(law.statement)}  % {law.origin}" for law in laws if law.manner == manner
+        ]
+        for manner, heading in _HEADINGS.items()
+    }
+    groups |= {
+        "Bridge axioms: a coarse fluent holds where its counterpart holds of components.": [
+            *_bridges(vocabulary)
+        ],
+        "Particular to the fine resolution.": [
+            f"{text_of(law)}  % {fine.file}, line {law.place.line}"
+            for law in fine.statements
+            if isinstance(law, _LAWS)
+        ],
+    }
     sections = [
         _head(coarse, fine),
         *declarations(coarse, vocabulary, [r.statement for r in results], fine),
-        _laws([*_law_groups(laws), _bridges(vocabulary), *_own_laws(fine)]),
+        law_section(starmap(group, groups.items())),
         _facts(coarse, fine, vocabulary),
         *(_further(title, kind, results) for title, kind in _FURTHER),
     ]
@@ -72,29 +89,23 @@ def _head(coarse: syntax.Source, fine: syntax.Source) -> str:
     return f"% The refinement of {coarse.file} by {fine.file}. Lines are those of {coarse.file}."
 
 
-def _laws(groups: Iterable[str]) -> str:
+def law_section(groups: Iterable[str]) -> str:
+    """The section of laws; nothing where there are none."""
     filled = "\n\n".join(filter(None, groups))
     return f"laws\n{filled}" if filled else ""
 
 
-def _law_groups(laws: Sequence[Result]) -> Iterator[str]:
-    for manner, heading in _HEADINGS.items():
-        lines = [
-            f"  {text_of(law.statement)}  % {law.origin}" for law in laws if law.manner == manner
-        ]
-        if lines:
-            yield "\n".join([f"  % {heading}", *lines])
+def group(heading: str, laws: Iterable[str]) -> str:
+    """Laws under a comment; nothing where there are none."""
+    lines = [f"  {law}" for law in laws]
+    return "\n".join([f"  % {heading}", *lines]) if lines else ""
 
 
-def _bridges(vocabulary: Vocabulary) -> str:
+def _bridges(vocabulary: Vocabulary) -> Iterator[str]:
     """Bridge axioms, (15): a coarse fluent holds where its counterpart holds of components."""
-    lines = [
-        f"  {_bridge(name, vocabulary)}  % {name}"
-        for name in vocabulary.counterparts
-        if vocabulary.coarse.symbols[name].kind in roles.FLUENTS
-    ]
-    heading = "  % Bridge axioms: a coarse fluent holds where its counterpart holds of components."
-    return "\n".join([heading, *lines]) if lines else ""
+    for name in vocabulary.counterparts:
+        if vocabulary.coarse.symbols[name].kind in roles.FLUENTS:
+            yield f"{_bridge(name, vocabulary)}  % {name}"
 
 
 def _bridge(name: str, vocabulary: Vocabulary) -> str:
@@ -109,16 +120,6 @@ def _bridge(name: str, vocabulary: Vocabulary) -> str:
             parts.append(whole)
     counterpart = f"{vocabulary.counterparts[name]}({', '.join(parts)})"
     return f"{name}({', '.join(wholes)}) if {', '.join([*links, counterpart])}."
-
-
-def _own_laws(fine: syntax.Source) -> Iterator[str]:
-    lines = [
-        f"  {text_of(law)}  % {fine.file}, line {law.place.line}"
-        for law in fine.statements
-        if isinstance(law, _LAWS)
-    ]
-    if lines:
-        yield "\n".join(["  % Particular to the fine resolution.", *lines])
 
 
 def _facts(coarse: syntax.Source, fine: syntax.Source, vocabulary: Vocabulary) -> str:
