@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import singledispatch
 from itertools import product
 
-from asp.language import Problems, atom_text, syntax, text_of
+from asp.language import Problems, atom_text, condition_text, syntax, text_of
 from asp.language import variable_sorts as roles
-from asp.refinement.renaming import Renaming, effects_of, key
+from asp.refinement.renaming import Renaming, effects_of
 from asp.refinement.vocabulary import Vocabulary
 
 KEPT, REFINED, LIFTED = "kept", "refined", "lifted"
@@ -39,47 +38,66 @@ class Rewriting:
 
 @dataclass(frozen=True)
 class Result:
-    """A statement of the refined description: what it is, and what it came from."""
+    """A statement of the refined description, and its text with what it came from."""
 
     statement: syntax.Statement
     manner: str
-    origin: str
+    text: str
 
 
 def refine(law: syntax.Statement, rewriting: Rewriting) -> Iterator[Result]:
     """The statements that a coarse one becomes. Reports a law that cannot be refined."""
-    for statement, manner in refined(law, rewriting):
-        yield Result(statement, manner, f"line {law.place.line}: {text_of(law)}")
+    for statement, manner in _refined(law, rewriting):
+        text = f"{text_of(statement)}  % line {law.place.line}: {text_of(law)}"
+        yield Result(statement, manner, text)
 
 
 Refined = Iterator[tuple[syntax.Statement, str]]
 
 
-@singledispatch
-def refined(_law: syntax.Statement, _: Rewriting) -> Refined:
+def _refined(law: syntax.Statement, rewriting: Rewriting) -> Refined:
     """What a statement becomes, with the manner in which; nothing: it falls away."""
-    yield from ()
-
-
-@refined.register
-def _(fact: syntax.Fact, _: Rewriting) -> Refined:
-    yield fact, KEPT
-
-
-@refined.register
-def _(law: syntax.CausalLaw, rewriting: Rewriting) -> Refined:
-    acts, concerns = map(rewriting.has_counterpart, (law.action, law.head.atom))
-    if acts:
-        yield _refined_causal(law, rewriting), REFINED
-    elif not concerns:
-        yield law, KEPT
-    else:
-        name = law.action.name
-        rewriting.problems.report(
-            law.place,
-            f"'{name}' changes '{law.head.atom.name}', which has a counterpart, so that '{name}' "
-            "needs one",
-        )
+    has_counterpart = rewriting.has_counterpart
+    match law:
+        case syntax.Fact():
+            yield law, KEPT
+        case syntax.CausalLaw(action=action) if has_counterpart(action):
+            yield _refined_causal(law, rewriting), REFINED
+        case syntax.CausalLaw(action=action, head=head) if has_counterpart(head.atom):
+            rewriting.problems.report(
+                law.place,
+                f"'{action.name}' changes '{head.atom.name}', which has a counterpart, so that "
+                f"'{action.name}' needs one",
+            )
+        case syntax.StateConstraint():
+            yield from _refined_constraint(law, rewriting)
+        case syntax.ExecutabilityCondition(actions=actions) if any(map(has_counterpart, actions)):
+            renaming = Renaming(law, rewriting.vocabulary)
+            if renaming.is_about_wholes(law):
+                yield from ((statement, LIFTED) for statement in _lifted(law, rewriting))
+            else:
+                yield _refined_condition(law, renaming, rewriting), REFINED
+        case syntax.InitiallyStatement(fluent=fluent) if has_counterpart(fluent):
+            renaming = Renaming(law, rewriting.vocabulary)
+            fluent, variable = renaming.atom(fluent), renaming.fine(law.variable)
+            yield replace(law, fluent=fluent, variable=variable), REFINED
+        case syntax.SeesStatement(fluent=fluent) if has_counterpart(fluent):
+            pass
+        case syntax.ShowsStatement(fluent=fluent) if has_counterpart(fluent):
+            pass
+        case syntax.ShowsStatement(action=action) if has_counterpart(action):
+            renaming = Renaming(law, rewriting.vocabulary)
+            action = renaming.atom(action)
+            renaming.note(law.fluent, *(part.atom for part in roles.literals(law.body)))
+            yield replace(law, action=action, body=(*renaming.links(), *law.body)), REFINED
+        case (
+            syntax.CausalLaw()
+            | syntax.ExecutabilityCondition()
+            | syntax.InitiallyStatement()
+            | syntax.SeesStatement()
+            | syntax.ShowsStatement()
+        ):
+            yield law, KEPT
 
 
 def _refined_causal(law: syntax.CausalLaw, rewriting: Rewriting) -> syntax.CausalLaw:
@@ -93,8 +111,7 @@ def _refined_causal(law: syntax.CausalLaw, rewriting: Rewriting) -> syntax.Causa
     return replace(law, action=action, head=head, body=(*renaming.links(), *body))
 
 
-@refined.register
-def _(law: syntax.StateConstraint, rewriting: Rewriting) -> Refined:
+def _refined_constraint(law: syntax.StateConstraint, rewriting: Rewriting) -> Refined:
     static = rewriting.vocabulary.coarse.symbols[law.head.atom.name].kind == "static"
     concerns = rewriting.has_counterpart(law.head.atom)
     if static or not concerns:
@@ -102,12 +119,11 @@ def _(law: syntax.StateConstraint, rewriting: Rewriting) -> Refined:
     if concerns:
         renaming = Renaming(law, rewriting.vocabulary)
         head, body = renaming.literal(law.head), renaming.body(law.body)
-        statement = replace(law, head=head, body=(*renaming.links(), *body))
         if static and renaming.links():
             return
         if head.positive:
             _check_head(law, head.atom.args, renaming, rewriting)
-        yield statement, REFINED
+        yield replace(law, head=head, body=(*renaming.links(), *body)), REFINED
 
 
 def _check_head(
@@ -122,48 +138,6 @@ def _check_head(
         rewriting.problems.report(
             law.place, "this law does not say for which of the components it holds"
         )
-
-
-@refined.register
-def _(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Refined:
-    if not any(map(rewriting.has_counterpart, law.actions)):
-        yield law, KEPT
-        return
-    renaming = Renaming(law, rewriting.vocabulary)
-    if renaming.is_about_wholes(law):
-        for statement in _lifted(law, rewriting):
-            yield statement, LIFTED
-    else:
-        yield _refined_condition(law, renaming, rewriting), REFINED
-
-
-@refined.register
-def _(statement: syntax.InitiallyStatement, rewriting: Rewriting) -> Refined:
-    if not rewriting.has_counterpart(statement.fluent):
-        yield statement, KEPT
-        return
-    renaming = Renaming(statement, rewriting.vocabulary)
-    fluent = renaming.atom(statement.fluent)
-    yield replace(statement, fluent=fluent, variable=renaming.fine(statement.variable)), REFINED
-
-
-@refined.register
-def _(statement: syntax.SeesStatement, rewriting: Rewriting) -> Refined:
-    if not rewriting.has_counterpart(statement.fluent):
-        yield statement, KEPT
-
-
-@refined.register
-def _(statement: syntax.ShowsStatement, rewriting: Rewriting) -> Refined:
-    if rewriting.has_counterpart(statement.fluent):
-        return
-    if not rewriting.has_counterpart(statement.action):
-        yield statement, KEPT
-        return
-    renaming = Renaming(statement, rewriting.vocabulary)
-    action = renaming.atom(statement.action)
-    renaming.note(statement.fluent, *(part.atom for part in roles.literals(statement.body)))
-    yield replace(statement, action=action, body=(*renaming.links(), *statement.body)), REFINED
 
 
 def _refined_condition(
@@ -215,14 +189,14 @@ def _about_any_component(
 def _lifted(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Iterator[syntax.Statement]:
     """The condition as it is, for the fine actions that would bring about the coarse effects."""
     effects = [effects_of(a, rewriting.coarse) for a in law.actions if rewriting.has_counterpart(a)]
-    given = set(map(key, law.body))
+    given = set(map(condition_text, law.body))
     for brought in product(*filter(None, effects)):
-        if any(key(head) in given for head, _ in brought):
+        if any(condition_text(head) in given for head, _ in brought):
             continue
         changes: list[syntax.Condition] = []
         for head, conditions in brought:
             changes += (replace(head, positive=not head.positive), *conditions)
-        body = (*(c for c in changes if key(c) not in given), *law.body)
+        body = (*(c for c in changes if condition_text(c) not in given), *law.body)
         renaming = Renaming(law, rewriting.vocabulary)
         actions = tuple(
             renaming.atom(action) if rewriting.has_counterpart(action) else action

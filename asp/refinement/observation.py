@@ -9,7 +9,7 @@ from itertools import chain
 
 from asp.language import Problems, Signature, condition_text, syntax, variable_domains
 from asp.refinement.language import TestsStatement
-from asp.refinement.refining import group, law_section, section, shared_places
+from asp.refinement.refining import law_section, section, shared_places
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
 OUTCOME, TRUE, FALSE = "outcome", "true", "false"
@@ -118,7 +118,7 @@ def observation_text(fine: syntax.Source, vocabulary: Vocabulary, tested: Sequen
         section("sorts", [f"{OUTCOME} = {{{TRUE}, {FALSE}}}."]),
         section("fluents", (d for t in tested for d in _fluents(t, coarse.get(t.fluent)))),
         section("actions", (f"agent {test}." for test in tests)),
-        law_section(group(title, chain.from_iterable(laws)) for title, laws in groups.items()),
+        law_section({title: chain.from_iterable(laws) for title, laws in groups.items()}),
     )
     return "\n\n".join(sections) + "\n"
 

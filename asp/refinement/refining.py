@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from itertools import starmap
 
 from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
-from asp.refinement.laws import KEPT, LIFTED, REFINED, Result, Rewriting, refine
+from asp.refinement.laws import KEPT, LIFTED, REFINED, Rewriting, refine
 from asp.refinement.vocabulary import COARSE, COMPONENT, FINE, Vocabulary
 
 _HEADINGS = {
@@ -29,14 +28,11 @@ def weak_text(
     results = [result for s in coarse.statements for result in refine(s, rewriting)]
     laws = [result for result in results if isinstance(result.statement, _LAWS)]
     groups = {
-        heading: [
-            f"{text_of(law.statement)}  % {law.origin}" for law in laws if law.manner == manner
-        ]
-        for manner, heading in _HEADINGS.items()
-    }
-    groups |= {
+        **{t: [law.text for law in laws if law.manner == m] for m, t in _HEADINGS.items()},
         "Bridge axioms: a coarse fluent holds where its counterpart holds of components.": [
-            *_bridges(vocabulary)
+            f"{_bridge(name, vocabulary)}  % {name}"
+            for name in vocabulary.counterparts
+            if vocabulary.coarse.symbols[name].kind in roles.FLUENTS
         ],
         "Particular to the fine resolution.": [
             f"{text_of(law)}  % {fine.file}, line {law.place.line}"
@@ -45,21 +41,24 @@ def weak_text(
         ],
     }
     sections = [
-        _head(coarse, fine),
+        f"% The refinement of {coarse.file} by {fine.file}. Lines are those of {coarse.file}.",
         *declarations(coarse, vocabulary, [r.statement for r in results], fine),
-        law_section(starmap(group, groups.items())),
+        law_section(groups),
         _facts(coarse, fine, vocabulary),
-        *(_further(title, kind, results) for title, kind in _FURTHER),
+        *(
+            section(title, (r.text for r in results if isinstance(r.statement, kind)))
+            for title, kind in _FURTHER.items()
+        ),
     ]
     return "\n\n".join(filter(None, sections)) + "\n"
 
 
 _LAWS = (syntax.CausalLaw, syntax.StateConstraint, syntax.ExecutabilityCondition)
-_FURTHER: Sequence[tuple[str, type[syntax.Statement]]] = (
-    ("initially", syntax.InitiallyStatement),
-    ("sees", syntax.SeesStatement),
-    ("shows", syntax.ShowsStatement),
-)
+_FURTHER: Mapping[str, type[syntax.Statement]] = {
+    "initially": syntax.InitiallyStatement,
+    "sees": syntax.SeesStatement,
+    "shows": syntax.ShowsStatement,
+}
 
 
 def shared_places(fine: syntax.Source) -> frozenset[tuple[str, int]]:
@@ -85,30 +84,15 @@ def _shared_place(law: syntax.StateConstraint) -> tuple[str, int] | None:
     return (head.name, differ[0][0]) if all(names == set(wholes) for names in compared) else None
 
 
-def _head(coarse: syntax.Source, fine: syntax.Source) -> str:
-    return f"% The refinement of {coarse.file} by {fine.file}. Lines are those of {coarse.file}."
-
-
-def law_section(groups: Iterable[str]) -> str:
-    """The section of laws; nothing where there are none."""
-    filled = "\n\n".join(filter(None, groups))
+def law_section(groups: Mapping[str, Iterable[str]]) -> str:
+    """The section of laws, each group under its heading; nothing where there are no laws."""
+    texts = {heading: "\n".join(f"  {law}" for law in laws) for heading, laws in groups.items()}
+    filled = "\n\n".join(f"  % {heading}\n{text}" for heading, text in texts.items() if text)
     return f"laws\n{filled}" if filled else ""
 
 
-def group(heading: str, laws: Iterable[str]) -> str:
-    """Laws under a comment; nothing where there are none."""
-    lines = [f"  {law}" for law in laws]
-    return "\n".join([f"  % {heading}", *lines]) if lines else ""
-
-
-def _bridges(vocabulary: Vocabulary) -> Iterator[str]:
-    """Bridge axioms, (15): a coarse fluent holds where its counterpart holds of components."""
-    for name in vocabulary.counterparts:
-        if vocabulary.coarse.symbols[name].kind in roles.FLUENTS:
-            yield f"{_bridge(name, vocabulary)}  % {name}"
-
-
 def _bridge(name: str, vocabulary: Vocabulary) -> str:
+    """A bridge axiom, (15)."""
     wholes, parts, links = [], [], []
     for place, sort in enumerate(vocabulary.coarse.symbols[name].sorts, start=1):
         whole, part = f"X{place}", f"Y{place}"
@@ -133,13 +117,6 @@ def _facts(coarse: syntax.Source, fine: syntax.Source, vocabulary: Vocabulary) -
     )
     stated = (text_of(fact) for text in (coarse, fine) for fact in text.each(syntax.Fact))
     return section("facts", [*stated, *components])
-
-
-def _further(title: str, kind: type[syntax.Statement], results: Iterable[Result]) -> str:
-    lines = (
-        f"{text_of(r.statement)}  % {r.origin}" for r in results if isinstance(r.statement, kind)
-    )
-    return section(title, lines)
 
 
 def declarations(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import chain, count
+from typing import Any
 
-from asp.language import atom_text, syntax, variable_domains
+from asp.language import syntax, variable_domains
 from asp.language import variable_sorts as roles
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
@@ -44,14 +44,11 @@ class Renaming:
             return term.name in self._magnified
         return self._vocabulary.is_magnified(term.name)
 
-    def is_refined(self, atom: syntax.Atom) -> bool:
-        return atom.name in self._vocabulary.counterparts
-
     def is_whole(self, atom: syntax.Atom) -> bool:
         """Whether the atom is an attribute of magnified constants that stays as it is."""
         return (
             atom.name in self._vocabulary.coarse.symbols
-            and not self.is_refined(atom)
+            and atom.name not in self._vocabulary.counterparts
             and any(map(self.is_magnified, atom.args))
         )
 
@@ -77,7 +74,7 @@ class Renaming:
 
     def atom(self, atom: syntax.Atom) -> syntax.Atom:
         """The counterpart of an atom that has one; another atom as it is, about the wholes."""
-        if self.is_refined(atom):
+        if atom.name in self._vocabulary.counterparts:
             name = self._vocabulary.counterparts[atom.name]
             return replace(atom, name=name, args=tuple(map(self.fine, atom.args)))
         if atom.name in self._vocabulary.coarse.sorts and self._is_only_inside(atom.args[0]):
@@ -103,7 +100,7 @@ class Renaming:
         if not self.is_magnified(term):
             return term
         if not term.is_variable:
-            self.whole(term)
+            self._wholes[term.name] = None
         if term.name not in self._fine:
             self._fine[term.name] = replace(term, name=self._new_name(term))
         return self._fine[term.name]
@@ -116,17 +113,12 @@ class Renaming:
         self._others.append(component(other, term))
         return other
 
-    def whole(self, term: syntax.Term) -> syntax.Term:
-        """Notes that the law speaks of a whole, so that its component is tied to it."""
-        if self.is_magnified(term):
-            self._wholes[term.name] = None
-        return term
-
     def note(self, *atoms: syntax.Atom) -> None:
-        """Notes all the wholes of which these atoms speak."""
-        for atom in atoms:
-            for term in atom.args:
-                self.whole(term)
+        """Notes the wholes of which these atoms speak: their components are tied to them."""
+        self._note(term for atom in atoms for term in atom.args)
+
+    def _note(self, terms: Iterable[syntax.Term]) -> None:
+        self._wholes |= {term.name: None for term in terms if self.is_magnified(term)}
 
     def links(self) -> syntax.Body:
         """`component(P, O)` for every whole of which the law names a component."""
@@ -145,14 +137,13 @@ class Renaming:
         if all(side.is_variable and self._is_only_inside(side) for side in sides):
             left, right = map(self.fine, sides)
             return replace(comparison, left=left, right=right)
-        for side in sides:
-            self.whole(side)
+        self._note(sides)
         return comparison
 
     def _new_name(self, term: syntax.Term) -> str:
         """The initial of the fine sort, with the number of the variable that it stands for."""
         letter = self._initial(term)
-        digits = re.sub(r"^.*?(\d*)$", r"\1", term.name) if term.is_variable else ""
+        digits = term.name[len(term.name.rstrip("0123456789")) :] if term.is_variable else ""
         candidates = chain([letter + digits], (f"{letter}{number}" for number in count(1)))
         name = next(candidate for candidate in candidates if candidate not in self._taken)
         self._taken.add(name)
@@ -186,8 +177,8 @@ def effects_of(action: syntax.Atom, coarse: syntax.Source) -> list[Effect]:
     for law in coarse.each(syntax.CausalLaw):
         terms = _matched(law.action, action)
         if terms is not None:
-            head = replace(law.head, atom=_substituted(law.head.atom, terms))
-            found.append((head, tuple(_condition(part, terms) for part in law.body)))
+            body = tuple(_substituted(part, terms) for part in law.body)
+            found.append((_substituted(law.head, terms), body))
     return found
 
 
@@ -205,26 +196,18 @@ def _matched(of_law: syntax.Atom, action: syntax.Atom) -> dict[str, syntax.Term]
     return terms
 
 
-def _condition(part: syntax.Condition, terms: dict[str, syntax.Term]) -> syntax.Condition:
+def _substituted(part: Any, terms: Mapping[str, syntax.Term]) -> Any:
+    """An atom or a condition with these terms for the variables of the action."""
     if isinstance(part, syntax.Literal):
         return replace(part, atom=_substituted(part.atom, terms))
-    left, right = (_term(side, terms) for side in (part.left, part.right))
-    return replace(part, left=left, right=right)
+    if isinstance(part, syntax.Comparison):
+        left, right = _term(part.left, terms), _term(part.right, terms)
+        return replace(part, left=left, right=right)
+    return replace(part, args=tuple(_term(term, terms) for term in part.args))
 
 
-def _substituted(atom: syntax.Atom, terms: dict[str, syntax.Term]) -> syntax.Atom:
-    return replace(atom, args=tuple(_term(term, terms) for term in atom.args))
-
-
-def _term(term: syntax.Term, terms: dict[str, syntax.Term]) -> syntax.Term:
+def _term(term: syntax.Term, terms: Mapping[str, syntax.Term]) -> syntax.Term:
     """The term for a variable of the action; another variable gets a name of the effect's own."""
     if not term.is_variable:
         return term
     return terms.get(term.name, replace(term, name=f"{term.name}_"))
-
-
-def key(part: syntax.Condition) -> str:
-    """The text of a condition, by which conditions at different places are the same."""
-    if isinstance(part, syntax.Literal):
-        return ("" if part.positive else "-") + atom_text(part.atom)
-    return f"{part.left.name}{part.equal}{part.right.name}"
