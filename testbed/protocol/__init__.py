@@ -1,7 +1,6 @@
 """The messages between a driver and a robot, and the interface of a robot."""
 
 from testbed.protocol.bounds import MOST_BYTES, Count, shortened
-from testbed.protocol.capabilities import Capabilities, Knowledge, Resolution
 from testbed.protocol.errors import (
     NOT_UNDERSTOOD,
     LinkError,
@@ -28,7 +27,7 @@ from testbed.protocol.messages import (
     decode,
     encode,
 )
-from testbed.protocol.robot import Robot, RobotClient, RobotFactory
+from testbed.protocol.robot import Capabilities, Knowledge, Robot, RobotClient, RobotFactory
 
 __all__ = [
     "MOST_BYTES",
@@ -48,7 +47,6 @@ __all__ = [
     "NoPlan",
     "Percept",
     "Question",
-    "Resolution",
     "Robot",
     "RobotClient",
     "RobotFactory",

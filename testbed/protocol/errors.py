@@ -37,12 +37,9 @@ class RobotGone(RobotLost):
 
 def in_one_line(error: BaseException) -> str:
     """Return what an exception says: of a robot's, what travels to the driver."""
-    return shortened(" ".join(f"{type(error).__name__}: {_said(error)}".split()))
-
-
-def _said(error: BaseException) -> str:
-    """What an exception says, as text that can be written: names of files need not be Unicode."""
     try:
-        return str(error).encode(errors="backslashreplace").decode()
+        said = str(error)
     except Exception:  # of the exception's own making
-        return "its text cannot be had"
+        said = "its text cannot be had"
+    writable = said.encode(errors="backslashreplace").decode()  # names of files need not be Unicode
+    return shortened(" ".join(f"{type(error).__name__}: {writable}".split()))

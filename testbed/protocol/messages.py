@@ -254,13 +254,10 @@ def decode(payload: bytes, kind: type[M]) -> M:
     anything that is not a message of this type within its bounds.
     """
     try:
-        _check_version(_envelope.decode(payload).version)
+        version = _envelope.decode(payload).version
+        if version != PROTOCOL_VERSION:
+            raise LinkError(f"protocol version {version}, understood is {PROTOCOL_VERSION}")
         message: M = _decoders[kind].decode(payload)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as error:
         raise LinkError(f"not a {kind.__name__}: {error}") from error
     return message
-
-
-def _check_version(version: int) -> None:
-    if version != PROTOCOL_VERSION:
-        raise LinkError(f"protocol version {version}, understood is {PROTOCOL_VERSION}")

@@ -1,9 +1,40 @@
-"""The two sides of the link: what a robot is, and how a driver holds one."""
+"""The two sides of the link: what a robot is and can do, and how a driver holds one."""
 
 from collections.abc import Callable
-from typing import Protocol, TypeAlias
+from dataclasses import dataclass
+from typing import Literal, Protocol, TypeAlias, get_args
 
 from testbed.protocol.messages import Decision, Percept, Task
+
+Resolution: TypeAlias = Literal["coarse", "fine"]
+Knowledge: TypeAlias = Literal["complete", "seen"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capabilities:
+    """What a robot can do, declared as the attribute ``capabilities`` of its class.
+
+    ``resolutions`` are those at which it acts: ``coarse``, and ``fine`` where its task can have a
+    refinement. ``knowledge`` are the kinds of knowledge of the initial state that it can begin
+    with: ``complete``, and ``seen`` where ``Task.initial`` may leave fluents open.
+    ``needs_goal_feedback``: it relies on being told, by ``Percept.goal_holds``, that it finished
+    without its goal. ``first_action_step`` is the first step at which it may attempt a physical
+    action; a robot that starts an activity by a mental action has 2.
+
+    Raises ValueError for a resolution or a kind of knowledge that there is not.
+    """
+
+    resolutions: tuple[Resolution, ...] = ("coarse",)
+    knowledge: tuple[Knowledge, ...] = ("complete",)
+    needs_goal_feedback: bool = False
+    first_action_step: int = 1
+
+    def __post_init__(self) -> None:
+        known = {"resolutions": get_args(Resolution), "knowledge": get_args(Knowledge)}
+        for name, choices in known.items():
+            given = getattr(self, name)
+            if isinstance(given, str) or not set(given) <= set(choices):
+                raise ValueError(f"{name}: {given!r} should be some of {', '.join(choices)}")
 
 
 class Robot(Protocol):

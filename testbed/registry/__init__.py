@@ -11,10 +11,9 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import entry_points
 from inspect import signature
 from pathlib import Path
-from types import ModuleType
 from typing import Any, Generic, TypeVar
 
 from asp.language import suggestion
@@ -67,8 +66,7 @@ class Registry(Generic[T]):
         """
         if name not in self._found:
             found = _attribute(name if ":" in name else self._place(name))
-            fault = self._fault(found)
-            if fault is not None:
+            if fault := self._fault(found):
                 raise RegistryError(f"'{name}' is no {self.kind}: it {fault}")
             self._found[name] = found
         return self._found[name]
@@ -99,7 +97,8 @@ class Registry(Generic[T]):
         """By name, and by the distribution that registers it, where it stands."""
         claims = {name: {OURS: place} for name, place in self._built_in.items()}
         for point in entry_points(group=self._group):
-            claims.setdefault(point.name, {})[_owner(point)] = point.value
+            owner = point.dist.name if point.dist else "an unnamed distribution"
+            claims.setdefault(point.name, {})[owner] = point.value
         return claims
 
 
@@ -116,43 +115,31 @@ def class_fault(found: object, *methods: str, arguments: int = 0) -> str | None:
     try:
         signature(found).bind(*range(arguments))
     except TypeError as error:
-        given = f"{arguments} arguments" if arguments else "no arguments"
-        return f"cannot be made with {given}: {error}"
+        return f"cannot be made with {arguments or 'no'} arguments: {error}"
     return None
 
 
-def _owner(point: EntryPoint) -> str:
-    return point.dist.name if point.dist else "an unnamed distribution"
-
-
 def _attribute(place: str) -> Any:
-    module_name, _, path = place.partition(":")
-    if not all(part.isidentifier() for name in (module_name, path) for part in name.split(".")):
+    module, _, path = place.partition(":")
+    parts = path.split(".")
+    if not all(part.isidentifier() for part in (*module.split("."), *parts)):
         raise RegistryError(f"'{place}' should be module:Class, as in my_package.my_module:MyClass")
-    found: Any = _imported(module_name)
-    for part in path.split("."):
-        if not hasattr(found, part):
-            public = (name for name in vars(found) if not name.startswith("_"))
-            raise RegistryError(f"'{place}': {module_name} has no {part}; {_near(part, public)}")
-        found = getattr(found, part)
-    return found
-
-
-def _imported(name: str) -> ModuleType:
     try:
-        return import_module(name)
+        found: Any = import_module(module)
     except (Exception, SystemExit) as error:  # whatever a module of a user's does
-        if isinstance(error, ModuleNotFoundError) and f"{name}.".startswith(f"{error.name}."):
+        if isinstance(error, ModuleNotFoundError) and f"{module}.".startswith(f"{error.name}."):
             where = "it can lie beside the configuration, or be installed"
             raise RegistryError(f"there is no module '{error.name}'; {where}") from None
         said = in_one_line(error)
-        raise RegistryError(f"the module '{name}' cannot be imported: {said}") from error
-
-
-def _near(word: str, known: Iterator[str]) -> str:
-    """The nearest of many names; of these all would be too many to list."""
-    found = suggestion(word, known)
-    return found if found.startswith("did") else "look at how it is spelled there"
+        raise RegistryError(f"the module '{module}' cannot be imported: {said}") from error
+    for part in parts:
+        if not hasattr(found, part):
+            near = suggestion(part, (name for name in vars(found) if not name.startswith("_")))
+            if not near.startswith("did"):  # all that there are would be too many to list
+                near = "look at how it is spelled there"
+            raise RegistryError(f"'{place}': {module} has no {part}; {near}")
+        found = getattr(found, part)
+    return found
 
 
 def search_last(folder: Path) -> None:
