@@ -12,9 +12,8 @@ the adversary is an agent here. Any key can be overridden: `env(goal_feedback=Fa
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from os import PathLike
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from asp import load_description
 from asp.language import suggestion
@@ -35,66 +34,54 @@ Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
 level `levels`."""
 
 
+PARAMETERS = ("config", "render_mode", "max_cycles", "level")
+
+
 @lists_keys
-def env(
-    config: Config = None,
-    render_mode: str | None = None,
-    max_cycles: int | None = None,
-    level: str | None = None,
-    **overrides: object,
-) -> OrderedView:
+def env(config: Config = None, render_mode: str | None = None, **options: Any) -> OrderedView:
     """The AEC environment, wrapped: what is called out of order raises, too.
 
-    `max_cycles` is the number of the last step, instead of limits.steps; `level` one of those of
-    the configuration, by default of the packaged `levels`. Raises ConfigError for a bad
+    Of the options `max_cycles` is the number of the last step, instead of limits.steps; `level` one
+    of those of the configuration, by default of the packaged `levels`. Raises ConfigError for a bad
     configuration and ValueError for an unknown render mode.
     """
-    return OrderedView(raw_env(config, render_mode, max_cycles, level, **overrides))
+    return OrderedView(raw_env(config, render_mode, **options))
 
 
 @lists_keys
-def raw_env(
-    config: Config = None,
-    render_mode: str | None = None,
-    max_cycles: int | None = None,
-    level: str | None = None,
-    **overrides: object,
-) -> AECView:
-    """The AEC environment, unwrapped. Parameters and errors as for `env`."""
-    return AECView(make_core(config, max_cycles, level, **overrides), render_mode)
+def raw_env(config: Config = None, render_mode: str | None = None, **options: Any) -> AECView:
+    """The AEC environment, unwrapped. Parameters, options and errors as for `env`."""
+    return AECView(make_core(config, **options), render_mode)
 
 
 @lists_keys
 def parallel_env(
-    config: Config = None,
-    render_mode: str | None = None,
-    max_cycles: int | None = None,
-    level: str | None = None,
-    **overrides: object,
+    config: Config = None, render_mode: str | None = None, **options: Any
 ) -> ParallelView:
-    """The parallel environment. Parameters and errors as for `env`."""
-    return ParallelView(make_core(config, max_cycles, level, **overrides), render_mode)
+    """The parallel environment. Parameters, options and errors as for `env`."""
+    return ParallelView(make_core(config, **options), render_mode)
 
 
 def make_core(
-    config: Config = None,
-    max_cycles: int | None = None,
-    level: str | None = None,
-    **overrides: object,
+    config: Config = None, max_cycles: int | None = None, level: str | None = None, **overrides: Any
 ) -> Core:
     """The game that a configuration describes. Raises ConfigError."""
     read = _read(config, level, overrides)
-    return _fine(read, max_cycles) if read.is_fine else _coarse(read, max_cycles)
+    rules = Rules(
+        goal=read.goal,
+        steps=read.limits.steps if max_cycles is None else max_cycles,
+        observability=read.rules_of_news(),
+        goal_feedback=read.goal_feedback,
+        exogenous_while_thinking=read.exogenous_while_thinking,
+    )
+    if read.is_fine:
+        return _fine(read, rules)
+    world = world_of(load_description(read.domain))
+    initial = world.initial_states() if read.initial is None else (world.state(read.initial),)
+    return Core(world, rules, initial)
 
 
-def _coarse(config: ExperimentConfig, max_cycles: int | None) -> Core:
-    world = world_of(load_description(config.domain))
-    given = config.initial
-    states = world.initial_states() if given is None else (world.state(given),)
-    return Core(world, _rules(config, max_cycles), states)
-
-
-def _fine(config: ExperimentConfig, max_cycles: int | None) -> Core:
+def _fine(config: ExperimentConfig, rules: Rules) -> Core:
     if len(config.levels) > 1:
         example = f"level='{config.levels[0]}'"
         raise ConfigError([f"{config.name}: there are several levels; give one, as in {example}"])
@@ -103,7 +90,7 @@ def _fine(config: ExperimentConfig, max_cycles: int | None) -> Core:
     world, sorts = world_of(refinement), refinement.description.sorts
     return fine_core(
         refinement,
-        _rules(config, max_cycles),
+        rules,
         config.statistics,
         config.adversary.pace,
         None if config.initial is None else (world.state(config.initial),),
@@ -112,37 +99,20 @@ def _fine(config: ExperimentConfig, max_cycles: int | None) -> Core:
     )
 
 
-def _read(config: Config, level: str | None, overrides: dict[str, object]) -> ExperimentConfig:
+def _read(config: Config, level: str | None, overrides: dict[str, Any]) -> ExperimentConfig:
+    """Raises ConfigError, also for what is neither a key of a configuration nor a parameter."""
     if isinstance(config, ExperimentConfig):
         if overrides or level:
             raise ValueError("overrides go with the name of a configuration, not with a read one")
         return config
-    _check_keywords(overrides)
+    known = ExperimentConfig.model_fields.keys()
+    unknown = [name for name in overrides if name.partition(".")[0] not in known]
+    if unknown:
+        nearest = {name: suggestion(name, [*PARAMETERS, *known]) for name in unknown}
+        lines = [f"keyword argument: {name}: unknown key; {n}" for name, n in nearest.items()]
+        raise ConfigError(lines)
     chosen = overrides if level is None else {**overrides, "levels": [level]}
     changes = [f"{key}={json.dumps(value)}" for key, value in chosen.items()]
     packaged = "office" if level is None else "levels"
     source = packaged if config is None else str(config)
     return load_config(source, changes, given_in="keyword argument")
-
-
-def _check_keywords(overrides: Iterable[str]) -> None:
-    """Raises ConfigError for what is neither a key of a configuration nor a parameter here."""
-    parameters = ("config", "render_mode", "max_cycles", "level")
-    known = ExperimentConfig.model_fields.keys()
-    lines = [
-        f"keyword argument: {name}: unknown key; {suggestion(name, [*parameters, *known])}"
-        for name in overrides
-        if name.partition(".")[0] not in known
-    ]
-    if lines:
-        raise ConfigError(lines)
-
-
-def _rules(config: ExperimentConfig, max_cycles: int | None) -> Rules:
-    return Rules(
-        goal=config.goal,
-        steps=config.limits.steps if max_cycles is None else max_cycles,
-        observability=config.rules_of_news(),
-        goal_feedback=config.goal_feedback,
-        exogenous_while_thinking=config.exogenous_while_thinking,
-    )
