@@ -1,12 +1,26 @@
-"""The mistakes in an action description, and what a misspelt name may have been meant to be."""
+"""The mistakes in an action description: where each is, and what would be right."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Set
 from difflib import get_close_matches
+
+from lark import Lark, ParseTree, Token, Tree
+from lark.exceptions import UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark.lexer import PatternStr
+from lark.tree import Meta
 
 from asp.language import syntax
 
+_SECTION = 9
+"""The priority of section words in grammars: above all others."""
+_READABLE = {
+    "NAME": "a name",
+    "VARIABLE": "a variable",
+    "NUMBER": "a number",
+    "DECIMAL": "a number",
+    "DOT": "a full stop",
+}
 _LIKENESS = 0.5
 
 
@@ -61,3 +75,97 @@ def suggestion(word: str, known: Iterable[str]) -> str:
     if near is not None:
         return f"did you mean '{near}'?"
     return "known: " + ", ".join(choices) if choices else "none is known here"
+
+
+def place_of(node: Meta | Token) -> syntax.Place:
+    """Where a node of the parse tree begins."""
+    assert node.line is not None
+    assert node.column is not None
+    return syntax.Place(node.line, node.column)
+
+
+def syntax_error(error: UnexpectedInput, text: str, file: str, grammar: Lark) -> SourceError:
+    """What lark found, with its place, in the words of the language."""
+    sections = {t.name.lower() for t in grammar.terminals if t.priority == _SECTION}
+    for token in _last(error):
+        meant = _meant_section(token, text, sections)
+        if meant is not None:
+            return _at(token, file, f"unknown section '{token}'; did you mean '{meant}'?")
+    if isinstance(error, UnexpectedCharacters):
+        return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
+    assert isinstance(error, UnexpectedToken)
+    if _at_end(error):
+        lines = text.rstrip().split("\n")
+        return SourceError(file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement")
+    for token in _last(error):
+        if (
+            token.line == error.line
+            and token.lower() in sections
+            and _is_first_in_line(token, text)
+        ):
+            return SourceError(file, error.line, error.column, _alone(token))
+    expected = _described(set(error.accepts or error.expected), grammar, sections)
+    return _at(error.token, file, f"unexpected {str(error.token)!r}; expected {expected}")
+
+
+def check_section_words(tree: ParseTree, text: str, file: str) -> None:
+    """Raises SourceError for a section word behind something else on its line."""
+    for section in tree.children:
+        assert isinstance(section, Tree)
+        word = section.children[0]
+        assert isinstance(word, Token)
+        if not _is_first_in_line(word, text):
+            raise _at(word, file, _alone(word))
+
+
+def _at(token: Token, file: str, message: str) -> SourceError:
+    place = place_of(token)
+    return SourceError(file, place.line, place.column, message)
+
+
+def _at_end(error: UnexpectedInput) -> bool:
+    return isinstance(error, UnexpectedToken) and error.token.type == "$END"
+
+
+def _last(error: UnexpectedInput) -> list[Token]:
+    """The unexpected token, if it is one, and the one before it, if there is one."""
+    unexpected = [error.token] if isinstance(error, UnexpectedToken) else []
+    history = getattr(error, "token_history", None) or ()
+    if _at_end(error):
+        assert isinstance(error, UnexpectedToken)
+        history = error.interactive_parser.parser_state.value_stack[-1:]
+    return [*unexpected, *(token for token in history if isinstance(token, Token))]
+
+
+def _meant_section(token: Token, text: str, sections: Set[str]) -> str | None:
+    """The section word nearest to one alone on its line, where a statement or section begins."""
+    line = place_of(token).line
+    lines = [part.partition("%")[0] for part in text.split("\n")]
+    before = " ".join(lines[: line - 1]).split()
+    begins = not before or before[-1].endswith(".") or before[-1].lower() in sections
+    if token.type != "NAME" or not begins or lines[line - 1].strip() != token:
+        return None
+    return nearest(token, sections)
+
+
+def _is_first_in_line(token: Token, text: str) -> bool:
+    place = place_of(token)
+    return not text.split("\n")[place.line - 1][: place.column - 1].strip()
+
+
+def _alone(token: Token) -> str:
+    return f"the section word '{token}' stands alone on its line"
+
+
+def _described(expected: Set[str], grammar: Lark, sections: Set[str]) -> str:
+    words = {name for name in expected if name.lower() in sections}
+    found = []
+    if len(words) == len(sections):
+        found.append(f"a section word such as {' or '.join(sorted(sections)[:2])}")
+        expected -= words
+    texts = {
+        t.name: repr(t.pattern.value if isinstance(t.pattern, PatternStr) else t.name.lower())
+        for t in grammar.terminals
+    }
+    found += sorted((texts | _READABLE)[name] for name in expected - {"$END"})
+    return " or ".join(dict.fromkeys(found))

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from importlib.resources import files
-from typing import Any, ClassVar
+from typing import Any
 
 from lark import Lark, Token, Transformer, v_args
 from lark.exceptions import UnexpectedInput
 from lark.tree import Meta
 
 from asp.language import syntax
-from asp.language.syntax_errors import check_section_words, place_of, syntax_error
+from asp.language.errors import check_section_words, place_of, syntax_error
 
 
 def parse(text: str, file: str = "<text>") -> syntax.Source:
@@ -52,29 +52,14 @@ def _comments(text: str) -> tuple[syntax.Comment, ...]:
 class ToSyntax(Transformer[Token, Any]):
     """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules.
 
-    A rule without one is a statement whose fields are the rule's parts in their order.
+    A rule without one is a statement: the rule is named as its class, whose fields are the rule's
+    parts in their order.
     """
 
-    STATEMENTS: ClassVar[dict[str, type[syntax.Statement]]] = {
-        "sort": syntax.SortDefinition,
-        "fluent": syntax.Declaration,
-        "action": syntax.Declaration,
-        "causal_law": syntax.CausalLaw,
-        "state_constraint": syntax.StateConstraint,
-        "executability": syntax.ExecutabilityCondition,
-        "fact": syntax.Fact,
-        "sees": syntax.SeesStatement,
-        "shows": syntax.ShowsStatement,
-        "cost": syntax.CostStatement,
-        "initially": syntax.InitiallyStatement,
-        "default": syntax.DefaultStatement,
-        "exception": syntax.ExceptionStatement,
-        "quiet": syntax.QuietStatement,
-    }
-
     def __default__(self, data: str, children: list[Any], meta: Meta) -> syntax.Statement:
+        name = data.title().replace("_", "")
+        kind = next(k for k in syntax.Statement.__subclasses__() if k.__name__ == name)
         parts = (str(part) if isinstance(part, Token) else part for part in children)
-        kind = self.STATEMENTS[data]
         return kind(place_of(meta), meta.end_line, *(() if p is None else p for p in parts))
 
     def section(self, _: Meta, children: list[Any]) -> list[syntax.Statement]:
@@ -97,16 +82,16 @@ class ToSyntax(Transformer[Token, Any]):
     sort_parts = members = sort_names = terms = compound = body = listed
 
     def range(self, meta: Meta, bounds: list[Token]) -> tuple[syntax.Term, ...]:
-        low, high = (int(bound) if len(bound) < 10 else syntax.LARGEST for bound in bounds)
+        low, high = map(int, bounds)
         last = min(high, low + syntax.MOST_MEMBERS)  # one too many is told where sorts are checked
         return tuple(syntax.Term(str(n), place_of(meta)) for n in range(low, last + 1))
 
     def static(self, meta: Meta, children: list[Any]) -> syntax.Statement:
-        return self.__default__("fluent", ["static", *children], meta)
+        return self.__default__("declaration", ["static", *children], meta)
 
-    def cost(self, meta: Meta, children: list[Any]) -> syntax.Statement:
+    def cost_statement(self, meta: Meta, children: list[Any]) -> syntax.Statement:
         action, units = children
-        return self.__default__("cost", [action, int(units)], meta)
+        return self.__default__("cost_statement", [action, int(units)], meta)
 
     def trigger(self, meta: Meta, children: list[Any]) -> syntax.Statement:
         scenario, event, upon, drawing, body, probability = children
@@ -161,20 +146,11 @@ def scenario_notes(text: str, file: str = "<text>") -> dict[str, str]:
     notes: dict[str, str] = {}
     for statement in source.statements:
         if isinstance(statement, syntax.TriggerStatement | syntax.QuietStatement):
-            note = _above(statement.place.line, comments)
-            notes.setdefault(statement.scenario, _sentence(note, statement.scenario))
+            line, above = statement.place.line, list[str]()
+            while (line := line - 1) in comments:
+                above.insert(0, comments[line].lstrip("% "))
+            note = " ".join(above)
+            for sign in (",", ":"):
+                note = note.removeprefix(f"{statement.scenario}{sign} ")
+            notes.setdefault(statement.scenario, note[:1].upper() + note[1:])
     return {scenario: note for scenario, note in notes.items() if note}
-
-
-def _above(line: int, comments: dict[int, str]) -> str:
-    lines: list[str] = []
-    while line - 1 in comments:
-        line -= 1
-        lines.insert(0, comments[line].lstrip("% "))
-    return " ".join(lines)
-
-
-def _sentence(note: str, scenario: str) -> str:
-    for sign in (",", ":"):
-        note = note.removeprefix(f"{scenario}{sign} ")
-    return note[:1].upper() + note[1:]

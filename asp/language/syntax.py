@@ -11,8 +11,6 @@ S = TypeVar("S", bound="Statement")
 
 MOST_MEMBERS = 100_000
 """Of a sort."""
-LARGEST = 10**9
-"""Bound of a range; a larger one is taken for it."""
 
 SymbolKind = Choice["static", "inertial", "defined", "agent", "exogenous"]
 

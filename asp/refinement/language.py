@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 from lark import Token, v_args
 from lark.tree import Meta
@@ -63,15 +62,6 @@ def parse_fine(text: str, file: str = "<text>") -> syntax.Source:
 @v_args(meta=True)
 class _ToRefinement(ToSyntax):
     """Builds the abstract syntax of a refinement bottom-up."""
-
-    STATEMENTS: ClassVar = {
-        "refines": Refines,
-        "magnification": Magnification,
-        "components": Components,
-        "counterpart": Counterpart,
-        "test": TestsStatement,
-        **ToSyntax.STATEMENTS,
-    }
 
     magnify = components_section = counterparts = tests_section = ToSyntax.section
     refinement = ToSyntax.start
