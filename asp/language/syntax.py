@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal as Choice
-from typing import TypeVar
+from typing import TypeVar, dataclass_transform
 
 S = TypeVar("S", bound="Statement")
 
@@ -15,16 +15,22 @@ MOST_MEMBERS = 100_000
 SymbolKind = Choice["static", "inertial", "defined", "agent", "exogenous"]
 
 
-@dataclass(frozen=True)
-class Place:
+@dataclass_transform(frozen_default=True)
+class Node:
+    """A part of a text; each kind of them is a frozen dataclass."""
+
+    def __init_subclass__(cls) -> None:
+        dataclass(frozen=True)(cls)
+
+
+class Place(Node):
     """Line and column, both counted from 1."""
 
     line: int
     column: int
 
 
-@dataclass(frozen=True)
-class Term:
+class Term(Node):
     """A constant or a variable."""
 
     name: str
@@ -35,8 +41,7 @@ class Term:
         return self.name[0].isupper()
 
 
-@dataclass(frozen=True)
-class Atom:
+class Atom(Node):
     """A name with arguments; `str()` gives it as ASP has it, without blanks."""
 
     name: str
@@ -47,14 +52,12 @@ class Atom:
         return f"{self.name}({','.join(t.name for t in self.args)})" if self.args else self.name
 
 
-@dataclass(frozen=True)
-class Literal:
+class Literal(Node):
     atom: Atom
     positive: bool
 
 
-@dataclass(frozen=True)
-class Comparison:
+class Comparison(Node):
     """`left = right` or, when not `equal`, `left != right`."""
 
     left: Term
@@ -67,15 +70,13 @@ Condition = Literal | Comparison
 Body = tuple[Condition, ...]
 
 
-@dataclass(frozen=True)
-class Statement:
+class Statement(Node):
     """Anything that ends with a full stop; `last_line` is the line of that full stop."""
 
     place: Place
     last_line: int
 
 
-@dataclass(frozen=True)
 class SortDefinition(Statement):
     """`name = part + part.` A part is the name of a sort or a tuple of constants."""
 
@@ -83,7 +84,6 @@ class SortDefinition(Statement):
     parts: tuple[Term | tuple[Term, ...], ...]
 
 
-@dataclass(frozen=True)
 class Declaration(Statement):
     """A static, fluent or action with the sorts of its arguments."""
 
@@ -92,31 +92,26 @@ class Declaration(Statement):
     sorts: tuple[Term, ...]
 
 
-@dataclass(frozen=True)
 class CausalLaw(Statement):
     action: Atom
     head: Literal
     body: Body
 
 
-@dataclass(frozen=True)
 class StateConstraint(Statement):
     head: Literal
     body: Body
 
 
-@dataclass(frozen=True)
 class ExecutabilityCondition(Statement):
     actions: tuple[Atom, ...]
     body: Body
 
 
-@dataclass(frozen=True)
 class Fact(Statement):
     literal: Literal
 
 
-@dataclass(frozen=True)
 class SeesStatement(Statement):
     """`robot sees fluent if body`: in which states the robot sees whether the fluent holds."""
 
@@ -125,7 +120,6 @@ class SeesStatement(Statement):
     body: Body
 
 
-@dataclass(frozen=True)
 class ShowsStatement(Statement):
     """`action shows fluent if body`: what the outcome of an action lets its agent see."""
 
@@ -134,7 +128,6 @@ class ShowsStatement(Statement):
     body: Body
 
 
-@dataclass(frozen=True)
 class CostStatement(Statement):
     """`action costs n`, in execution units."""
 
@@ -142,7 +135,6 @@ class CostStatement(Statement):
     units: int
 
 
-@dataclass(frozen=True)
 class InitiallyStatement(Statement):
     """`fluent for some V`: in an initial state the fluent is true for at least one V."""
 
@@ -150,7 +142,6 @@ class InitiallyStatement(Statement):
     variable: Term
 
 
-@dataclass(frozen=True)
 class DefaultStatement(Statement):
     """`name: head if body`: in an initial state the head usually holds where the body does."""
 
@@ -159,7 +150,6 @@ class DefaultStatement(Statement):
     body: Body
 
 
-@dataclass(frozen=True)
 class ExceptionStatement(Statement):
     """`exception name if body`: where the body holds, the default says nothing.
 
@@ -171,7 +161,6 @@ class ExceptionStatement(Statement):
     of: DefaultStatement | None = None
 
 
-@dataclass(frozen=True)
 class TriggerStatement(Statement):
     """`scenario: event upon action drawing V with pool if body probability p`."""
 
@@ -184,22 +173,19 @@ class TriggerStatement(Statement):
     probability: float
 
 
-@dataclass(frozen=True)
 class QuietStatement(Statement):
     """`scenario: nothing`: a scenario in which nothing exogenous happens."""
 
     scenario: str
 
 
-@dataclass(frozen=True)
-class Comment:
+class Comment(Node):
     line: int
     text: str
     alone: bool
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(Node):
     """A parsed AL_d text: its statements and comments in the order of the file."""
 
     file: str

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from lark import Token, v_args
 from lark.tree import Meta
 
@@ -11,14 +9,12 @@ from asp.language import ToSyntax, grammar, parse_with, syntax
 from asp.language import variable_sorts as roles
 
 
-@dataclass(frozen=True)
 class Refines(syntax.Statement):
     """`refines name.` or `refines "path".`: the coarse description."""
 
     name: str
 
 
-@dataclass(frozen=True)
 class Magnification(syntax.Statement):
     """`sort into fine.`: the constants of a coarse sort have components, those of a fine one."""
 
@@ -26,7 +22,6 @@ class Magnification(syntax.Statement):
     into: str
 
 
-@dataclass(frozen=True)
 class Components(syntax.Statement):
     """`whole = {part, part}.`"""
 
@@ -34,14 +29,12 @@ class Components(syntax.Statement):
     parts: tuple[syntax.Term, ...]
 
 
-@dataclass(frozen=True)
 class Counterpart(syntax.Statement):
     """An attribute or action that gets a fine counterpart."""
 
     symbol: syntax.Term
 
 
-@dataclass(frozen=True)
 class TestsStatement(syntax.Statement):
     """`robot tests fluent if body`: in which states the robot can test whether the fluent holds."""
 
