@@ -9,7 +9,8 @@ state is complete, are the translation's.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from asp.language import (
     Function,
@@ -32,7 +33,10 @@ from asp.translation.rules import (
     condition,
     schema,
     sort_conditions,
+    sorts_of_variables,
 )
+
+Law = syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition
 
 
 class NotCompactError(ValueError):
@@ -57,8 +61,7 @@ class _Translation:
         for constraint in self._source.each(syntax.StateConstraint):
             yield from self._constraint(constraint)
         for law in self._source.each(syntax.CausalLaw):
-            occurs = f"occurs({law.action},{BEFORE})"
-            yield self._effect(Part.STEP, law, [occurs, *self._body(law.body, BEFORE)])
+            yield self._effect(Part.STEP, law, BEFORE, [law.action])
         yield from self._actions()
 
     def _inertia(self, symbol: syntax.Declaration) -> Iterator[Rule]:
@@ -101,7 +104,7 @@ class _Translation:
     def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
         name = law.head.atom.name
         if self._signature.symbols[name].kind == "static":
-            yield self._rule(Part.BASE, law, law.head.atom, self._body(law.body, NOW))
+            yield self._rule(Part.BASE, law, law.head.atom, law.body, NOW)
             return
         for literal in roles.literals(law.body):
             symbol = self._signature.symbols.get(literal.atom.name)
@@ -109,17 +112,21 @@ class _Translation:
                 raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
         function = self._functions.get(name)
         if function is None or excluding_place(law) != function.place:
-            yield self._effect(Part.STATE, law, self._body(law.body, NOW))
+            yield self._effect(Part.STATE, law, NOW)
 
     def _effect(
-        self, part: Part, law: syntax.CausalLaw | syntax.StateConstraint, body: Iterable[str]
+        self,
+        part: Part,
+        law: syntax.CausalLaw | syntax.StateConstraint,
+        step: str,
+        occurring: Sequence[syntax.Atom] = (),
     ) -> Rule:
         """The rule of a law with a fluent for its head."""
         atom = law.head.atom
         if not law.head.positive:
-            return self._rule(part, law, f"denied({atom},{NOW})", body)
+            return self._rule(part, law, f"denied({atom},{NOW})", law.body, step, occurring)
         gives = self._gives(atom.name, [term.name for term in atom.args])
-        return self._rule(part, law, f"holds({atom},{NOW})", body, gives)
+        return self._rule(part, law, f"holds({atom},{NOW})", law.body, step, occurring, gives)
 
     def _actions(self) -> Iterator[Rule]:
         """Which actions are enabled: by conditions that each allow them, and others that forbid."""
@@ -127,14 +134,13 @@ class _Translation:
         for number, law in enumerate(self._source.each(syntax.ExecutabilityCondition)):
             cases = _allowing(law, self._functions)
             if cases is None:
-                occurs = [f"occurs({action},{BEFORE})" for action in law.actions]
-                yield self._rule(Part.STEP, law, "", [*occurs, *self._body(law.body, BEFORE)])
+                yield self._rule(Part.STEP, law, "", law.body, BEFORE, law.actions)
                 continue
             action = law.actions[0]
             numbers.setdefault(action.name, []).append(number)
             head = f"allowed({number},{action},{BEFORE})"
             for case in cases:
-                yield self._rule(Part.STEP, law, head, self._body(case, BEFORE))
+                yield self._rule(Part.STEP, law, head, case, BEFORE)
         for symbol in self._signature.symbols.values():
             if symbol.kind == "agent":
                 term, _, sorts = schema(symbol)
@@ -142,20 +148,38 @@ class _Translation:
                 head = f"enabled({term},{BEFORE})"
                 yield Rule(Part.STEP, head, (*body, *sorts), gives=(ACTION, term))
 
-    def _body(self, body: Iterable[syntax.Condition], step: str) -> list[str]:
-        return [condition(part, self._signature, step, "not ") for part in body]
-
     def _rule(
         self,
         part: Part,
-        law: syntax.Statement,
+        law: Law,
         head: object,
-        body: Iterable[str],
+        body: Sequence[syntax.Condition],
+        step: str,
+        occurring: Sequence[syntax.Atom] = (),
         gives: tuple[str, str] | None = None,
     ) -> Rule:
         """The rule, with the sorts of the law's variables."""
-        sorts = sort_conditions(law, self._signature)
-        return Rule(part, str(head), (*body, *sorts), frozenset(named(law)), gives)
+        texts = [f"occurs({action},{BEFORE})" for action in occurring]
+        texts += (condition(part, self._signature, step, "not ") for part in body)
+        texts += sort_conditions(law, self._signature)
+        loose = self._loose(law, body)
+        return Rule(part, str(head), tuple(texts), frozenset(named(law)), gives, loose)
+
+    def _loose(self, law: Law, body: Sequence[syntax.Condition]) -> frozenset[str]:
+        """The sorts of variables in neither the law's head, nor its action, nor a true fluent."""
+        literals = [part for part in roles.literals(body) if part.positive]
+        of_sorts = [part.atom for part in literals if part.atom.name in self._signature.sorts]
+        symbols = self._signature.symbols
+        own = [use.atom for use in roles.uses(replace(law, body=()))]
+        own += (
+            part.atom
+            for part in literals
+            if part.atom not in of_sorts and symbols[part.atom.name].kind in roles.FLUENTS
+        )
+        tied = {term.name for atom in own for term in atom.args}
+        sorts = [(atom.args[0].name, atom.name) for atom in of_sorts]
+        sorts += sorts_of_variables(law, self._signature)
+        return frozenset(sort for variable, sort in sorts if variable not in tied)
 
 
 def _allowing(

@@ -87,7 +87,8 @@ class Rule:
 
     `gives` is the function that the head gives a value and the fluent that says so, where there is
     one: (`fine_loc(P)`, `fine_loc(P,C)`). What is chosen at step 0 has it for every fluent. What
-    enables an action has it for the action, as a value of ACTION.
+    enables an action has it for the action, as a value of ACTION. `loose` are the sorts of
+    variables that stand in neither the head nor a condition of the body that has to be true.
     """
 
     part: Part
@@ -95,6 +96,7 @@ class Rule:
     body: tuple[str, ...]
     constants: frozenset[str] = frozenset()
     gives: tuple[str, str] | None = None
+    loose: frozenset[str] = frozenset()
 
     def plain(self) -> Iterator[str]:
         """The text of the rule."""

@@ -1,1 +1,1 @@
-"""Plans in large fine descriptions: reachability, landmarks, value pruning."""
+"""Plans in large fine descriptions: relaxed reachability, landmarks, value pruning."""

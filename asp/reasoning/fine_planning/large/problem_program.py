@@ -13,7 +13,6 @@ variables that occur elsewhere only are *loose*, and constants that they may sta
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,7 +24,7 @@ from asp.language import Function, arguments, atom, is_positive
 from asp.reasoning.fine_planning.compact_part import CompactPart
 from asp.reasoning.fine_planning.horizon import MOST_LEVELS, parts, read
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
-from asp.reasoning.fine_planning.large.value_pruning import Valued, Values, confined, valued
+from asp.reasoning.fine_planning.large.value_pruning import Functions, Values, confined
 from asp.solving import ground, solving, theory
 from asp.translation import ACTION, Part, Rule
 
@@ -54,21 +53,21 @@ class ProblemPrograms:
         self._rules = part.worded(Rule.confined)
         self._ranks = {action: rank for rank, action in enumerate(part.actions)}
         self._loose = loose(part.rules, part.sorts)
-        self._valued = valued(relaxed, functions)
+        self._known = Functions(relaxed, functions)
         self._facts: dict[str, list[str]] = defaultdict(list)  # by their first constant
         for fact in relaxed.facts:
             self._facts[next(iter(arguments(fact)), "")].append(fact)
 
     def plan(self, problem: Problem, reach: Reach, length: int) -> tuple[str, ...] | None:
         """The first plan of exactly so many steps, or None. Raises LimitError."""
-        reach.spread.through(length)
+        reach.through(length)
         steps = (
-            confined(reach, self._valued.number, length)
+            confined(reach, self._known.number, length)
             if self._confines
             else [Values() for _ in range(length + 1)]
         )
         left = [dict(self._told(values)) for values in steps]
-        playing = self._loose | in_play(reach, self._valued, steps)
+        playing = self._loose | in_play(reach, self._known, steps)
         static = (f"{fact}." for fact in self._facts_about(playing))
         program = "\n".join([self._rules, f"#program {Part.BASE}.", *static])
         given = (*_given(problem, left[0]), *_within(left))
@@ -90,13 +89,8 @@ class ProblemPrograms:
     def _told(self, values: Values) -> Iterator[tuple[str, Sequence[str]]]:
         """The functions confined at a step, with the fluents left."""
         for number, nodes in values.items():
-            fluents = [self._valued.text[node] for node in nodes]
-            yield from ((term, fluents) for term in self._valued.terms[number])
-
-
-_VARIABLE = re.compile(r"\b[A-Z]\w*")
-_SORT = re.compile(r"(\w+)\((\w+)\)")
-_DYNAMIC = ("holds(", "occurs(", "allowed(", "2 {")
+            fluents = [self._known.text[node] for node in nodes]
+            yield from ((term, fluents) for term in self._known.terms[number])
 
 
 def loose(rules: Iterable[Rule], sorts: Mapping[str, Sequence[str]]) -> frozenset[str]:
@@ -105,22 +99,11 @@ def loose(rules: Iterable[Rule], sorts: Mapping[str, Sequence[str]]) -> frozense
     for rule in rules:
         found |= rule.constants
         if rule.part in (Part.STATE, Part.STEP):
-            found.update(*(sorts[sort] for sort in _loose_sorts(rule, sorts)))
+            found.update(*(sorts[sort] for sort in rule.loose))
     return frozenset(found)
 
 
-def _loose_sorts(rule: Rule, sorts: Mapping[str, Sequence[str]]) -> Iterator[str]:
-    tied = set(_VARIABLE.findall(rule.head))
-    for condition in rule.body:
-        if condition.startswith(_DYNAMIC):
-            tied.update(_VARIABLE.findall(condition))
-    for condition in rule.body:
-        match = _SORT.fullmatch(condition)
-        if match and match[1] in sorts and match[2] not in tied:
-            yield match[1]
-
-
-def in_play(reach: Reach, known: Valued, steps: Sequence[Values]) -> frozenset[str]:
+def in_play(reach: Reach, known: Functions, steps: Sequence[Values]) -> frozenset[str]:
     """The constants of what may be true, or may occur, at some step, as functions are confined."""
     free = {
         number
@@ -130,7 +113,7 @@ def in_play(reach: Reach, known: Valued, steps: Sequence[Values]) -> frozenset[s
     left = {node for step in steps for nodes in step.values() for node in nodes}
     return frozenset(
         constant
-        for node, level in reach.spread.level.items()
+        for node, level in reach.level.items()
         if level < len(steps) and node in known.text
         if node in left or known.number.get(node) in (None, *free)
         for constant in arguments(known.text[node])

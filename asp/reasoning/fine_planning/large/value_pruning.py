@@ -6,21 +6,27 @@ derivation of the literal has one of its values at that step. Every plan is such
 what is true on its way; and a function has one value at a time. So at that step it has a value of
 which something leads to the goal, and all others can be left out of the search: no plan of this
 length is lost.
+
+Landmarks are propagated as by L. Zhu and R. Givan, Landmark extraction via planning graph
+propagation (2003), but of functions instead of atoms.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
 from asp.language import Function, arguments, ground, name
-from asp.reasoning.fine_planning.large.landmarks import Layer, landmarks
-from asp.reasoning.fine_planning.large.relaxed_reachability import Body, Graph, Reach, Relaxed
+from asp.reasoning.fine_planning.large.relaxed_reachability import Body, Reach, Relaxed
 from asp.translation import ACTION
 
 Values = dict[int, list[int]]
 """The functions that are confined at a step, by number, each with the nodes of the values left."""
+
+Layer = Mapping[int, Sequence[Body]]
+"""Nodes that lead to the goal at a step, with the bodies that they may follow from within it."""
 
 _MOST_NODES = (500, 5_000, 50_000)  # what more nodes lead to confines little, for what it takes
 
@@ -31,7 +37,7 @@ def confined(reach: Reach, functions: Mapping[int, int], length: int) -> list[Va
     `functions` has for each node that gives a function a value the number of that function. Of the
     goal's literals those that few nodes lead to come first: what they leave out leads nowhere else.
     """
-    reach.spread.through(length)
+    reach.through(length)
     ways = _Ways(reach, functions, length)
     left = list(reach.wanted)
     for most in _MOST_NODES:
@@ -58,8 +64,8 @@ class _Ways:
         if layers is None:
             return False
         for step, found in enumerate(landmarks(self._reach, goal, self._functions, layers)):
-            self.values[step] |= dict(found)
-            self.values[step] |= implied(self.values[step], self._functions, self._reach.graph)
+            self.values[step] |= found
+            self.values[step] |= implied(self.values[step], self._functions, self._reach.relaxed)
             self._leave_out(step)
         return True
 
@@ -70,7 +76,7 @@ class _Ways:
             others.update(self._nodes[number].difference(left))
         self._impossible[step] |= others
         if step:
-            earlier = self._reach.graph.earlier
+            earlier = self._reach.relaxed.earlier
             self._impossible[step - 1].update(earlier[n] for n in others if n in earlier)
 
     def _layers(self, goal: int, most: int) -> list[Layer] | None:
@@ -83,14 +89,14 @@ class _Ways:
             if left < 0:
                 return None
             layers.append(layer)
-            before = map(self._reach.graph.earlier.get, layer)
+            before = map(self._reach.relaxed.earlier.get, layer)
             agenda = [node for node in before if node is not None and self._holds(node, step - 1)]
         return layers[::-1]
 
     def _layer(self, agenda: list[int], step: int, most: int) -> Layer:
         """What leads to some nodes within a step, cut off where it is too much."""
         layer: dict[int, list[Body]] = {}
-        makers = self._reach.graph.makers
+        makers = self._reach.relaxed.makers
         while agenda and len(layer) <= most:
             node = agenda.pop()
             if node not in layer:
@@ -104,79 +110,135 @@ class _Ways:
 
     def _holds(self, node: int, step: int) -> bool:
         """Whether it may be true at a step."""
-        level = self._reach.spread.level.get(node)
+        level = self._reach.level.get(node)
         return level is not None and level <= step and node not in self._impossible[step]
 
 
+def landmarks(
+    reach: Reach, goal: int, functions: Mapping[int, int], layers: Sequence[Layer]
+) -> Iterator[Values]:
+    """For each step the landmarks there of the goal, a node, each with the values that lead to it.
+
+    `functions` has for each node that gives a function a value the number of that function.
+    """
+    width = len(layers)
+    numbers = set(functions.values())
+    underivable = 1 << (max(numbers, default=0) + 1) * width
+    labels = _all_labels(reach, functions, layers, 2 * underivable - 1)
+    label = labels[-1][goal]
+    for step in range(width):
+        left: Values = {n: [] for n in numbers if label >> (n * width + step) & 1}
+        for node, own in labels[step].items():
+            if functions.get(node) in left and own < underivable:
+                left[functions[node]].append(node)
+        yield left
+
+
+def _all_labels(
+    reach: Reach, functions: Mapping[int, int], layers: Sequence[Layer], everything: int
+) -> list[dict[int, int]]:
+    """For each step the labels of the nodes that lead to the goal.
+
+    A label has a bit for each function and step, set if all that leads to the node has a value of
+    it, and a last one that is left to what nothing leads to.
+    """
+    width, following = len(layers), reach.relaxed.following
+    found: list[dict[int, int]] = []
+    known = dict.fromkeys(reach.start, 0)
+    for step, layer in enumerate(layers):
+        own = {n: 1 << functions[n] * width + step for n in layer if n in functions}
+        labels = _labels(layer, own, known, everything)
+        known = {following[n]: label for n, label in labels.items() if n in following}
+        found.append(labels)
+    return found
+
+
+def _labels(
+    layer: Layer, own: Mapping[int, int], known: Mapping[int, int], everything: int
+) -> dict[int, int]:
+    """The greatest labels that are consistent: what all ways to a node share, and its own.
+
+    `known` are those of what the step before, or the start, makes true.
+    """
+    labels = dict.fromkeys(layer, everything)
+    order = [*layer][::-1]  # mostly causes before effects, as they were found backwards
+    changed = True
+    while changed:
+        changed = False
+        for node in order:
+            label = known.get(node, everything)
+            for body in layer[node]:
+                label &= reduce(or_, (labels[atom] for atom in body), 0)
+            label |= own.get(node, 0)
+            if label != labels[node]:
+                labels[node], changed = label, True
+    return labels
+
+
 def implied(
-    values: Mapping[int, Sequence[int]], functions: Mapping[int, int], graph: Graph
+    values: Mapping[int, Sequence[int]], functions: Mapping[int, int], relaxed: Relaxed
 ) -> dict[int, list[int]]:
     """Functions, by number, with all the values that they can have as far as others have those.
 
     `values` are the nodes left of the values of functions, one of which each is sure to have;
     `functions` has for each node that gives a function a value the number of that function.
     """
-    groups = [list(_groups(nodes, graph)) for nodes in values.values()]
+    groups = [list(_groups(nodes, relaxed)) for nodes in values.values()]
     certain = {node for group in groups if len(group) == 1 for node in group[0]}
     found: dict[int, list[int]] = {}
     for group in groups:
-        images = [_images(nodes, certain, functions, graph) for nodes in group]
+        images = [_images(nodes, certain, functions, relaxed) for nodes in group]
         if images:
             for number in set(images[0]).intersection(*images[1:]) - values.keys():
                 found[number] = [node for image in images for node in image[number]]
     return found
 
 
-def _groups(nodes: Iterable[int], graph: Graph) -> Iterator[set[int]]:
+def _groups(nodes: Iterable[int], relaxed: Relaxed) -> Iterator[set[int]]:
     """What is always true together is one value."""
     seen: set[int] = set()
     for node in nodes:
         if node not in seen:
-            together = graph.same(node)
+            together = relaxed.same(node)
             seen |= together
             yield together
 
 
 def _images(
-    nodes: Iterable[int], certain: set[int], functions: Mapping[int, int], graph: Graph
+    nodes: Iterable[int], certain: set[int], functions: Mapping[int, int], relaxed: Relaxed
 ) -> dict[int, set[int]]:
     """The values, by function, that are sure where a value is had and what is certain is true."""
     found: dict[int, set[int]] = {}
     for node in nodes:
-        for others, head in graph.implied.get(node, ()):
+        for others, head in relaxed.implied.get(node, ()):
             if certain.issuperset(others) and head in functions:
-                found.setdefault(functions[head], set()).update(graph.same(head))
+                found.setdefault(functions[head], set()).update(relaxed.same(head))
     return found
 
 
-@dataclass(frozen=True)
-class Valued:
-    """`number` is, for each node that gives a function a value, the number of the function.
+class Functions:
+    """The functions among the fluents of a program, and ACTION.
 
-    Functions that by the laws have the same value at all times, as the places of a thing's parts,
-    share their number; `terms` are those of each number. `text` is what each node stands for.
+    `number` is, for each node that gives a function a value, the number of the function. Functions
+    that by the laws have the same value at all times, as the places of a thing's parts, share their
+    number; `terms` are those of each number. `text` is what each node stands for.
     """
 
-    number: Mapping[int, int]
-    terms: Sequence[Sequence[str]]
-    text: Mapping[int, str]
-
-
-def valued(relaxed: Relaxed, functions: Mapping[str, Function]) -> Valued:
-    """The functions among the fluents of a program, and ACTION."""
-    nodes: dict[str, list[int]] = defaultdict(list)
-    nodes[ACTION] = [*relaxed.actions.values()]
-    fluents = {node: fluent for fluent, node in relaxed.nodes.items()}
-    for node, fluent in fluents.items():
-        function = functions.get(name(fluent))
-        if function is not None:
-            others = list(arguments(fluent))
-            del others[function.place]
-            nodes[ground(name(fluent), others)].append(node)
-    classes: dict[frozenset[int], list[str]] = defaultdict(list)
-    for term, values in nodes.items():
-        classes[frozenset(min(relaxed.graph.same(node)) for node in values)].append(term)
-    numbered = enumerate(classes.values())
-    numbers = {node: number for number, terms in numbered for term in terms for node in nodes[term]}
-    actions = {node: action for action, node in relaxed.actions.items()}
-    return Valued(numbers, [*classes.values()], fluents | actions)
+    def __init__(self, relaxed: Relaxed, functions: Mapping[str, Function]) -> None:
+        nodes: dict[str, list[int]] = defaultdict(list)
+        nodes[ACTION] = [*relaxed.actions.values()]
+        for fluent, node in relaxed.nodes.items():
+            function = functions.get(name(fluent))
+            if function is not None:
+                nodes[ground(name(fluent), function.others(arguments(fluent)))].append(node)
+        classes: dict[frozenset[int], list[str]] = defaultdict(list)
+        for term, values in nodes.items():
+            classes[frozenset(min(relaxed.same(node)) for node in values)].append(term)
+        self.terms = [*classes.values()]
+        self.number = {
+            node: number
+            for number, terms in enumerate(self.terms)
+            for term in terms
+            for node in nodes[term]
+        }
+        self.text = {node: text for text, node in (relaxed.nodes | relaxed.actions).items()}

@@ -15,7 +15,7 @@ from asp.reasoning.fine_planning import FineStart, IncrementalFinePlanner
 from asp.reasoning.fine_planning.compact_part import CompactDescription
 from asp.reasoning.fine_planning.large.problem_program import in_play, loose
 from asp.reasoning.fine_planning.large.relaxed_reachability import Relaxed
-from asp.reasoning.fine_planning.large.value_pruning import confined, valued
+from asp.reasoning.fine_planning.large.value_pruning import Functions, confined
 from asp.refinement import Refinement, load, load_refinement
 from asp.translation import ACTION
 from testbed.world import World, world_of
@@ -45,7 +45,7 @@ class Confining:
         source, signature = refinement.weak, refinement.weak_signature
         self._part = CompactDescription(source, signature).part(signature.constants)
         self._relaxed = Relaxed(self._part.program)
-        self._known = valued(self._relaxed, functions(source, signature))
+        self._known = Functions(self._relaxed, functions(source, signature))
         self.playing: set[str] = set()
         self._loose = loose(self._part.rules, self._part.sorts)
 
