@@ -8,13 +8,7 @@ from agents.intentional.history import History
 from agents.intentional.reference import ReferenceReasoner
 from agents.shared.sessions import sessions_of
 from agents.shared.thought import Intention
-from asp.reasoning.diagnosis import (
-    GOAL,
-    Compression,
-    Diagnosis,
-    Explanation,
-    IncrementalDiagnoser,
-)
+from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, IncrementalDiagnoser
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import State
 
@@ -33,17 +27,11 @@ class _Active:
 class IncrementalReasoner(IncrementalDiagnoser[History]):
     """Reasons about one goal in one domain, as the reference does, for one trial."""
 
-    def __init__(
-        self,
-        knowledge: Knowledge,
-        goal: tuple[str, ...],
-        plan_limit: int,
-        compression: Compression | None = None,
-    ) -> None:
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         sessions = sessions_of(knowledge)
         reference = ReferenceReasoner(knowledge, goal, plan_limit)
-        super().__init__(sessions.diagnosis, goal, FIRST_EVENT, reference, compression)
+        super().__init__(sessions.diagnosis, goal, FIRST_EVENT, reference)
         self._plans = sessions.plans
         self._actions, _ = knowledge.actions
         self._plan_limit = plan_limit

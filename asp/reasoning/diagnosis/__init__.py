@@ -19,7 +19,7 @@ from asp.reasoning.diagnosis.inconsistency import (
     never_together,
 )
 from asp.reasoning.diagnosis.incremental import DiagnosisSessions, IncrementalDiagnoser
-from asp.reasoning.diagnosis.long_histories.compression import Compression
+from asp.reasoning.diagnosis.long_histories.frontier import Compression
 from asp.reasoning.diagnosis.reference import ReferenceDiagnoser, diagnosis_of, event_limits
 
 __all__ = [

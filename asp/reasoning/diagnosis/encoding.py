@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import clingo
@@ -34,13 +34,6 @@ class Problem:
             if step in self.records
         }
         return Problem(self.goal, records, self.step - first, max(0, self.since - first))
-
-    @property
-    def distrustable(self) -> Iterator[Happening]:
-        """What may be distrusted, step by step."""
-        for time in range(self.step):
-            record = self.records.get(time, Record())
-            yield from (Happening(time, action) for action in record.distrustable)
 
     @property
     def externals(self) -> list[Symbol]:
@@ -102,31 +95,16 @@ def assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:
     return [lit if truth else -lit for lit, truth in known if lit is not None]
 
 
-def interpretation(
-    session: Session,
-    model: clingo.Model,
-    problem: Problem,
-    knowledge: Knowledge,
-    defaults: Sequence[str],
-) -> Interpretation:
-    """What a model says of a problem; `defaults` are names."""
-
-    def true(predicate: str, happenings: Iterable[Happening]) -> tuple[Happening, ...]:
-        found = (
-            h for h in happenings if is_true(model, session.literal(predicate, h.action, h.step))
-        )
-        return tuple(sorted(found))
-
-    step, events = problem.step, knowledge.description.exogenous_actions
-    exceptions = (name for name in defaults if is_true(model, session.literal("exception", name)))
-    explanation = Explanation(
-        true("unobserved", (Happening(time, event) for time in range(step) for event in events)),
-        true("distrusted", problem.distrustable),
-        tuple(sorted(exceptions)),
+def interpretation(session: Session, model: clingo.Model, problem: Problem) -> Interpretation:
+    """What a model says of a problem."""
+    held = (
+        time for time in range(problem.step + 1) if is_true(model, session.literal("reached", time))
     )
-    held = (time for time in range(step + 1) if is_true(model, session.literal("reached", time)))
     return Interpretation(
-        explanation, session.state(model, 0), session.state(model, step), frozenset(held)
+        explanation_of(model.symbols(shown=True)),
+        session.state(model, 0),
+        session.state(model, problem.step),
+        frozenset(held),
     )
 
 

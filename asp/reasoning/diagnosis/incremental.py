@@ -23,7 +23,7 @@ from asp.reasoning.diagnosis.history import (
     Record,
     record_of,
 )
-from asp.reasoning.diagnosis.long_histories.compression import CompressedHistory, Compression
+from asp.reasoning.diagnosis.long_histories.frontier import Compression, Frontier
 from asp.reasoning.diagnosis.long_histories.suffixes import SuffixExplanations
 from asp.reasoning.diagnosis.reference import SEARCH
 from asp.reasoning.diagnosis.smallest_explanations import SmallestExplanations
@@ -32,7 +32,10 @@ from asp.reasoning.successors import Transitions
 from asp.solving import BudgetError, LimitError, State, current, up_to
 
 COMPRESSION: Compression | None = Compression()
-"""How long histories are compressed; None: they are not, with the same answers, only later."""
+"""How long histories are compressed; None: they are not, with the same answers, only later.
+
+MEASURED
+"""
 
 
 class DiagnosisSessions:
@@ -65,18 +68,16 @@ class IncrementalDiagnoser(Generic[H_contra]):
         goal: tuple[str, ...],
         since: int,
         reference: Diagnoser[H_contra],
-        compression: Compression | None = None,
     ) -> None:
-        """`compression` is how long histories are compressed, if not as `COMPRESSION` says."""
         self._sessions = sessions
         self._knowledge = sessions.knowledge
         self._goal = goal
         self._since = since
         self._reference = reference
-        self._compression = compression or COMPRESSION
+        self._compression = COMPRESSION
         self._tracker = sessions.tracker(goal, since)
         self._records: dict[int, Record] = {}
-        self._compressed: CompressedHistory | None = None
+        self._frontier: Frontier | None = None
         self._belief: Belief | None = None
         self._fewest = (0, 0)
         self._late_news = 0
@@ -88,9 +89,9 @@ class IncrementalDiagnoser(Generic[H_contra]):
         return self._belief
 
     @property
-    def compressed(self) -> CompressedHistory | None:
-        """The compressed history; None as long as nothing is compressed."""
-        return self._compressed if self._compressed is not None and self._compressed.step else None
+    def frontier(self) -> Frontier | None:
+        """Where the history is compressed to; None as long as nothing is compressed."""
+        return self._frontier if self._frontier is not None and self._frontier.step else None
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
@@ -124,9 +125,8 @@ class IncrementalDiagnoser(Generic[H_contra]):
         if is_late:
             self._late_news = history.late_news
             self._belief, self._fewest = None, (0, 0)
-        known = None if self._compressed is None else self._compressed.step + 1
-        if first is not None and known is not None and first <= known:
-            self._compressed = None  # it may have begun with the step after the last one
+        if first is not None and self._frontier is not None and first <= self._frontier.step:
+            self._frontier = None
 
     def _compress(self, history: History) -> None:
         """Compresses a little more of the history, where its start is known.
@@ -137,19 +137,18 @@ class IncrementalDiagnoser(Generic[H_contra]):
         if settings is None or history.step <= settings.after or self._unknown(history):
             return
         try:
-            if self._compressed is None:
+            if self._frontier is None:
                 start = self._sessions.explanations.smallest(self._problem(0))
                 if start is None:
                     return
-                suffixes = self._sessions.suffixes
-                self._compressed = CompressedHistory(self._tracker, suffixes, settings, start)
-            self._compressed.follow(self._records, history.step)
+                self._frontier = Frontier(self._tracker, settings, start)
+            self._frontier.follow(self._records, history.step)
         except LimitError:
             pass
 
     def _carried(self, history: History, adopted: Explanation) -> Belief | None:
         """The belief at this step, if what is new agrees with the adopted explanation."""
-        belief = self._belief or self._remembered(adopted) or self._first(history, adopted)
+        belief = self._belief or self._first(history, adopted)
         return self._tracker.carried(belief, history, adopted)
 
     def _explain(self, history: H_contra, adopted: Explanation) -> Explanation:
@@ -173,11 +172,11 @@ class IncrementalDiagnoser(Generic[H_contra]):
 
     def _smallest(self, problem: Problem) -> Interpretation | None:
         """The smallest explanation; None where that takes another way, or more than the budget."""
-        compressed = self.compressed
+        suffixes, frontier = self._sessions.suffixes, self.frontier
         try:
             with up_to(SEARCH):
                 current().check_conflicts()
-                found = compressed.smallest(problem, self._fewest[0]) if compressed else None
+                found = frontier and suffixes.smallest(frontier, problem, self._fewest[0])
                 return found or self._sessions.explanations.smallest(problem, self._fewest)
         except BudgetError:
             return None
@@ -197,8 +196,12 @@ class IncrementalDiagnoser(Generic[H_contra]):
         self, history: History, adopted: Explanation, most: int
     ) -> tuple[list[Explanation], bool]:
         """At most so many explanations of the size of one, and whether there are more of them."""
-        problem = self._problem(history.step)
-        found = self.compressed and self.compressed.alternatives(problem, adopted.size, most)
+        problem, frontier, suffixes = (
+            self._problem(history.step),
+            self.frontier,
+            self._sessions.suffixes,
+        )
+        found = frontier and suffixes.alternatives(frontier, problem, adopted.size, most)
         return found or self._sessions.explanations.alternatives(problem, adopted, most)
 
     def _first(self, history: History, adopted: Explanation) -> Belief | None:
@@ -214,12 +217,6 @@ class IncrementalDiagnoser(Generic[H_contra]):
                 return None
             state = start.initial
         return self._tracker.start(state)
-
-    def _remembered(self, adopted: Explanation) -> Belief | None:
-        """The belief at the step up to which the history is compressed, if that is remembered."""
-        compressed = self.compressed
-        found = compressed.along(adopted) if compressed else None
-        return Belief(compressed.step, *found) if compressed and found else None
 
     def _problem(self, step: int) -> Problem:
         """All that there is to explain up to a step."""

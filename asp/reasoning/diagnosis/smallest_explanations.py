@@ -111,7 +111,7 @@ class SmallestExplanations:
         with preferring(session.control, limited) as model:
             if model is None:
                 return None
-            return interpretation(session, model, question.problem, self._knowledge, self._defaults)
+            return interpretation(session, model, question.problem)
 
     def _made(self, horizon: int, most: int) -> Session:
         known = self._knowledge

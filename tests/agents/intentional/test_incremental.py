@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from unittest.mock import patch
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -11,7 +13,7 @@ from agents.intentional.history import History
 from agents.intentional.incremental import IncrementalReasoner
 from agents.intentional.reference import ReferenceReasoner
 from agents.shared.thought import Intention
-from asp.reasoning.diagnosis import GOAL, Compression, Diagnosis, Explanation
+from asp.reasoning.diagnosis import GOAL, Compression, Diagnosis, Explanation, incremental
 from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import (
@@ -26,10 +28,8 @@ from tests.agents.intentional.lives import (
 class Both:
     """Reasons in both ways, and insists that they agree."""
 
-    compression: Compression | None = None
-
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit, self.compression)
+        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit)
         self._reference = ReferenceReasoner(knowledge, goal, plan_limit)
 
     def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
@@ -48,7 +48,10 @@ class Both:
 class BothCompressed(Both):
     """The incremental way compresses its history after a few steps already."""
 
-    compression = Compression(after=4, lag=3, margin=1, work=400)
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        compression = Compression(after=4, lag=3, margin=1, answers=400)
+        with patch.object(incremental, "COMPRESSION", compression):
+            super().__init__(knowledge, goal, plan_limit)
 
 
 wishes = st.dictionaries(

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import groupby
+from functools import cached_property, lru_cache
+from itertools import chain, groupby
 
-import clingo
 from clingo import Symbol
 
 from asp.reasoning.diagnosis.encoding import (
@@ -15,31 +14,35 @@ from asp.reasoning.diagnosis.encoding import (
     Problem,
     explanation_of,
     interpretation,
-    is_true,
     observations,
 )
 from asp.reasoning.diagnosis.history import Explanation
-from asp.reasoning.diagnosis.long_histories.prefixes import Frontier, PrefixExplanation
+from asp.reasoning.diagnosis.long_histories.frontier import MOST_ENTRIES, Frontier, joined
 from asp.reasoning.knowledge import Knowledge
-from asp.solving import (
-    Session,
-    State,
-    answer_sets,
-    fact,
-    goal_externals,
-    preferring,
-    theory,
-    undisturbed,
-)
+from asp.solving import Session, answer_sets, fact, goal_externals, preferring, theory
 
 LENGTH = 24
 """How many steps the end of a history may have."""
 
-MOST_ENTRIES = 64
-"""How many states a frontier may have."""
-
 MOST_MORE = 4
 """How many events and distrusted reports a session counts, beyond those of the cheapest entry."""
+
+_external = lru_cache(MOST_ENTRIES * 1_000)(fact)
+
+
+@dataclass(frozen=True)
+class _Question:
+    """The end of a history, and what the frontier's entries lead to.
+
+    `entries` are in the order of their explanations, numbered from 1; `most` is the size up to
+    which they are complete. `given` are assumptions for all that was observed.
+    """
+
+    frontier: Frontier
+    suffix: Problem
+    entries: Sequence[Sequence[Interpretation]]
+    most: int
+    given: list[int]
 
 
 class SuffixExplanations:
@@ -47,102 +50,110 @@ class SuffixExplanations:
 
     def __init__(self, knowledge: Knowledge) -> None:
         self._knowledge = knowledge
-        self._on: set[int] = set()
 
     def smallest(self, frontier: Frontier, problem: Problem, fewest: int) -> Interpretation | None:
         """The first of the smallest explanations of a history, not smaller than `fewest`.
 
-        Its initial state and exceptions are left open. None where the frontier does not know all
-        of those that are as small.
+        None where the frontier does not know all of those that are as small. Raises LimitError.
         """
         question = self._question(frontier, problem)
         if question is None:
             return None
-        for size in range(max(fewest, frontier.least), question.most + 1):
-            found = self._first(question, size)
-            if found is not None:
-                return found
-        return None
+        sizes = range(max(fewest, frontier.least), question.most + 1)
+        found = (self._first(question, size) for size in sizes)
+        return next(filter(None, found), None)
 
     def alternatives(
         self, frontier: Frontier, problem: Problem, size: int, most: int
     ) -> tuple[list[Explanation], bool] | None:
         """At most so many explanations of the smallest size, and whether there are more of them.
 
-        None where the frontier does not know.
+        None where the frontier does not know. Raises LimitError.
         """
         question = self._question(frontier, problem)
         if question is None or not frontier.least <= size <= question.most:
             return None
-        shown, more = answer_sets(question.session.control, question.at_most(size), most)
+        self._offer(question, range(1, len(question.entries) + 1))
+        limited = self._at_most(question, size)
+        shown, more = answer_sets(self._session.control, limited, most)
         found: list[Explanation] = []
         for answer in shown:
-            (entry,) = (s.arguments[0].number for s in answer if s.name == "from")
-            prefixes, left_off = frontier.told(question.entries[entry - 1][1])
-            suffix = explanation_of(answer)
-            found += (prefix.followed_by(suffix, frontier.step) for prefix in prefixes)
+            prefixes, left_off = frontier.told(question.entries[_entry(answer) - 1])
+            end = Interpretation(explanation_of(answer), frozenset(), frozenset(), frozenset())
+            found += (joined(prefix, end, frontier.step).explanation for prefix in prefixes)
             more = more or left_off
         return found[:most], more or len(found) > most
 
     def _first(self, question: _Question, size: int) -> Interpretation | None:
         """The first explanation with at most so many events and distrusted reports."""
-        control, limited = question.session.control, question.at_most(size)
-        with preferring(control, limited) as model:
+        numbered = enumerate(question.entries, start=1)
+        groups = groupby(numbered, key=lambda entry: entry[1][0].explanation.distrusted)
+        alike = [[number for number, _ in group] for _, group in groups]
+        limited = self._at_most(question, size)
+        found = self._preferred(question, limited, chain(*alike))
+        if found is None or len(alike) == 1:
+            return found
+        # Which reports are distrusted before the end comes before which events are assumed in it.
+        trusted = [*limited, *self._trust(question, found)]
+        every = (self._preferred(question, trusted, entries) for entries in alike)
+        return next(filter(None, every))
+
+    def _preferred(
+        self, question: _Question, assumptions: Sequence[int], entries: Iterable[int]
+    ) -> Interpretation | None:
+        """The interpretation of the whole history that comes first from some of the entries."""
+        self._offer(question, entries)
+        with preferring(self._session.control, assumptions) as model:
             if model is None:
                 return None
-            if len(question.alike) == 1:
-                return self._read(question, model)
-            limited = [*limited, *question.trust(model)]
-        # Which reports are distrusted before the end comes before which events are assumed in it.
-        for entries in question.alike:
-            self._offer(question, entries)
-            with preferring(control, limited) as model:
-                if model is not None:
-                    return self._read(question, model)
-        raise AssertionError("some entry led to the first model")
+            prefixes = question.entries[_entry(model.symbols(shown=True)) - 1]
+            end = interpretation(self._session, model, question.suffix)
+            return joined(prefixes[0], end, question.frontier.step)
+
+    def _trust(self, question: _Question, found: Interpretation) -> Iterator[int]:
+        """Assumptions: the same reports and attempts are distrusted of the end."""
+        first = question.frontier.step
+        for step, record in question.suffix.records.items():
+            for action in record.distrustable if step < question.suffix.step else ():
+                literal = self._session.literal("distrusted", action, step)
+                if literal is not None:
+                    there = (first + step, action) in found.explanation.distrusted
+                    yield literal if there else -literal
 
     def _question(self, frontier: Frontier, problem: Problem) -> _Question | None:
-        """The session with the end of a history and the entries of a frontier; None: too many."""
+        """The end of a history and the entries of a frontier; None where these are too many."""
         suffix = problem.suffix(frontier.step)
         most = min(frontier.limit, frontier.least + MOST_MORE)
-        known = [
-            (state, prefixes)
-            for state, prefixes in frontier.entries.items()
-            if prefixes[0].size <= most
-        ]
+        known = [e for e in frontier.entries.values() if e[0].explanation.size <= most]
         if not known or len(known) > MOST_ENTRIES or suffix.step > LENGTH:
             return None
-        session = self._session
-        session.switch_on(*goal_externals(problem.goal), *suffix.externals)
-        given = observations(session, suffix)
+        given = observations(self._session, suffix)
         if given is None:
             return None
-        entries = sorted(known, key=lambda entry: entry[1][0].order)
-        inertial = self._knowledge.description.inertial
-        question = _Question(session, frontier, suffix, most, entries, given, inertial)
-        self._offer(question, range(1, len(entries) + 1))
-        return question
+        entries = sorted(known, key=lambda entry: frontier.order(entry[0].explanation))
+        return _Question(frontier, suffix, entries, most, given)
 
-    def _offer(self, question: _Question, entries: Iterable[int]) -> None:
-        """Makes exactly these entries available."""
-        on = question.offering(entries)
-        with undisturbed():
-            for literal in self._on ^ on:
-                question.session.control.assign_external(literal, literal in on)
-            self._on = on
+    def _offer(self, question: _Question, numbers: Iterable[int]) -> None:
+        """Makes exactly these entries available, with their states and prices."""
+        suffix, sizes = question.suffix, [e[0].explanation.size for e in question.entries]
+        wanted = [*goal_externals(suffix.goal), *suffix.externals]
+        for number in numbers:
+            state = question.entries[number - 1][0].state
+            wanted.append(_external("available", number))
+            wanted += (_external("has", number, fluent) for fluent in state & self._inertial)
+            dearer = sizes[number - 1] - min(sizes)
+            wanted += (_external("price", number, more) for more in range(1, dearer + 1))
+        self._session.switch_on(*wanted)
 
-    def _read(self, question: _Question, model: clingo.Model) -> Interpretation:
-        """The interpretation of the whole history, but for how it began and its exceptions."""
-        session, first = question.session, question.frontier.step
-        end = interpretation(session, model, question.suffix, self._knowledge, ())
-        prefix = next(
-            prefixes[0]
-            for number, (_, prefixes) in enumerate(question.entries, start=1)
-            if is_true(model, session.literal("from", number))
-        )
-        held = frozenset(first + step for step in end.held).union(prefix.steps_held)
-        whole = prefix.followed_by(end.explanation, first)
-        return Interpretation(whole, frozenset(), end.state, held)
+    def _at_most(self, question: _Question, size: int) -> list[int]:
+        """Assumptions for at most so many events and distrusted reports in the whole history."""
+        room, step = size - question.frontier.least, question.suffix.step
+        more = self._session.literal("count", step, room + 1) if room < MOST_MORE else None
+        return question.given if more is None else [*question.given, -more]
+
+    @cached_property
+    def _inertial(self) -> frozenset[str]:
+        return frozenset(self._knowledge.description.inertial)
 
     @cached_property
     def _session(self) -> Session:
@@ -159,54 +170,10 @@ class SuffixExplanations:
         )
 
 
-@dataclass(frozen=True)
-class _Question:
-    """A session switched to the end of a history, and what the frontier's entries lead to.
-
-    `entries` are in the order of their explanations, numbered from 1; `most` is the size up to
-    which they are complete. `given` are assumptions for all that was observed.
-    """
-
-    session: Session
-    frontier: Frontier
-    suffix: Problem
-    most: int
-    entries: Sequence[tuple[State, Sequence[PrefixExplanation]]]
-    given: list[int]
-    inertial: Sequence[str]
-
-    def at_most(self, size: int) -> list[int]:
-        """Assumptions for at most so many events and distrusted reports in the whole history."""
-        room = size - self.frontier.least
-        more = (
-            self.session.literal("count", self.suffix.step, room + 1) if room < MOST_MORE else None
-        )
-        return self.given if more is None else [*self.given, -more]
-
-    def offering(self, entries: Iterable[int]) -> set[int]:
-        """The externals that make these entries available, with their states and prices."""
-        session, wanted = self.session, set[int | None]()
-        for entry in entries:
-            state, prefixes = self.entries[entry - 1]
-            wanted.add(session.literal("available", entry))
-            wanted |= {session.literal("has", entry, f) for f in self.inertial if f in state}
-            dearer = prefixes[0].size - self.frontier.least
-            wanted |= {session.literal("price", entry, number) for number in range(1, dearer + 1)}
-        return {literal for literal in wanted if literal is not None}
-
-    @property
-    def alike(self) -> list[list[int]]:
-        """The numbers of the entries, grouped by which reports they distrust, in order."""
-        numbered = enumerate(self.entries, start=1)
-        groups = groupby(numbered, key=lambda entry: entry[1][1][0].distrusts)
-        return [[number for number, _ in group] for _, group in groups]
-
-    def trust(self, model: clingo.Model) -> Iterator[int]:
-        """Assumptions: the same reports and attempts are distrusted as in a model."""
-        for step, action in self.suffix.distrustable:
-            literal = self.session.literal("distrusted", action, step)
-            if literal is not None:
-                yield literal if model.is_true(literal) else -literal
+def _entry(shown: Sequence[Symbol]) -> int:
+    """Which entry an explanation goes on from."""
+    (number,) = (symbol.arguments[0].number for symbol in shown if symbol.match("from", 1))
+    return number
 
 
 def _with_room(rank: Symbol) -> Symbol:

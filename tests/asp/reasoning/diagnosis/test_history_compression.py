@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from dataclasses import replace
+from unittest.mock import patch
 
 import pytest
 from hypothesis import given, settings
@@ -19,16 +20,16 @@ from asp.reasoning.diagnosis import (
     incremental,
 )
 from asp.reasoning.diagnosis.encoding import Interpretation, Problem
-from asp.reasoning.diagnosis.long_histories import prefixes
-from asp.reasoning.diagnosis.long_histories.prefixes import Frontier
+from asp.reasoning.diagnosis.long_histories import frontier
+from asp.reasoning.diagnosis.long_histories.frontier import Frontier
 from asp.reasoning.diagnosis.long_histories.suffixes import SuffixExplanations
 from asp.reasoning.knowledge import knowledge
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.asp.reasoning.diagnosis.wandering import Habits, wander
 
-USUAL = Compression()
-WHOLE = Compression(after=1_000_000)
-TINY = Compression(after=4, lag=3, margin=1, most=64, kept=3, work=400)
+USUAL = Compression(after=32)
+WHOLE = None
+TINY = Compression(after=4, lag=3, margin=1, most=64, kept=3, answers=400)
 GOAL = ("loc(book1,library)", "-in_hand(rob1,book1)")
 PLACES = {"office": OFFICE, "library": place("library")}
 
@@ -45,7 +46,8 @@ class Mind:
 
     def __init__(self, where: Place, compression: Compression | None) -> None:
         sessions = sessions_of(knowledge(where.domain, where.source)).diagnosis
-        self.diagnoser = IncrementalDiagnoser(sessions, GOAL, 1, Unused(), compression)
+        with patch.object(incremental, "COMPRESSION", compression):
+            self.diagnoser = IncrementalDiagnoser(sessions, GOAL, 1, Unused())
         self.adopted = Explanation()
 
     def think(self, history: History) -> tuple[object, ...]:
@@ -62,8 +64,8 @@ class Mind:
     @property
     def compressed(self) -> int:
         """The step up to which its history is compressed."""
-        compressed = self.diagnoser.compressed
-        return compressed.step if compressed else 0
+        known = self.diagnoser.frontier
+        return known.step if known else 0
 
 
 def compare(where: Place, steps: int, seed: int, habits: Habits, compression: Compression) -> int:
@@ -136,7 +138,7 @@ LATE = Habits(event=0.1, reported=0.9, false_report=0.0, late=12, looks=0.5)
         pytest.param("office", 40, 13, LIVELY, replace(TINY, margin=2), id="many events"),
         pytest.param("office", 50, 14, LATE, TINY, id="news of what was compressed"),
         pytest.param(
-            "office", 40, 15, LIVELY, replace(TINY, work=20), id="hardly time to compress"
+            "office", 40, 15, LIVELY, replace(TINY, answers=20), id="hardly time to compress"
         ),
         pytest.param("library", 30, 16, LIVELY, replace(TINY, most=3), id="hardly room for states"),
     ],
@@ -221,7 +223,7 @@ def test_news_of_the_selection_of_the_goal_stays_false_in_the_compressed_past() 
 
 
 def test_what_is_forgotten_of_transitions_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(prefixes, "REMEMBERED", 3)
+    monkeypatch.setattr(frontier, "REMEMBERED", 3)
     assert compare(OFFICE, 40, 13, LIVELY, TINY) > 0
 
 
@@ -231,18 +233,7 @@ def test_a_life_of_a_thousand_steps_keeps_little() -> None:
     sizes = []
     for history in wander(OFFICE, GOAL, 1_000, 17, TOLD):
         mind.think(history)
-        compressed = mind.diagnoser.compressed
-        sizes.append(compressed.size if compressed else 0)
+        known = mind.diagnoser.frontier
+        sizes.append(known.size if known else 0)
     assert mind.compressed > 900
-    assert max(sizes) <= prefixes.REMEMBERED + USUAL.most * (USUAL.kept + 1)
-
-
-@pytest.mark.parametrize("is_on", [True, False])
-def test_compression_is_switched_in_one_place(is_on: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    if not is_on:
-        monkeypatch.setattr(incremental, "COMPRESSION", None)
-    mind, whole = Mind(OFFICE, None), Mind(OFFICE, WHOLE)
-    for history in wander(OFFICE, GOAL, 60, 11, QUIET):
-        theirs = whole.think(copy.deepcopy(history))
-        assert mind.think(history) == theirs
-    assert (mind.compressed > 0) == is_on
+    assert max(sizes) <= frontier.REMEMBERED + USUAL.most * (USUAL.kept + 1)
