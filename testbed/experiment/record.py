@@ -9,7 +9,7 @@ from typing import Annotated, Literal, NamedTuple, TypeAlias, get_args
 
 import msgspec
 
-from testbed.protocol import Count, Minimality, NoPlan
+from testbed.protocol import Contradiction, Count, Minimality, NoPlan
 
 Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
@@ -72,14 +72,6 @@ class At(msgspec.Struct):
     action: str
 
 
-class Contradicted(msgspec.Struct):
-    """What was observed at a step, and what was believed of it."""
-
-    step: Count
-    observed: str
-    believed: str
-
-
 class Explained(msgspec.Struct):
     """An explanation that the robot adopted at `step`, and why it needed one.
 
@@ -93,7 +85,7 @@ class Explained(msgspec.Struct):
     unobserved: list[At]
     exceptions: list[str]
     distrusted: list[At] = []
-    contradictions: list[Contradicted] = []
+    contradictions: list[Contradiction] = []
     alternatives: Count = 0
     more_alternatives: bool = False
     minimal: Minimality = "proved"

@@ -12,18 +12,14 @@ from testbed.experiment.record import (
     At,
     Attempt,
     Cause,
-    Contradicted,
     Explained,
     FineCounts,
-    Minimal,
-    Occurrence,
     Outcome,
-    Rejected,
     Report,
     TrialRecord,
 )
 from testbed.experiment.specs import TrialSpec
-from testbed.protocol import Decision, Event, Explanation, FineTrace, NoPlan, Trace, shortened
+from testbed.protocol import Decision, Event, Explanation, FineTrace, Trace, shortened
 
 GIVEN = ("pair", "scenario", "seed", "robot", "domain", "level", "initial", "goal")
 """Keys of a record that follow from the plan."""
@@ -41,22 +37,24 @@ class Result(msgspec.Struct):
 
 
 class Recorder:
-    """The record of the trial under way, complete up to the last step that was played."""
+    """The record of the trial under way, complete up to the last step that was played.
 
-    def __init__(self, record: TrialRecord) -> None:
-        self.record = record
-        self._believes_goal = False
-        self._last_reason: str | None = None
-        self._no_plan: NoPlan | None = None
+    At the fine resolution its actions are the abstract ones. The robot says which concrete actions
+    belong to which; whether an abstract action happened is what the robot inferred of it. One that
+    the trial ends in the middle of did not happen.
+    """
 
-    def minimal(self, least: Minimal) -> None:
-        """The least that achieves the goal from the initial state."""
-        record = self.record
-        record.minimal_actions, record.minimal_units, record.minimal_reason = least
+    def __init__(self, spec: TrialSpec) -> None:
+        fine = spec.setting.fine
+        self.record = blank_record(spec)
+        # Whether every action and every test comes out as it should.
+        self._certain = fine is None or all(p == 1.0 for p in fine.statistics.values())
+        self._last: Decision | None = None
 
     def step(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
         """What the robot decided; `happened` is None unless it attempted a physical action."""
         record, trace = self.record, decision.trace
+        self._last = decision
         record.steps = decision.step
         record.plans = max(record.plans, trace.plans)
         record.planning_time_s += trace.planning_time_s
@@ -66,28 +64,37 @@ class Recorder:
         record.diagnosis_cpu_s += trace.diagnosis_cpu_s
         record.preparation_cpu_s += trace.preparation_cpu_s
         record.deadline = record.deadline or trace.deadline
-        self._believes_goal = decision.believes_goal
-        self._last_reason, self._no_plan = trace.reason or None, trace.no_plan
-        self._acted(decision, happened, costs)
-        self._mind(decision.step, decision.action, trace)
-
-    def _acted(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
-        if decision.action not in (WAIT, FINISH):
-            self._attempt(decision.step, decision.action, bool(happened), costs)
+        if record.fine is None:
+            if decision.action not in (WAIT, FINISH):
+                self._attempt(decision.step, decision.action, bool(happened), costs)
+        elif trace.fine is not None:
+            self._acted(decision.step, trace.fine, record.fine, costs)
+        mental = FINISH if decision.action == FINISH else trace.mental
+        if mental is not None:
+            record.mental.append(At(decision.step, mental))
+        if trace.explanation is not None:
+            record.explanations.append(_explained(decision.step, trace, trace.explanation))
+        self._activity(decision.step, trace)
 
     def _attempt(self, step: int, action: str, happened: bool, costs: Mapping[str, int]) -> None:
         self.record.actions.append(Attempt(step, action, happened))
         self.record.action_count += 1
         self.record.execution_units += costs.get(action, 0)
 
-    def _mind(self, step: int, action: str, trace: Trace) -> None:
-        record = self.record
-        mental = FINISH if action == FINISH else trace.mental
-        if mental is not None:
-            record.mental.append(At(step, mental))
-        if trace.explanation is not None:
-            record.explanations.append(_explained(step, trace, trace.explanation))
-        self._activity(step, trace)
+    def _acted(
+        self, step: int, fine: FineTrace, counts: FineCounts, costs: Mapping[str, int]
+    ) -> None:
+        """What was done at the fine resolution."""
+        if fine.happened and self.record.actions:
+            self.record.actions[-1].happened = True
+        if fine.begun == step:
+            self._attempt(step, fine.abstract, False, costs)
+        counts.plans, counts.actions, counts.tests = fine.plans, fine.actions, fine.tests
+        counts.planning_time_s += fine.planning_time_s
+        counts.infer_time_s += fine.infer_time_s
+        counts.planning_cpu_s += fine.planning_cpu_s
+        counts.infer_cpu_s += fine.infer_cpu_s
+        self.record.reasoning_time_s += counts.planning_time_s + counts.infer_time_s
 
     def _activity(self, step: int, trace: Trace) -> None:
         """Follow the activities; a robot without mental actions begins one with each plan."""
@@ -102,10 +109,6 @@ class Recorder:
         elif not kind and trace.plans > len(activities):
             activities.append(Activity(trace.plans, step, list(trace.plan)))
 
-    def exogenous(self, step: int, action: str) -> None:
-        """An exogenous action that took effect at `step`."""
-        self.record.exogenous.append(Occurrence(step, action, observed=False))
-
     def report(self, told: int, event: Event) -> None:
         """What the robot is told at step `told`; after what truly happened was recorded."""
         happened = [
@@ -115,47 +118,29 @@ class Recorder:
             occurrence.observed = True
         self.record.reports.append(Report(told, event.step, event.action, bool(happened)))
 
-    def achieved(self, truly: bool) -> None:
-        """Whether the goal holds in the world where the trial stops, whatever stops it."""
-        self.record.achieved = truly
-
-    def in_reach(self, still: bool | None) -> None:
-        """Whether the goal could still be achieved where the trial ended; None: not known."""
-        self.record.in_reach = still
-
     def end(self, ending: Ending) -> None:
-        """The end of the game; after `achieved` and `minimal`."""
-        record = self.record
+        """The end of the game; after the record has `achieved` and the fewest actions."""
+        record, last = self.record, self._last
         record.finished = ending is not Ending.STEP_LIMIT
-        record.outcome = self._outcome(ending)
-        if record.outcome == "gave_up":
-            record.reason, record.no_plan = record.reason or self._last_reason, self._no_plan
-        record.correct = (
-            record.achieved and record.finished and (self._disturbed() or self._is_minimal())
-        )
-
-    def _outcome(self, ending: Ending) -> Outcome:
         if ending is Ending.STEP_LIMIT:
-            return "step_limit"
-        if ending is Ending.ACHIEVED:
-            return "achieved"
-        return "false_finish" if self._believes_goal else "gave_up"
-
-    def _disturbed(self) -> bool:
-        return bool(self.record.exogenous)
+            record.outcome = "step_limit"
+        elif ending is Ending.ACHIEVED:
+            record.outcome = "achieved"
+        elif last is not None and last.believes_goal:
+            record.outcome = "false_finish"
+        else:
+            record.outcome = "gave_up"
+            if last is not None:
+                record.reason = record.reason or last.trace.reason or None
+                record.no_plan = last.trace.no_plan
+        record.correct = record.achieved and record.finished and self._is_minimal()
 
     def _is_minimal(self) -> bool | None:
-        """Whether the fewest actions were taken; None where these are not known."""
+        """Whether undisturbed it took the fewest actions; None where these are not known."""
+        if self.record.exogenous or not self._certain:
+            return True
         least = self.record.minimal_actions
         return None if least is None else self.record.action_count == least
-
-    def rejected(self, step: int, action: str, reason: str) -> None:
-        """An exogenous action of the script that was not possible at `step`."""
-        self.record.rejected.append(Rejected(step, action, shortened(reason)))
-
-    def note(self, reason: str) -> None:
-        """What is to be known of a trial that was played to its end."""
-        self.record.reason = reason
 
     def fail(self, outcome: Outcome, reason: str, cause: Cause) -> None:
         """The trial could not be played to its end; only of the robot's own error it is judged."""
@@ -170,65 +155,19 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
         [At(event.step, event.action) for event in explanation.unobserved],
         list[str](explanation.exceptions),
         distrusted=[At(event.step, event.action) for event in explanation.distrusted],
-        contradictions=[Contradicted(c.step, c.observed, c.believed) for c in trace.contradictions],
+        contradictions=trace.contradictions,
         alternatives=len(trace.alternatives),
         more_alternatives=trace.more_alternatives,
         minimal=explanation.minimal,
     )
 
 
-class FineRecorder(Recorder):
-    """The record of a trial at the fine resolution: its actions are the abstract ones.
-
-    The robot says which concrete actions belong to which; whether an abstract action happened is
-    what the robot inferred of it. One that the trial ends in the middle of did not happen.
-    """
-
-    def __init__(self, record: TrialRecord, counts: FineCounts, certain: bool) -> None:
-        """`certain`: whether every action and every test comes out as it should."""
-        super().__init__(record)
-        self._counts = counts
-        self._certain = certain
-
-    def _acted(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
-        del happened  # of a concrete action, which is told from what came of the abstract one
-        fine = decision.trace.fine
-        if fine is None:
-            return
-        if fine.happened and self.record.actions:
-            self.record.actions[-1].happened = True
-        if fine.begun == decision.step:
-            self._attempt(fine.begun, fine.abstract, False, costs)
-        self._count(fine)
-
-    def _disturbed(self) -> bool:
-        return not self._certain or super()._disturbed()
-
-    def _count(self, fine: FineTrace) -> None:
-        counts = self._counts
-        counts.plans, counts.actions, counts.tests = fine.plans, fine.actions, fine.tests
-        counts.planning_time_s += fine.planning_time_s
-        counts.infer_time_s += fine.infer_time_s
-        counts.planning_cpu_s += fine.planning_cpu_s
-        counts.infer_cpu_s += fine.infer_cpu_s
-        self.record.reasoning_time_s += counts.planning_time_s + counts.infer_time_s
-
-
 def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
     """The result of a trial whose worker process ended in the middle of it."""
-    recorder = recorder_of(spec)
+    recorder = Recorder(spec)
     reason = f"worker process ended with exit code {exit_code}"
     recorder.fail("error", reason, "infrastructure")
     return Result(recorder.record)
-
-
-def recorder_of(spec: TrialSpec) -> Recorder:
-    """The recorder of a trial, at its resolution."""
-    record, fine = blank_record(spec), spec.setting.fine
-    if fine is None or record.fine is None:
-        return Recorder(record)
-    certain = all(probability == 1.0 for probability in fine.statistics.values())
-    return FineRecorder(record, record.fine, certain)
 
 
 def blank_record(spec: TrialSpec) -> TrialRecord:

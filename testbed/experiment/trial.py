@@ -6,13 +6,15 @@ import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Script, Sight
 from testbed.environment import NONE, Core, IllegalActionError
 from testbed.experiment.encoding import check
-from testbed.experiment.recorder import Recorder, Result, recorder_of
+from testbed.experiment.record import Occurrence, Rejected
+from testbed.experiment.recorder import Recorder, Result
 from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import setup_of
@@ -25,6 +27,7 @@ from testbed.protocol import (
     RobotLost,
     RobotStopped,
     in_one_line,
+    shortened,
 )
 from testbed.text.wording import listed
 
@@ -54,7 +57,7 @@ Watch = Callable[[Moment], None]
 
 def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None) -> Result:
     """The result of a trial. A lost robot and any error end in the record, never in a raise."""
-    recorder = recorder_of(spec)
+    recorder = Recorder(spec)
     started = time.perf_counter()
     details: str | None = None
     try:
@@ -70,27 +73,21 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
     except Exception as error:  # whatever it is, it is this trial's outcome and not the run's
         recorder.fail("error", in_one_line(error), "testbed")
         details = traceback.format_exc()
-    recorder = _checked(recorder, spec)
+    try:
+        check(recorder.record)
+    except msgspec.ValidationError as error:  # one that cannot be written says this, and no more
+        recorder = Recorder(spec)
+        recorder.fail("robot_lost", f"{NOT_UNDERSTOOD}: {error}", "robot")
     recorder.record.wall_time_s = time.perf_counter() - started
     return Result(recorder.record, details and details[-MOST_DETAILS:])
 
 
-def _checked(recorder: Recorder, spec: TrialSpec) -> Recorder:
-    """The recorder, or where its record cannot be written one that says so and is else empty."""
-    try:
-        check(recorder.record)
-    except msgspec.ValidationError as error:
-        recorder = recorder_of(spec)
-        recorder.fail("robot_lost", f"{NOT_UNDERSTOOD}: {error}", "robot")
-    return recorder
-
-
 def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch | None) -> None:
-    setup, goal = setup_of(spec.setting), spec.setting.goal
+    setup, goal, record = setup_of(spec.setting), spec.setting.goal, recorder.record
     for_world, for_adversary, for_robot = seeds_within(spec.seed)
     core = setup.core(spec.setting)
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
-    start, most_states = core.situation.state, spec.setting.judge_states
+    least = partial(setup.judge.minimal, core.situation.state, goal, spec.setting.judge_states)
     adversary = setup.adversary(spec)
     adversary.reset(for_adversary)
     try:
@@ -99,20 +96,20 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
             moment = _step(core, client, adversary, recorder, setup.costs)
             if watch is not None:
                 watch(moment)
-    except RobotLost as loss:
-        if not isinstance(
-            loss, RobotGone
-        ):  # its own error: the trial counts if the goal has a plan
-            recorder.minimal(setup.judge.minimal(start, goal, most_states))
+    except RobotGone:
+        raise
+    except RobotLost:  # its own error: the trial counts if the goal has a plan
+        record.minimal_actions, record.minimal_units, record.minimal_reason = least()
         raise
     finally:
-        recorder.achieved(core.achieved)
-    recorder.minimal(setup.judge.minimal(start, goal, most_states))
+        record.achieved = core.achieved
+    record.minimal_actions, record.minimal_units, record.minimal_reason = least()
     recorder.end(core.situation.ending)
     if not core.achieved:
-        recorder.in_reach(setup.judge.in_reach(core.situation.state, goal, most_states))
+        state = core.situation.state
+        record.in_reach = setup.judge.in_reach(state, goal, spec.setting.judge_states)
     if isinstance(adversary, Script) and (left := adversary.unreached(core.situation.step)):
-        recorder.note(f"script {listed(left)} {'were' if len(left) > 1 else 'was'} not reached")
+        record.reason = f"script {listed(left)} {'were' if len(left) > 1 else 'was'} not reached"
 
 
 def _step(
@@ -122,7 +119,7 @@ def _step(
     recorder: Recorder,
     costs: Mapping[str, int],
 ) -> Moment:
-    before, percept = core.situation, core.percept
+    before, percept, record = core.situation, core.percept, recorder.record
     decision = client.ask(percept)
     if decision.action not in core.robot_actions:
         raise RobotLost(f"answered '{decision.action}', which is not an action")
@@ -130,13 +127,13 @@ def _step(
     skipped = adversary.skipped if isinstance(adversary, Script) else ()
     for impossible in skipped:
         why = core.why_not(decision.action, impossible) or f"beside {event}"
-        recorder.rejected(before.step, impossible, why)
+        record.rejected.append(Rejected(before.step, impossible, shortened(why)))
     core.advance(decision.action, event)
     after = core.situation
     recorder.step(decision, after.happened, costs)
     exogenous = None if event == NONE else event
     if exogenous is not None:
-        recorder.exogenous(before.step, exogenous)
+        record.exogenous.append(Occurrence(before.step, exogenous, observed=False))
     for report in after.told:
         recorder.report(after.step, report)
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state, skipped)

@@ -12,13 +12,13 @@ from testbed.experiment.record import (
     Activity,
     At,
     Attempt,
-    Contradicted,
     Explained,
     FineCounts,
     Occurrence,
     Report,
 )
 from testbed.experiment.store import read_records
+from testbed.protocol import Contradiction
 from tests.experiment.samples import a_record
 
 ONE, OTHER = a_record("a"), a_record("b", outcome="gave_up")
@@ -78,7 +78,7 @@ def _explained(**more: object) -> str:
 
 
 def test_of_an_explanation_only_what_it_assumes_counts() -> None:
-    whys = [Contradicted(3, "loc(a,b)", "loc(a,c)")]
+    whys = [Contradiction(step=3, observed="loc(a,b)", believed="loc(a,c)")]
     assert _explained(contradictions=whys, alternatives=2, more_alternatives=True) == _explained()
     assert _explained(distrusted=[At(1, "event")]) != _explained()
 
