@@ -54,10 +54,10 @@ class Judge:
     ) -> tuple[int | None, MinimalReason | None]:
         """The fewest actions; where they are not known, why."""
         try:
-            actions = minimal_actions(*self._problem(state, goal), most_states)
+            plan = cheapest_plan(*self._problem(state, goal), most_states=most_states)
         except BudgetError:
             return None, "budget"
-        return actions, "no plan" if actions is None else None
+        return (None, "no plan") if plan is None else (len(plan), None)
 
     def _minimal(self, state: int, goal: Goal, most_states: int) -> Minimal:
         """The least that achieves the goal from the state.
@@ -68,60 +68,31 @@ class Judge:
         if actions is None:
             return Minimal(None, None, reason)
         try:
-            units = minimal_units(*self._problem(state, goal), self._costs, most_states)
+            plan = cheapest_plan(*self._problem(state, goal), self._costs, most_states)
         except BudgetError:
-            units = None
-        return Minimal(actions, units, None)
+            return Minimal(actions, None, None)
+        return Minimal(actions, sum(self._costs.get(own, 0) for own in plan or ()), None)
 
 
 class BudgetError(RuntimeError):
     """A search would have to look at more states than its budget allows."""
 
 
-def shortest_plan(
-    world: World, initial: int, goal: Iterable[str], most_states: int | None = None
-) -> tuple[str, ...] | None:
-    """A plan with the fewest robot actions from `initial` to a state of `goal`; None if none.
-
-    Raises BudgetError where more than `most_states` states would have to be expanded.
-    """
-    alike: dict[str, int] = dict.fromkeys(world.agent_actions, 1)
-    return _cheapest(world, initial, goal, alike, most_states)
-
-
-def minimal_actions(
-    world: World, initial: int, goal: Iterable[str], most_states: int | None = None
-) -> int | None:
-    """Length of a shortest plan, or None where the goal cannot be reached. Raises BudgetError."""
-    plan = shortest_plan(world, initial, goal, most_states)
-    return None if plan is None else len(plan)
-
-
-def minimal_units(
+def cheapest_plan(
     world: World,
     initial: int,
     goal: Iterable[str],
-    costs: Mapping[str, int],
+    costs: Mapping[str, int] | None = None,
     most_states: int | None = None,
-) -> int | None:
-    """Execution units of a cheapest plan, or None where the goal cannot be reached.
-
-    What has no cost costs 0. Raises BudgetError.
-    """
-
-    plan = _cheapest(world, initial, goal, costs, most_states)
-    return None if plan is None else sum(costs.get(action, 0) for action in plan)
-
-
-def _cheapest(
-    world: World,
-    initial: int,
-    goal: Iterable[str],
-    costs: Mapping[str, int],
-    most_states: int | None,
 ) -> tuple[str, ...] | None:
-    """Of the cheapest plans the one that is found first."""
+    """Of the cheapest plans of robot actions to a state of `goal` the first; None if none.
+
+    What has no cost costs 0; without costs the plan is one with the fewest actions. Raises
+    BudgetError where more than `most_states` states would have to be expanded.
+    """
     wanted, number = tuple(goal), count()
+    alike: dict[str, int] = dict.fromkeys(world.agent_actions, 1)
+    price = alike if costs is None else costs
     heuristic: Heuristic = blind
     came_from: dict[int, tuple[int, str] | None] = {initial: None}
     least, expanded = {initial: 0}, 0
@@ -132,36 +103,35 @@ def _cheapest(
         if total - left > least[state]:
             continue
         if world.satisfies(state, wanted):
-            return tuple(_path(came_from, state))
+            return _path(came_from, state)
         if expanded == most_states:
             raise BudgetError(f"more than {most_states} states")
         expanded += 1
         for action, reached in world.moves(state):
-            spent = least[state] + costs.get(action, 0)
+            spent = least[state] + price.get(action, 0)
             if reached not in least or spent < least[reached]:
                 least[reached], came_from[reached] = spent, (state, action)
                 left = heuristic(reached)
                 heappush(frontier, (spent + left, left, next(number), reached))
         if expanded == UNINFORMED:
-            heuristic = _potentials(world).heuristic(initial, wanted, costs)
+            heuristic = _potentials(world).heuristic(initial, wanted, price)
             current = [(n, s) for total, _, n, s in frontier if total == least[s]]
             frontier = [(least[s] + (left := heuristic(s)), left, n, s) for n, s in current]
             heapify(frontier)
     return None
 
 
+def _path(came_from: Mapping[int, tuple[int, str] | None], state: int) -> tuple[str, ...]:
+    actions: list[str] = []
+    while (step := came_from[state]) is not None:
+        state, action = step
+        actions.append(action)
+    return tuple(reversed(actions))
+
+
 @lru_cache(maxsize=64)
 def _potentials(world: World) -> Potentials:
     return Potentials(world.description)
-
-
-def _path(came_from: Mapping[int, tuple[int, str] | None], last: int) -> list[str]:
-    actions: list[str] = []
-    step = came_from[last]
-    while step is not None:
-        actions.append(step[1])
-        step = came_from[step[0]]
-    return actions[::-1]
 
 
 class Narrowing:

@@ -16,6 +16,7 @@ from testbed.experiment.heuristic.potentials import Potentials, blind
 from testbed.experiment.resume import play_missing
 from testbed.world import World, load_world, world_of
 from tests.experiment.gardens import GARDEN
+from tests.oracle import minimal_units
 from tests.world.test_world_random import HEADER, laws
 
 Least = Mapping[int, int]
@@ -183,7 +184,7 @@ def check(world: World, goal: tuple[str, ...], costs: Mapping[str, int], starts:
                 assert heuristic(state) <= costs[action] + heuristic(after)
                 left += {after} - reached
                 reached.add(after)
-        assert judge.minimal_units(world, start, goal, costs) == least.get(start)
+        assert minimal_units(world, start, goal, costs) == least.get(start)
 
 
 @pytest.fixture
@@ -210,7 +211,7 @@ def test_from_every_state_of_the_office_the_least_is_the_same(goal: tuple[str, .
     for costs in measures(world):
         least = distances(world, goal, costs)
         for state in world.states():
-            assert judge.minimal_units(world, state, goal, costs) == least.get(state)
+            assert minimal_units(world, state, goal, costs) == least.get(state)
 
 
 @pytest.mark.usefixtures("at_once")

@@ -16,7 +16,6 @@ from agents.shared.sessions import Sessions, sessions_of
 from asp.language import parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent
-from testbed.experiment.judge import minimal_actions
 from testbed.protocol import Robot, Task
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
@@ -29,6 +28,7 @@ from tests.agents.intentional.lives import (
     live,
 )
 from tests.agents.intentional.test_incremental import Both
+from tests.oracle import minimal_actions
 
 STATES = list(WORLD.initial_states())
 EMPTY_HAND = ("-in_hand(rob1,book1)", "-in_hand(rob1,book2)")

@@ -13,7 +13,6 @@ from agents.intentional.reference import ReferenceReasoner
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import GOAL, Explanation
 from asp.reasoning.knowledge import knowledge
-from testbed.experiment.judge import minimal_actions
 from tests.agents.intentional.lives import (
     DOMAIN,
     SOURCE,
@@ -21,6 +20,7 @@ from tests.agents.intentional.lives import (
     Wish,
     live,
 )
+from tests.oracle import minimal_actions
 
 STATES = list(WORLD.initial_states())
 GOAL_OF_ONE = ("loc(book2,office2)",)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from testbed.experiment.judge import minimal_actions
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
+from tests.oracle import minimal_actions
 
 STATES = list(WORLD.initial_states())
 
