@@ -22,7 +22,6 @@ from testbed.experiment.trial import play_trial
 from testbed.experiment.worker import Play
 from testbed.experiment.worker_pool import play_all, workers_for
 from testbed.link import connect
-from testbed.protocol import RobotClient
 
 
 @dataclass
@@ -77,57 +76,50 @@ def play_missing(
         run.workers = workers_for(len(missing)) if workers is None else workers
         notify(run)
         if missing:
-            _play(missing, config, _Filing(folder, writer, run, notify))
+            _play(missing, config, run, partial(_record, folder, writer, run), notify)
     return run
 
 
-def _play(missing: Sequence[TrialSpec], config: ExperimentConfig, filing: _Filing) -> None:
+def _play(
+    missing: Sequence[TrialSpec],
+    config: ExperimentConfig,
+    run: RunStatus,
+    record: Callable[[Result], None],
+    notify: Notify,
+) -> None:
+    """Put results on record in the order of the plan, whatever the order in which they come."""
     open_player = partial(player, config.link, config.name, config.limits.answer_s)
-    results = play_all(missing, filing.run.workers, open_player)
+    results = play_all(missing, run.workers, open_player)
+    early: dict[int, Result] = {}
+    turn = 0
     try:
         for position, result in results:
-            filing.take(position, result)
+            early[position] = result
+            while turn in early:
+                record(early.pop(turn))
+                turn += 1
+            run.done += 1
+            run.failed += result.record.outcome in FAILURES
+            notify(run)
     except KeyboardInterrupt:
-        filing.run.interrupted = True
+        run.interrupted = True
     finally:
         results.close()
-        filing.flush()
+        for position in sorted(early):  # on an interrupt their turn does not come any more
+            record(early[position])
 
 
-class _Filing:
-    """Puts results on record in the order of the plan, whatever the order in which they come."""
-
-    def __init__(self, folder: Path, writer: TrialWriter, run: RunStatus, notify: Notify) -> None:
-        self.run = run
-        self._folder, self._writer, self._notify = folder, writer, notify
-        self._early: dict[int, Result] = {}
-        self._next = 0
-
-    def take(self, position: int, result: Result) -> None:
-        self._early[position] = result
-        while self._next in self._early:
-            self._file(self._early.pop(self._next))
-            self._next += 1
-        self.run.done += 1
-        self.run.failed += result.record.outcome in FAILURES
-        self._notify(self.run)
-
-    def flush(self) -> None:
-        """File what came before its turn: on an interrupt its turn does not come any more."""
-        for position in sorted(self._early):
-            self._file(self._early.pop(position))
-
-    def _file(self, result: Result) -> None:
-        if result.record.outcome in FAILURES:
-            self.run.reason = self.run.reason or result.record.reason
-        self._writer.append(result.record)
-        details = self._folder / ERRORS / f"{result.record.trial}.txt"
-        if result.details:
-            details.parent.mkdir(exist_ok=True)
-            with naming(details):
-                details.write_text(result.details, "utf-8", "backslashreplace")
-        else:  # those of an earlier attempt
-            details.unlink(missing_ok=True)
+def _record(folder: Path, writer: TrialWriter, run: RunStatus, result: Result) -> None:
+    if result.record.outcome in FAILURES:
+        run.reason = run.reason or result.record.reason
+    writer.append(result.record)
+    details = folder / ERRORS / f"{result.record.trial}.txt"
+    if result.details:
+        details.parent.mkdir(exist_ok=True)
+        with naming(details):
+            details.write_text(result.details, "utf-8", "backslashreplace")
+    else:  # those of an earlier attempt
+        details.unlink(missing_ok=True)
 
 
 @contextmanager
@@ -138,8 +130,4 @@ def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
         RobotLost: when a robot of another process does not start.
     """
     with connect(link, make_robot, run, answer_s, group=os.getpgrp()) as robot:
-        yield partial(_play_with, robot)
-
-
-def _play_with(client: RobotClient, spec: TrialSpec) -> Result:
-    return play_trial(spec, client)
+        yield lambda spec: play_trial(spec, robot)

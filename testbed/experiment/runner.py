@@ -44,11 +44,7 @@ def run(
     """
     folder = choose_folder(folder, config.name, resume)
     with locked(folder):
-        return run_in(folder, config, workers, _ignore, resume, retry_failed, sys.argv)
-
-
-def _ignore(_: RunStatus) -> None:
-    pass
+        return run_in(folder, config, workers, lambda _: None, resume, retry_failed, sys.argv)
 
 
 def run_in(
@@ -73,13 +69,9 @@ def run_in(
         provenance.close(BAD_INPUT, workers=0)
         raise
     except KeyboardInterrupt:  # while the trials were planned: none was played
-        played = _not_played(folder, config)
+        covered = coverage_of(places_of(folder), config)
+        planned = sum(covered.planned.values())
+        done = planned - sum(covered.missing.values())
+        played = RunStatus(planned, done, failed=0, workers=0, interrupted=True)
     provenance.close(played.exit_code, played.workers)
     return played
-
-
-def _not_played(folder: Path, config: ExperimentConfig) -> RunStatus:
-    covered = coverage_of(places_of(folder), config)
-    planned = sum(covered.planned.values())
-    done = planned - sum(covered.missing.values())
-    return RunStatus(planned, done, failed=0, workers=0, interrupted=True)

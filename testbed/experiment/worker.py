@@ -74,22 +74,20 @@ class Worker:
         self.ready = True
         return said
 
-    def kill(self) -> None:
-        """Kill the process and its robots."""
-        if self._process.pid is not None:
+    def leave(self, at_once: bool) -> None:
+        """Tell the process that nothing is left to play, or kill it with its robots."""
+        self.pipe.close()
+        if at_once and self._process.pid is not None:
             kill(self._process)
 
     def end(self, at_once: bool) -> int | None:
-        """End the process and return its exit code."""
-        self.pipe.close()
-        if self._process.pid is None:
-            return None
-        if at_once:
-            kill(self._process)
-        self._process.join(EXIT_S)
-        if self._process.exitcode is None:
-            kill(self._process)
-            self._process.join()
+        """End the process and return its exit code; None of one that did not start."""
+        self.leave(at_once)
+        if self._process.pid is not None:
+            self._process.join(EXIT_S)
+            if self._process.exitcode is None:
+                kill(self._process)
+                self._process.join()
         return self._process.exitcode
 
 

@@ -90,7 +90,8 @@ class _Crew:
     def __init__(self, specs: Sequence[TrialSpec], open_player: OpenPlayer) -> None:
         self._specs = specs
         self._open_player = open_player
-        self._pairs = deque(_by_pair(specs))
+        pairs = groupby(range(len(specs)), lambda position: specs[position].pair)
+        self._pairs = deque(list(positions) for _, positions in pairs)
         self._workers: list[Worker] = []
         self._retries = _Retries()
 
@@ -104,24 +105,21 @@ class _Crew:
                 yield from self._hear(awaited[pipe])
 
     def dismiss(self, at_once: bool) -> None:
-        if at_once:
-            for worker in self._workers:
-                worker.kill()
         for worker in self._workers:
-            worker.pipe.close()
+            worker.leave(at_once)
         for worker in self._workers:
             worker.end(at_once)
 
     def _awaited(self) -> dict[Connection, Worker]:
         """Those that play now, or will as soon as they are ready."""
+        awaited = {}
         for worker in self._workers:
             if worker.ready and worker.position is None:
                 self._give(worker)
-        return {w.pipe: w for w in self._workers if self._is_awaited(w)}
-
-    def _is_awaited(self, worker: Worker) -> bool:
-        waits = not worker.ready and bool(worker.next or self._pairs)
-        return waits or worker.position is not None
+            starts = not worker.ready and bool(worker.next or self._pairs)
+            if starts or worker.position is not None:
+                awaited[worker.pipe] = worker
+        return awaited
 
     def _give(self, worker: Worker) -> None:
         """The next of its pair, or the first of the next pair."""
@@ -132,11 +130,13 @@ class _Crew:
             worker.play(position, self._specs[position])
 
     def _horizon(self) -> int:
-        own = [[w.position] if w.position is not None else list(w.next)[:1] for w in self._workers]
-        return (
-            min((first for positions in own for first in positions), default=len(self._specs))
-            + AHEAD
-        )
+        """The first position that is too far ahead of what others are still to play."""
+        ahead = [
+            worker.next[0] if worker.position is None else worker.position
+            for worker in self._workers
+            if worker.next or worker.position is not None
+        ]
+        return min(ahead, default=len(self._specs)) + AHEAD
 
     def _hear(self, worker: Worker) -> Iterator[tuple[int, Result]]:
         position, was_ready = worker.position, worker.ready
@@ -162,9 +162,3 @@ class _Crew:
         heir.next = dead.next
         heir.start()
         return heir
-
-
-def _by_pair(specs: Sequence[TrialSpec]) -> Iterator[list[int]]:
-    """The positions of each pair, which stand one after the other."""
-    for _, own in groupby(range(len(specs)), lambda position: specs[position].pair):
-        yield list(own)
