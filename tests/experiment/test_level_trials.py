@@ -7,9 +7,9 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.digest import logical
-from testbed.experiment.narration import narrator_of
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord
+from testbed.experiment.replay import narrator_of
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.experiment.trial_setup import load_ground, setup_of

@@ -4,10 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from testbed.experiment.narration import Narrator
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.replay import list_trials, replay
+from testbed.experiment.replay import Narrator, list_trials, replay
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import TrialWriter
