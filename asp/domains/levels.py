@@ -65,31 +65,21 @@ def level_text(
     cells = {room: _numbered(room, size.rows * size.columns) for room in names}
     counts = [parts for count, parts in size.objects for _ in range(count)]
     things = {f"object{n}": _numbered(f"object{n}", p) for n, p in enumerate(counts, start=1)}
-    return _coarse(names, things), _fine(size, cells, things)
-
-
-def _numbered(whole: str, count: int) -> list[str]:
-    return [f"{whole}_{number}" for number in range(1, count + 1)]
-
-
-def _coarse(rooms: Sequence[str], objects: Mapping[str, Sequence[str]]) -> str:
-    facts = [f"next_to({one}, {other})." for one, other in pairwise(rooms)]
-    text = _sort(_sort(_packaged("level.al"), "room", rooms), "object", [*objects])
-    return _replaced(_FACTS, _lines(facts), text)
-
-
-def _fine(
-    size: LevelSize, cells: Mapping[str, Sequence[str]], objects: Mapping[str, Sequence[str]]
-) -> str:
-    components = [
-        f"{whole} = {{{', '.join(parts)}}}." for whole, parts in {**cells, **objects}.items()
-    ]
+    coarse = _with_sort(_with_sort(_packaged("level.al"), "room", names), "object", [*things])
+    wholes = (f"{whole} = {{{', '.join(parts)}}}." for whole, parts in (cells | things).items())
     ways = [
         *_doorways(size, cells),
         *(way for room in cells.values() for way in _steps(size, room)),
     ]
-    text = _replaced(_COMPONENTS, _lines(components), _packaged("level.fine"))
-    return _replaced(_FACTS, _lines(f"fine_next_to({one}, {other})." for one, other in ways), text)
+    fine = _with_section(_packaged("level.fine"), "components", wholes)
+    return (
+        _with_section(coarse, "facts", (f"next_to({a}, {b})." for a, b in pairwise(names))),
+        _with_section(fine, "facts", (f"fine_next_to({a}, {b})." for a, b in ways)),
+    )
+
+
+def _numbered(whole: str, count: int) -> list[str]:
+    return [f"{whole}_{number}" for number in range(1, count + 1)]
 
 
 def _steps(size: LevelSize, room: Sequence[str]) -> Pairs:
@@ -107,23 +97,21 @@ def _doorways(size: LevelSize, cells: Mapping[str, Sequence[str]]) -> Pairs:
         yield one[-1], other[-size.columns]
 
 
-_FACTS = re.compile(r"(?<=^facts\n)(?:^  [^\n]+\n)*", re.MULTILINE)
-_COMPONENTS = re.compile(r"(?<=^components\n)(?:^  [^\n]+\n)*", re.MULTILINE)
+def _with_sort(text: str, name: str, members: Sequence[str]) -> str:
+    return _replaced(
+        rf"(?<=^  ){name}( *)= {{[^}}]*}}", rf"{name}\1= {{{', '.join(members)}}}", text
+    )
 
 
-def _sort(text: str, name: str, members: Sequence[str]) -> str:
-    pattern = re.compile(rf"(?<=^  ){name}( *)= \{{[^}}]*\}}", re.MULTILINE)
-    return _replaced(pattern, rf"{name}\1= {{{', '.join(members)}}}", text)
+def _with_section(text: str, name: str, statements: Iterable[str]) -> str:
+    lines = "".join(f"  {statement}\n" for statement in statements)
+    return _replaced(rf"(?<=^{name}\n)(?:^  [^\n]+\n)*", lines, text)
 
 
-def _replaced(pattern: re.Pattern[str], by: str, text: str) -> str:
-    changed, count = pattern.subn(by, text)
-    assert count == 1, f"the packaged level has {count} places like {pattern.pattern}"
+def _replaced(pattern: str, by: str, text: str) -> str:
+    changed, count = re.subn(pattern, by, text, flags=re.MULTILINE)
+    assert count == 1, f"the packaged level has {count} places like {pattern}"
     return changed
-
-
-def _lines(statements: Iterable[str]) -> str:
-    return "".join(f"  {statement}\n" for statement in statements)
 
 
 def _packaged(name: str) -> str:

@@ -14,13 +14,7 @@ from asp.language.description import (
 )
 from asp.language.errors import Problems, SourceError, suggestion
 from asp.language.functions import Function, excluding_place, functions, schematic, subject
-from asp.language.grounding import (
-    Instances,
-    closed_world,
-    ground_description,
-    pattern_of,
-    static_truth,
-)
+from asp.language.grounding import closed_world, ground_description, pattern_of, static_truth
 from asp.language.literals import (
     Action,
     Fluent,
@@ -48,7 +42,6 @@ from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_n
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
 from asp.language.signature import Signature, signature_of
 from asp.language.stratification import check_cycles, reachable
-from asp.language.syntax import Source
 from asp.language.variable_sorts import variable_domains
 from asp.language.writer import atom_text, condition_text, text_of
 
@@ -64,7 +57,6 @@ __all__ = [
     "Facts",
     "Fluent",
     "Function",
-    "Instances",
     "Literal",
     "Literals",
     "Pattern",
@@ -73,7 +65,6 @@ __all__ = [
     "Sees",
     "Shows",
     "Signature",
-    "Source",
     "SourceError",
     "ToSyntax",
     "Trigger",

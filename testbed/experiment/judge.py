@@ -14,11 +14,11 @@ from itertools import count
 from asp.language import (
     Description,
     Signature,
-    Source,
     atom,
     ground_description,
     narrowed,
     restrict,
+    syntax,
     without_exogenous,
 )
 from asp.reasoning.relevance import Relevance
@@ -137,7 +137,9 @@ def _potentials(world: World) -> Potentials:
 class Narrowing:
     """Leaves out the constants of a large domain that no plan needs."""
 
-    def __init__(self, description: Description, source: Source, signature: Signature) -> None:
+    def __init__(
+        self, description: Description, source: syntax.Source, signature: Signature
+    ) -> None:
         self._name, self._source, self._signature = description.name, source, signature
         self._relevance = Relevance(without_exogenous(source, signature), signature)
         self._world = lru_cache(maxsize=64)(self._without)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
+from itertools import product
 from pathlib import Path
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.language import (
-    Instances,
     Problems,
     Signature,
     arguments,
@@ -20,6 +21,7 @@ from asp.language import (
     is_positive,
     signature_of,
     syntax,
+    variable_domains,
 )
 from asp.refinement import (
     Refinement,
@@ -127,7 +129,6 @@ class TestThePaperSExample:
 def rules(refinement: Refinement, transition: Transition, goal: list[str]) -> dict[int, set[str]]:
     """What each of the five rules makes relevant, read off the definition instance by instance."""
     coarse, declared = refinement.coarse, refinement.coarse_signature
-    every = Instances(coarse, declared, frozenset())
     before = {
         fluent if fluent in transition.before else complement(fluent)
         for fluent in refinement.description.fluents
@@ -135,7 +136,7 @@ def rules(refinement: Refinement, transition: Transition, goal: list[str]) -> di
     in_bodies = {
         literal
         for law in coarse.each(syntax.ExecutabilityCondition)
-        for binding in every.bindings(law)
+        for binding in bindings(law, declared)
         if transition.action in (said(action, binding) for action in law.actions)
         for part in law.body
         if isinstance(part, syntax.Literal)
@@ -148,6 +149,11 @@ def rules(refinement: Refinement, transition: Transition, goal: list[str]) -> di
         4: {constant for literal in in_bodies & before for constant in arguments(literal)},
         5: {constant for literal in goal for constant in arguments(literal)},
     }
+
+
+def bindings(law: syntax.Statement, signature: Signature) -> Iterator[dict[str, str]]:
+    domains = variable_domains(law, signature)
+    return (dict(zip(domains, row, strict=True)) for row in product(*domains.values()))
 
 
 def said(atom: syntax.Atom, binding: dict[str, str]) -> str:
