@@ -41,7 +41,7 @@ def _wall(run: Run) -> dict[str, Any]:
     own = [pair.no_zoom for name, _ in walled for pair in run.pairs.get(name, ())]
     return {
         "walled": walled,
-        "wall": {"ended": sum(trial.counts.achieved for trial in own), "trials": len(own)},
+        "wall": {"ended": sum(trial.achieved for trial in own), "trials": len(own)},
         "slowest": [
             _slowest([pair.no_zoom for pair in run.all_pairs], NO_ZOOM),
             _slowest([pair.zoom for pair in run.all_pairs], ZOOM),
@@ -56,7 +56,7 @@ def _slowest(trials: list[Trial], robot: str) -> dict[str, str]:
 
 
 def _reasoning(trial: Trial) -> float:
-    return trial.counts.seconds["total"]
+    return trial.seconds["total"]
 
 
 def _ratios(run: Run) -> dict[str, Any]:

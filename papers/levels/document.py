@@ -91,11 +91,11 @@ def _failures(run: Run) -> dict[str, Any]:
     ]
     return {
         "trials": len(trials),
-        "lost": sum(not trial.counts.played for _, _, trial in trials),
-        "out_of_reach": sum(trial.counts.out_of_reach for _, _, trial in trials),
+        "lost": sum(not trial.ended for _, _, trial in trials),
+        "out_of_reach": sum(trial.out_of_reach for _, _, trial in trials),
         "wrong": [
             {"level": level, "condition": who, "trial": own.trial, "outcome": own.outcome}
             for level, who, own in trials
-            if own.counts.decided and not own.counts.correct
+            if own.decided and not own.correct
         ],
     }

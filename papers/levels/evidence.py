@@ -79,13 +79,13 @@ def scatter(pairs: Iterable[Pair], robots: Sequence[str], part: str = "coarse") 
 
 def _ratio(pair: Pair, part: str) -> float:
     """No zoom / zoom; 0 where one of them is missing."""
-    below, above = pair.zoom.counts.seconds.get(part), pair.no_zoom.counts.seconds.get(part)
+    below, above = pair.zoom.seconds.get(part), pair.no_zoom.seconds.get(part)
     return above / below if above and below else 0.0
 
 
 def _zoom_first(pair: Pair, robots: Sequence[str]) -> bool:
     order = playing_order(pair.seed, robots)
-    return order.index(pair.zoom.counts.robot) < order.index(pair.no_zoom.counts.robot)
+    return order.index(pair.zoom.robot) < order.index(pair.no_zoom.robot)
 
 
 @dataclass(frozen=True)
@@ -108,10 +108,10 @@ def work(pairs: Sequence[Pair], level: str, paper: Paper) -> Work:
     trials = [pair.zoom for pair in pairs]
     fine = paper.seconds(level, ZOOM, "fine")
     one = paper.seconds(level, ZOOM, "refined_plan")
-    times = [t.counts.seconds["refined_plan"] for t in trials if "refined_plan" in t.counts.seconds]
+    times = [t.seconds["refined_plan"] for t in trials if "refined_plan" in t.seconds]
     return Work(
         abstract=fmean(len(trial.did) for trial in trials),
-        plans=fmean(trial.counts.plans for trial in trials),
+        plans=fmean(trial.plans for trial in trials),
         seconds=fmean(times) if times else 0.0,
         implied=None if fine is None or one is None else fine[0] / one[0],
         published=None if one is None else one[0],
@@ -136,8 +136,8 @@ class Surprise:
 def surprise(pairs: Sequence[Pair]) -> Surprise:
     """Count and average; `pairs` are not empty."""
     trials = [pair.zoom for pair in pairs]
-    calm = [trial.counts.seconds["coarse"] for trial in trials if not trial.explained]
-    others = [trial.counts.seconds["coarse"] for trial in trials if trial.explained]
+    calm = [trial.seconds["coarse"] for trial in trials if not trial.explained]
+    others = [trial.seconds["coarse"] for trial in trials if trial.explained]
     return Surprise(
         trials=len(trials),
         events=fmean(len(trial.events) for trial in trials),

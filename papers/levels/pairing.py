@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from testbed.experiment.record import TrialRecord
-from testbed.studies import joined
-from testbed.studies.levels.load import FineOutline, fine_outline
-from testbed.studies.levels.published import NO_ZOOM, ZOOM
+import polars as pl
+
+from testbed.analysis.pairs import OTHER, pairs_of
+from testbed.studies.levels.measures import ROBOTS, fine_trials
+from testbed.studies.levels.published import PARTS
 
 Meeting = Literal["nothing", "same", "longer", "other"]
 MEETINGS: Mapping[Meeting, str] = {
@@ -18,17 +19,21 @@ MEETINGS: Mapping[Meeting, str] = {
     "longer": "the same, and more to one of them after the other's trial had ended",
     "other": "other exogenous actions, or at other steps",
 }
+COLUMNS = ("trial", "robot", "outcome", "steps", "ended", "achieved", "out_of_reach", "tests")
 
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """What is kept of one robot's trial in a pair.
+    """What is kept of one robot's trial in a pair: see `fine_trials` of the study.
 
     `events` are the exogenous actions with the steps of the robot at which they happened; `did`
     its abstract actions with theirs; `explained` is how often it had to explain an observation.
+    `ended` is whether it came to its end without an error, `decided` whether it is known if it was
+    `correct`; `seconds` are by the names of PARTS.
     """
 
     trial: str
+    robot: str
     outcome: str
     steps: int
     initial: tuple[str, ...]
@@ -36,7 +41,15 @@ class Trial:
     events: tuple[tuple[int, str], ...]
     did: tuple[tuple[int, str], ...]
     explained: int
-    counts: FineOutline
+    ended: bool
+    achieved: bool
+    decided: bool
+    correct: bool
+    out_of_reach: bool
+    plans: int
+    actions: int
+    tests: int
+    seconds: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +64,7 @@ class Pair:
     @property
     def achieved(self) -> bool:
         """Whether both robots achieved the goal."""
-        return self.zoom.counts.achieved and self.no_zoom.counts.achieved
+        return self.zoom.achieved and self.no_zoom.achieved
 
     @property
     def meeting(self) -> Meeting:
@@ -70,27 +83,44 @@ class Pair:
         return _work(self.zoom) == _work(self.no_zoom)
 
 
-def _work(trial: Trial) -> tuple[object, ...]:
-    own = trial.counts
-    return trial.steps, trial.did, own.plans, own.actions, own.tests
+def _work(own: Trial) -> tuple[object, ...]:
+    return own.steps, own.did, own.plans, own.actions, own.tests
 
 
-def pairs_of(records: Iterable[TrialRecord]) -> Iterator[Pair]:
-    """The pairs of the two conditions, as they become complete; others' records are passed over."""
-    for zoom, no_zoom in joined((own for own in records if own.fine), (ZOOM, NO_ZOOM)):
-        yield Pair(zoom.level, zoom.seed, _trial(zoom), _trial(no_zoom))
+def pairs_in(trials: pl.DataFrame) -> Iterator[Pair]:
+    """The pairs of the two conditions in a run's trials, as they become complete."""
+    own = trials.filter(pl.col("fine").is_not_null())
+    further = own.select(
+        "trial",
+        "seed",
+        "steps",
+        "initial",
+        "goal",
+        "explanations",
+        events="exogenous",
+        did="actions",
+    )
+    rows = fine_trials(own).join(further, on="trial", maintain_order="left")
+    for row in pairs_of(rows, ROBOTS).iter_rows(named=True):
+        yield Pair(row["level"], row["seed"], _trial(row, OTHER), _trial(row, ""))
 
 
-def _trial(record: TrialRecord) -> Trial:
-    assert record.fine is not None
+def _trial(row: Mapping[str, Any], who: str) -> Trial:
+    own = {name: row[name + who] for name in COLUMNS}
+    events, did = (
+        tuple((at["step"], at["action"]) for at in row[name + who]) for name in ("events", "did")
+    )
+    seconds = {part: row[part + who] for part in PARTS}
     return Trial(
-        trial=record.trial,
-        outcome=record.outcome,
-        steps=record.steps,
-        initial=tuple(record.initial),
-        goal=tuple(record.goal),
-        events=tuple((event.step, event.action) for event in record.exogenous),
-        did=tuple((attempt.step, attempt.action) for attempt in record.actions),
-        explained=len(record.explanations),
-        counts=fine_outline(record, record.fine),
+        **own,
+        initial=tuple(row["initial" + who]),
+        goal=tuple(row["goal" + who]),
+        events=events,
+        did=did,
+        explained=len(row["explanations" + who]),
+        decided=row["correct" + who] is not None,
+        correct=row["correct" + who] is True,
+        plans=row["refined_plans" + who],
+        actions=row["concrete_actions" + who],
+        seconds={part: value for part, value in seconds.items() if value is not None},
     )

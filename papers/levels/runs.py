@@ -6,12 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from papers.levels.pairing import Pair, pairs_of
+from papers.levels.pairing import Pair, pairs_in
+from testbed.analysis import load_run
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
 from testbed.experiment.run_folder import read_config
-from testbed.experiment.store import read_records
-from testbed.studies.levels.load import outlines_of
 from testbed.studies.levels.measures import Level, Levels, analyse
 from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM
 
@@ -43,10 +42,10 @@ def read_run(folder: Path) -> Run:
         StoreError: for a folder without a run, or without pairs of both conditions.
         ConfigError: where the stored configuration is not valid any more.
     """
-    config = read_config(folder)
+    config, trials = read_config(folder), load_run(folder).trials
     pairs: dict[str, list[Pair]] = {}
-    for pair in pairs_of(read_records(folder)):
+    for pair in pairs_in(trials):
         pairs.setdefault(pair.level, []).append(pair)
     if not pairs:
         raise StoreError(f"{folder}: has no pairs of {ZOOM} and {NO_ZOOM} at levels on record")
-    return Run(folder, config, analyse(outlines_of(read_records(folder))), pairs)
+    return Run(folder, config, analyse(trials), pairs)

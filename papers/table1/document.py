@@ -16,6 +16,7 @@ from papers.table1.hypotheses import (
 )
 from papers.table1.measured import optimum, times
 from papers.table1.others import later, unaided
+from papers.table1.pairs import Pair
 from papers.table1.released import released
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run, released_weights, told_order
@@ -25,7 +26,6 @@ from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import coverage_of, places_of
 from testbed.experiment.store import read_records
 from testbed.studies import rows_of
-from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM, Analysis, Table
 from testbed.studies.table1.tables import HEADINGS, lines, test_rows
 from testbed.world import load_world
@@ -87,7 +87,7 @@ def _tests(analysis: Analysis) -> str:
 def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
     """What random pairs would come to otherwise, where there are any."""
     main = sources.main
-    if main.analyses[mind].random is None:
+    if "random" not in main.analyses[mind].tables:
         return
     weights = released_weights(main, mind)
     if weights:
@@ -107,13 +107,13 @@ def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
 def _released(pairs: Iterable[Pair], weights: Mapping[str, float]) -> str:
     drawn = [pair for pair in pairs if pair.intended == RANDOM]
     otherwise = sum(pair.meeting not in ("nothing", "same") for pair in drawn)
-    return released(weigh(drawn, lambda pair: weights[pair.mind.trial]), otherwise)
+    return released(weigh(drawn, lambda pair: weights[pair.treatment.trial]), otherwise)
 
 
 def _of(main: Run, run: Run, mind: str) -> list[Pair]:
     """The pairs of a run whose other robot met the same as in the main run."""
-    known = {pair.mind.trial for pair in main.pairs[mind] if pair.intended == RANDOM}
-    if any(pair.mind.trial not in known for pair in run.pairs[mind]):
+    known = {pair.treatment.trial for pair in main.pairs[mind] if pair.intended == RANDOM}
+    if any(pair.treatment.trial not in known for pair in run.pairs[mind]):
         raise StoreError(f"{run.folder}: its pairs are not those of {main.folder}")
     return run.pairs[mind]
 
@@ -122,10 +122,11 @@ def _apart(table: Table) -> str:
     """How many pairs are in no row, and why."""
     apart = [f"{count} pairs: {name}" for name, count in table.apart.items()]
     everything = [row for row in table.rows if row.name.isdigit()]
-    counts = (
-        ("trials in error or without a robot", sum(row.lost for row in everything)),
-        ("decisions cut off by the clock", sum(row.late for row in everything)),
-        ("goal out of reach from the start", sum(row.unsolvable for row in everything)),
-        ("goal out of reach at the end", sum(row.out_of_reach for row in everything)),
+    left_out = (
+        ("trials in error or without a robot", "failed"),
+        ("decisions cut off by the clock", "deadline"),
+        ("goal out of reach from the start", "unsolvable"),
     )
+    counts = [(name, sum(row.left_out[key] for row in everything)) for name, key in left_out]
+    counts.append(("goal out of reach at the end", sum(row.out_of_reach for row in everything)))
     return "; ".join([*apart, *(f"{name}: {count}" for name, count in counts)])

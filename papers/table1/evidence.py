@@ -11,8 +11,8 @@ from statistics import fmean
 import numpy as np
 from scipy.optimize import nnls  # type: ignore[import-untyped]  # scipy ships no types
 
+from papers.table1.pairs import Pair
 from testbed.analysis.bootstrap import Estimate
-from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import Row, Table
 from testbed.studies.table1.published import (
     ALL,
@@ -41,8 +41,8 @@ class Blindness:
 
 def blindness(pairs: Iterable[Pair]) -> Blindness:
     """How often the traditional robot is right, with and without a part of the goal undone."""
-    decided = (pair.base for pair in pairs if pair.played and pair.decided)
-    counts = Counter((base.undone, base.correct) for base in decided)
+    decided = (pair.baseline for pair in pairs if pair.played and pair.decided)
+    counts = Counter((side.undone, side.correct) for side in decided)
     return Blindness(
         undone=counts[True, True] + counts[True, False],
         undone_right=counts[True, True],
@@ -96,9 +96,9 @@ def mean_ratios(pairs: Sequence[Pair]) -> dict[str, float | None]:
 
 def _mean_ratio(pairs: Sequence[Pair], name: str) -> float | None:
     own = [
-        pair.base.measures[name] / pair.mind.measures[name]
+        pair.baseline.measures[name] / pair.treatment.measures[name]
         for pair in pairs
-        if pair.mind.measures[name]
+        if pair.treatment.measures[name]
     ]
     return fmean(own) if own else None
 
@@ -159,4 +159,4 @@ def _beside(
 
 def plans_made(pairs: Iterable[Pair]) -> Mapping[int, int]:
     """How many pairs have how many plans of the traditional robot."""
-    return dict(sorted(Counter(int(pair.base.measures["plans"]) for pair in pairs).items()))
+    return dict(sorted(Counter(int(pair.baseline.measures["plans"]) for pair in pairs).items()))

@@ -8,10 +8,11 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from papers.table1 import evidence
 from papers.table1.evidence import Blindness
+from papers.table1.pairs import Pair
 from papers.table1.runs import Run
 from papers.text import render
-from testbed.studies.table1.load import MEETINGS, Pair
 from testbed.studies.table1.measures import RANDOM
+from testbed.studies.table1.pairs import MEETINGS
 from testbed.studies.table1.published import PUBLISHED
 
 
@@ -38,14 +39,14 @@ def _by_row(pairs: Sequence[Pair]) -> Mapping[str, list[Pair]]:
         drawn = pair.intended == RANDOM
         if drawn and pair.happened.isdigit():
             groups.setdefault(f"random, {pair.happened}", []).append(pair)
-        elif not drawn and pair.mind.event is not None:
+        elif not drawn and pair.treatment.event is not None:
             groups.setdefault(f"triggered, {pair.intended}", []).append(pair)
     return dict(sorted(groups.items()))
 
 
 def failures(run: Run, mind: str) -> str:
     """The trials that the intentional robot did not get right, each with its replay."""
-    minds = [pair.mind for pair in run.pairs[mind]]
+    minds = [pair.treatment for pair in run.pairs[mind]]
     return render(
         "table1/failures",
         wrong=[side for side in minds if side.decided and not side.correct],

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from papers.table1 import evidence
+from papers.table1.pairs import Pair
 from papers.table1.released import NAMES, PAIRS
 from papers.table1.weighing import Weighing, weighing
 from papers.text import percent, render
 from testbed.analysis.bootstrap import Estimate
-from testbed.studies.table1.load import Pair
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS
 from testbed.studies.table1.tables import number
@@ -42,8 +42,8 @@ def hypotheses(
         "starts: nothing in hand": lambda pair: float(not _undone(pair, goal, "-")),
         "starts: nothing in place": lambda pair: float(not _in_place(pair, goal)),
         "starts: something in place": lambda pair: float(_in_place(pair, goal)),
-        "event beside the first action": lambda pair: float(len(pair.mind.before) == 1),
-        "event beside a later action": lambda pair: float(len(pair.mind.before) > 1),
+        "event beside the first action": lambda pair: float(len(pair.treatment.before) == 1),
+        "event beside a later action": lambda pair: float(len(pair.treatment.before) > 1),
     }
     return [Hypothesis(name, weigh(pairs, weights)) for name, weights in ways.items()]
 
@@ -62,7 +62,7 @@ def both(name: str, pairs: Sequence[Pair], released: Mapping[str, float]) -> tup
 
 
 def _redrawn(released: Mapping[str, float]) -> dict[str, Weights]:
-    return {PASSED_ON: lambda pair: released[pair.mind.trial]} if released else {}
+    return {PASSED_ON: lambda pair: released[pair.treatment.trial]} if released else {}
 
 
 def _in_place(pair: Pair, goal: Sequence[str]) -> bool:

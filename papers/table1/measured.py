@@ -35,10 +35,7 @@ def times(analysis: Analysis) -> str:
 
 def optimum(analysis: Analysis) -> str:
     """The section on the optimum: a table for each way of drawing."""
-    rows = (
-        (way, optimum_rows(table, analysis.mind, analysis.base))
-        for way, table in analysis.tables.items()
-    )
+    rows = ((way, optimum_rows(table, analysis.robots)) for way, table in analysis.tables.items())
     return render("table1/optimum", columns=OPTIMUM, rows=list(_by_way(rows)))
 
 

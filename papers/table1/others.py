@@ -6,10 +6,10 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from papers.table1 import evidence
+from papers.table1.pairs import Pair
 from papers.table1.runs import Run
 from papers.text import percent, render
-from testbed.analysis.comparison import Apart, eventful
-from testbed.studies.table1.load import Pair
+from testbed.analysis.comparison import NO_EVENT, NOTHING_TO_DO
 from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS, number
@@ -22,10 +22,12 @@ def later(run: Run, main: Sequence[Pair]) -> str:
 
     With how often the event comes beside the first action, and by which probability.
     """
-    table = run.analyses[run.minds[0]].random
+    table = run.analyses[run.minds[0]].tables.get("random")
     if table is None:
         return ""
-    came = [len(p.mind.before) == 1 for p in main if p.intended == RANDOM and p.mind.event]
+    came = [
+        len(p.treatment.before) == 1 for p in main if p.intended == RANDOM and p.treatment.event
+    ]
     triggers = load_world(run.config.domain).description.triggers
     published, _ = evidence.published_weights()
     return render(
@@ -54,13 +56,15 @@ def _accuracy(row: Row) -> tuple[str, ...]:
 def unaided(run: Run) -> str:
     """Accuracies without goal feedback, by robot; what the others needed beside the first."""
     first, *others = run.minds
-    units = {m: sum(p.mind.measures["execution_units"] for p in run.pairs[m]) for m in run.minds}
+    units = {
+        m: sum(p.treatment.measures["execution_units"] for p in run.pairs[m]) for m in run.minds
+    }
     return render(
         "table1/unaided",
         minds=run.minds,
         rows=list(_achieved(run)),
         apart=sorted(Counter(_reasons(run).values()).items()),
-        always=all(pair.mind.achieved for pair in run.pairs[first]),
+        always=all(pair.treatment.achieved for pair in run.pairs[first]),
         costs=[(name, units[name] / units[first]) for name in others if units[first]],
     )
 
@@ -68,20 +72,21 @@ def unaided(run: Run) -> str:
 def _achieved(run: Run) -> Iterator[tuple[str, ...]]:
     """By the scenario of the first robot, for its pairs and those of the others beside them."""
     first, reasons = run.minds[0], _reasons(run)
-    counted = [p for p in run.pairs[first] if p.base.trial not in reasons]
-    places = {pair.base.trial: _place(pair) for pair in counted}
+    counted = [p for p in run.pairs[first] if p.baseline.trial not in reasons]
+    places = {pair.baseline.trial: _place(pair) for pair in counted}
     for name in sorted(set(places.values())):
-        own = {m: [p for p in run.pairs[m] if places.get(p.base.trial) == name] for m in run.minds}
-        minds = (_share([pair.mind.achieved for pair in own[m]]) for m in run.minds)
-        base = _share([pair.base.achieved for pair in own[first]])
+        own = {
+            m: [p for p in run.pairs[m] if places.get(p.baseline.trial) == name] for m in run.minds
+        }
+        minds = (_share([pair.treatment.achieved for pair in own[m]]) for m in run.minds)
+        base = _share([pair.baseline.achieved for pair in own[first]])
         yield (name, str(len(own[first])), *minds, base)
 
 
-def _reasons(run: Run) -> dict[str, Apart]:
+def _reasons(run: Run) -> dict[str, str]:
     """Why pairs are in no row, by the baseline's trial: no event, or nothing to do."""
-    sure = eventful(run.config)
-    reasons = {pair.base.trial: pair.apart(sure) for pair in run.pairs[run.minds[0]]}
-    return {trial: reason for trial, reason in reasons.items() if reason is not None}
+    own = run.pairs[run.minds[0]]
+    return {p.baseline.trial: p.apart for p in own if p.apart in (NO_EVENT, NOTHING_TO_DO)}
 
 
 def _place(pair: Pair) -> str:

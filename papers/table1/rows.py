@@ -9,8 +9,8 @@ from typing import Any
 
 from asp.language import literals as text
 from papers.table1 import evidence
+from papers.table1.pairs import Pair, Side
 from papers.text import render
-from testbed.studies.table1.load import Pair, Side
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS, number
@@ -34,15 +34,15 @@ def row_by_row(pairs: Sequence[Pair], world: World) -> str:
 
 def _failing(pairs: Sequence[Pair], scenario: str) -> float | None:
     """The share of a scenario's pairs in which TP fails; None without any."""
-    own = [pair.base.correct for pair in pairs if pair.happened == scenario]
+    own = [pair.baseline.correct for pair in pairs if pair.happened == scenario]
     return own.count(False) / len(own) if own else None
 
 
 def _split(pairs: Sequence[Pair]) -> Iterator[tuple[str, ...]]:
     for name in ("3", "4"):
         own = [pair for pair in pairs if pair.happened == name]
-        failing = [pair for pair in own if not pair.base.correct]
-        others = [pair for pair in own if pair.base.correct]
+        failing = [pair for pair in own if not pair.baseline.correct]
+        others = [pair for pair in own if pair.baseline.correct]
         for what, theirs, ours in (
             ("TP fails", evidence.published_failures(name), failing),
             ("no failures", PUBLISHED[name + NO_FAILURES].ratios, others),
@@ -54,7 +54,9 @@ def _split(pairs: Sequence[Pair]) -> Iterator[tuple[str, ...]]:
 
 def _plans(pairs: Sequence[Pair], world: World) -> dict[str, Any]:
     """How many plans TP makes where what it looks for is in its place already."""
-    events = [(p, p.base.event) for p in pairs if p.happened == "2" and p.base.event is not None]
+    events = [
+        (p, p.baseline.event) for p in pairs if p.happened == "2" and p.baseline.event is not None
+    ]
     return {
         "events": len(events),
         "made": list(evidence.plans_made(pair for pair, _ in events).items()),
@@ -79,15 +81,15 @@ def _ends(pairs: Sequence[Pair]) -> Iterator[dict[str, Any]]:
             yield {
                 "name": name,
                 "pairs": len(own),
-                "base": _actions(own, lambda pair: pair.base),
-                "mind": _actions(own, lambda pair: pair.mind),
+                "base": _actions(own, lambda pair: pair.baseline),
+                "mind": _actions(own, lambda pair: pair.treatment),
                 "places": _places(own),
             }
 
 
 def _places(pairs: Sequence[Pair]) -> list[tuple[str, int]]:
     """Where events took what they moved, the most frequent place first."""
-    events = [pair.mind.event for pair in pairs if pair.mind.event is not None]
+    events = [pair.treatment.event for pair in pairs if pair.treatment.event is not None]
     return Counter(text.arguments(event)[-1] for event in events).most_common()
 
 
@@ -97,8 +99,8 @@ def _actions(pairs: Sequence[Pair], side: Callable[[Pair], Side]) -> float:
 
 def _medians(pairs: Sequence[Pair]) -> dict[str, float | None]:
     """Seconds of planning and units of execution of ATI; None without any pair."""
-    times = [pair.mind.measures["planning_time"] for pair in pairs]
-    units = [pair.mind.measures["execution_units"] for pair in pairs]
+    times = [pair.treatment.measures["planning_time"] for pair in pairs]
+    units = [pair.treatment.measures["execution_units"] for pair in pairs]
     return {
         "seconds": median(times) if times else None,
         "units": median(units) if units else None,

@@ -8,14 +8,15 @@ from pathlib import Path
 
 import polars as pl
 
+from papers.table1.pairs import Pair, each
 from papers.table1.redrawing import as_stated, passed_on, weight
 from testbed.analysis import load_run
 from testbed.analysis.comparison import eventful
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
 from testbed.experiment.run_folder import read_config
-from testbed.studies.table1.load import Pair, pairs_of
-from testbed.studies.table1.measures import RANDOM, Analysis, analyse, minds_of
+from testbed.studies.table1.measures import RANDOM, Analysis, analyse, comparisons_of
+from testbed.studies.table1.pairs import pairs_in
 from testbed.studies.table1.published import BASELINE, INTENTIONAL
 from testbed.world import load_world
 
@@ -49,13 +50,19 @@ def read_run(folder: Path) -> Run:
     if config.protocol != PROTOCOL:
         raise StoreError(f"{folder}: its configuration has no `protocol: {PROTOCOL}`")
     trials, world = load_run(folder).trials, load_world(config.domain)
-    pairs = {mind: list(pairs_of(trials, world, mind, BASELINE)) for mind in minds_of(config)}
-    if not any(pairs.values()):
+    pairs = {
+        robots: pairs_in(trials, world, robots, eventful(config))
+        for robots in comparisons_of(config)
+    }
+    if not any(map(len, pairs.values())):
         robots = f"{INTENTIONAL} and {BASELINE}"
         raise StoreError(f"{folder}: has no pairs of {robots} on record")
-    sure = eventful(config)
-    analyses = {mind: analyse(own, mind, BASELINE, sure) for mind, own in pairs.items()}
-    return Run(folder, config, pairs, analyses)
+    return Run(
+        folder,
+        config,
+        {robots.treatment: list(each(own)) for robots, own in pairs.items()},
+        {robots.treatment: analyse(own, robots) for robots, own in pairs.items()},
+    )
 
 
 def released_weights(run: Run, mind: str) -> dict[str, float]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from papers.table1.pairs import Pair
 from testbed.analysis.bootstrap import Estimate, exact, mean
-from testbed.studies import Ratio
-from testbed.studies.table1.load import Pair
+from testbed.analysis.pairs import Ratio
 from testbed.studies.table1.measures import Row, Table
 from testbed.studies.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
 
@@ -49,7 +49,7 @@ def _rows(inside: Sequence[Weighed]) -> Iterator[tuple[str, list[Weighed]]]:
     for name in SCENARIOS:
         yield name, [own for own in inside if own[0].happened == name]
     yield ALL, list(inside)
-    achieved = [own for own in inside if own[0].base.correct]
+    achieved = [own for own in inside if own[0].baseline.correct]
     for name in ("3", "4"):
         yield name + NO_FAILURES, [own for own in achieved if own[0].happened == name]
     yield ALL + NO_FAILURES, achieved
@@ -61,12 +61,8 @@ def _row(name: str, own: Sequence[Weighed]) -> Row:
     return Row(
         name=name,
         pairs=len(own),
-        lost=0,
-        unsolvable=0,
-        out_of_reach=0,
-        meetings={},
-        intentional=_share(decided, lambda pair: pair.mind.correct),
-        baseline=_share(decided, lambda pair: pair.base.correct),
+        treatment=_share(decided, lambda pair: pair.treatment.correct),
+        baseline=_share(decided, lambda pair: pair.baseline.correct),
         accuracy=None,
         ratios={measure: _ratio(ended, measure) for measure in MEASURES},
     )
@@ -97,8 +93,10 @@ def _effective(weights: Iterable[float]) -> float:
 
 
 def _ratio(own: Sequence[Weighed], measure: str) -> Ratio:
-    known = [(pair, weight) for pair, weight in own if pair.mind.measures[measure]]
-    ratio = _mean(known, lambda pair: pair.base.measures[measure] / pair.mind.measures[measure])
+    known = [(pair, weight) for pair, weight in own if pair.treatment.measures[measure]]
+    ratio = _mean(
+        known, lambda pair: pair.baseline.measures[measure] / pair.treatment.measures[measure]
+    )
     return Ratio(len(known), ratio, None, None)
 
 

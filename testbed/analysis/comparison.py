@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import polars as pl
 
-from testbed.analysis.statistics import Test, holm, mcnemar, signed_rank
+from testbed.analysis import pairs
+from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
+from testbed.analysis.statistics import Test
 from testbed.config import ExperimentConfig
 from testbed.experiment.record import FAILURES
 from testbed.world import load_world
@@ -18,14 +20,13 @@ from testbed.world import load_world
 Apart: TypeAlias = Literal[
     "incomplete", "lost", "deadline", "unsolvable", "nothing to do", "no event"
 ]
-INCOMPLETE: Apart = "incomplete"
 LOST: Apart = "lost"
 DEADLINE: Apart = "deadline"
 UNSOLVABLE: Apart = "unsolvable"
 NOTHING_TO_DO: Apart = "nothing to do"
 NO_EVENT: Apart = "no event"
 COUNTS: Mapping[Apart, str] = {
-    INCOMPLETE: "incomplete",
+    "incomplete": "incomplete",
     LOST: "failed_pairs",
     DEADLINE: "deadline",
     UNSOLVABLE: "unsolvable",
@@ -55,15 +56,6 @@ DIVIDED: Mapping[str, pl.Expr] = {**MEASURES, **TIMES}
 """What is divided in a pair; of these the tests compare `MEASURES` alone."""
 LEAST: Mapping[str, str] = {"execution_units": "minimal_units", "actions": "minimal_actions"}
 """The measures of which the least that achieves the goal is known, and the column that has it."""
-OTHER = " of the treatment"
-"""The end of a column's name in `pairs_of` that is of the treatment's trial."""
-
-
-class Compared(NamedTuple):
-    """The two robots of a comparison: ratios are those of the baseline to the treatment."""
-
-    baseline: str
-    treatment: str
 
 
 def compared(config: ExperimentConfig) -> tuple[Compared, ...]:
@@ -78,8 +70,9 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
     `lost`: something other than its robot ended it; `late`: a decision was cut off by the clock;
     `ended`: it came to its end without an error; `solvable`: some plan achieves the goal, or none
     is known not to; `idle`: the goal held from the start on, and nothing was done; `quiet`: nothing
-    exogenous happened. A trial that the robot's own error ended is neither idle nor quiet: what it
-    would have been is not known. `state` names the initial state. The other columns are `DIVIDED`.
+    exogenous happened; `out_of_reach`: the goal could not be achieved any more at the end. A trial
+    that the robot's own error ended is neither idle nor quiet: what it would have been is not
+    known. `state` names the initial state. The other columns are `DIVIDED`.
     """
     failure, own = pl.col("outcome").is_in(FAILURES), pl.col("cause").eq_missing("robot")
     still = (pl.col("activities").list.len() == 0) & (pl.col("actions").list.len() == 0)
@@ -92,9 +85,11 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
         "robot",
         "achieved",
         "correct",
+        "outcome",
         *LEAST.values(),
         lost=failure & ~own,
         late=pl.col("deadline"),
+        out_of_reach=pl.col("in_reach").eq_missing(False),
         ended=~failure,
         solvable=pl.col("minimal_actions").is_not_null()
         | pl.col("minimal_reason").eq_missing("budget"),
@@ -138,7 +133,7 @@ def with_apart(trials: pl.DataFrame, robots: Compared, sure: Collection[str]) ->
         return pl.when(judge.any()).then((pl.col(name) & judge).any()).otherwise(pl.col(name).all())
 
     reasons = {
-        INCOMPLETE: own.sum() < len(needed),
+        "incomplete": own.sum() < len(needed),
         LOST: (pl.col("lost") & own).any(),
         DEADLINE: (pl.col("late") & own).any(),
         UNSOLVABLE: (~pl.col("solvable") & own).any(),
@@ -148,12 +143,6 @@ def with_apart(trials: pl.DataFrame, robots: Compared, sure: Collection[str]) ->
     told = [pl.when(holds).then(pl.lit(reason)) for reason, holds in reasons.items()]
     pairs = trials.group_by("pair").agg(apart=pl.coalesce(*told, pl.lit(None, pl.String)))
     return trials.join(pairs, on="pair", maintain_order="left")
-
-
-def pairs_of(trials: pl.DataFrame, robots: Compared) -> pl.DataFrame:
-    """One row per pair of trials: the columns of the baseline's, then with `OTHER` the others."""
-    base, own = (trials.filter(pl.col("robot") == name) for name in robots)
-    return base.join(own, on="pair", suffix=OTHER, maintain_order="left")
 
 
 @dataclass(frozen=True)
@@ -186,46 +175,34 @@ def group(trials: pl.DataFrame, robots: Compared, names: Iterable[str]) -> Group
     counted = trials.filter(pl.col("apart").is_null())
     played = set(trials["robot"].unique())
     own = {name: counted.filter(pl.col("robot") == name) for name in names if name in played}
-    both = pairs_of(counted, robots)
-    ended = both.filter(pl.col("ended") & pl.col("ended" + OTHER))
-    ratios, of_sums = _ratios(ended), _ratios_of_sums(ended)
+    both = Sample(pairs_of(counted, robots))
+    ended = both.ended
+    ratios = _ratios(ended.pairs)
+    tests = {name: ended.signed_rank(name) for name in MEASURES}
+    tests[ACCURACY] = both.decided.mcnemar("correct")
     values = {
         "pairs": counted["pair"].n_unique(),
         **{key: reasons[reason] for reason, key in COUNTS.items()},
         "robot_errors": {name: (~rows["ended"]).sum() for name, rows in own.items()},
         "accuracy": {name: rows["correct"].mean() for name, rows in own.items()},
         "undecided": {name: rows["correct"].null_count() for name, rows in own.items()},
-        "ratios": {name: ratios[name] for name in MEASURES},
-        "ratios_of_sums": {name: of_sums[name] for name in MEASURES},
-        "times": {name: {"ratio": ratios[name], "of_sums": of_sums[name]} for name in TIMES},
+        "ratios": {name: ratios[name]["ratio"] for name in MEASURES},
+        "ratios_of_sums": {name: ratios[name]["of_sums"] for name in MEASURES},
+        "times": {name: ratios[name] for name in TIMES},
         "optimum": {name: optimum(rows) for name, rows in own.items()},
     }
-    return Group(robots, frozenset(counted["pair"]), values, dict(_tests(both, ended)))
+    return Group(robots, frozenset(counted["pair"]), values, tests)
 
 
-def _ratios(ended: pl.DataFrame) -> dict[str, Any]:
-    """The mean of the ratios of each measure, over pairs in which the treatment's is not 0."""
-    quotients = {name: pl.col(name) / pl.col(name + OTHER) for name in DIVIDED}
-    found = {
-        name: quotient.filter(pl.col(name + OTHER) != 0).mean()
-        for name, quotient in quotients.items()
-    }
-    return ended.select(**found).row(0, named=True)
-
-
-def _ratios_of_sums(ended: pl.DataFrame) -> dict[str, Any]:
-    below = {name: pl.col(name + OTHER).sum() for name in DIVIDED}
-    found = {name: pl.when(own != 0).then(pl.col(name).sum() / own) for name, own in below.items()}
-    return ended.select(**found).row(0, named=True)
-
-
-def _tests(both: pl.DataFrame, ended: pl.DataFrame) -> Iterator[tuple[str, Test | None]]:
-    for name in MEASURES:
-        differences = (ended[name] - ended[name + OTHER]).to_numpy()
-        yield name, signed_rank(differences, ended["state"])
-    decided = both.drop_nulls(["correct", "correct" + OTHER])
-    own, base = (decided[name].to_numpy() for name in ("correct" + OTHER, "correct"))
-    yield ACCURACY, mcnemar(own, base, decided["state"])
+def _ratios(ended: pl.DataFrame) -> dict[str, dict[str, Any]]:
+    """The mean ratio of each measure, where the treatment's is not 0, and the ratio of the sums."""
+    found = {}
+    for name in DIVIDED:
+        own, other = pl.col(name), pl.col(name + OTHER)
+        mean = (own / other).filter(other != 0).mean()
+        of_sums = pl.when(other.sum() != 0).then(own.sum() / other.sum())
+        found[name] = ended.select(ratio=mean, of_sums=of_sums).row(0, named=True)
+    return found
 
 
 def optimum(trials: pl.DataFrame) -> dict[str, Any]:
@@ -245,14 +222,6 @@ def corrected(groups: Sequence[Group]) -> list[Group]:
 
     Groups of the same robots and pairs, as of the only scenario of a level, are one.
     """
-    distinct = {(own.robots, own.pairs): own for own in groups}
-    tests = [test for own in distinct.values() for test in own.tests.values() if test is not None]
-    found = iter(holm([test.p for test in tests]))
-    known = {
-        key: {
-            name: test and dataclasses.replace(test, holm=next(found))
-            for name, test in own.tests.items()
-        }
-        for key, own in distinct.items()
-    }
-    return [dataclasses.replace(own, tests=known[own.robots, own.pairs]) for own in groups]
+    distinct = pairs.corrected({(own.robots, own.pairs): own for own in groups})
+    found = (distinct[own.robots, own.pairs].tests for own in groups)
+    return [dataclasses.replace(own, tests=tests) for own, tests in zip(groups, found, strict=True)]

@@ -9,7 +9,6 @@ from typing import Any
 import polars as pl
 
 from testbed.analysis.comparison import (
-    Compared,
     Group,
     compared,
     corrected,
@@ -18,6 +17,7 @@ from testbed.analysis.comparison import (
     measured,
     with_apart,
 )
+from testbed.analysis.pairs import Compared
 from testbed.analysis.table import Run
 from testbed.experiment.digest import digest
 from testbed.experiment.run_folder import SUMMARY, replace_text

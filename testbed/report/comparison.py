@@ -14,11 +14,9 @@ from testbed.analysis.comparison import (
     ACCURACY,
     COUNTS,
     MEASURES,
-    OTHER,
-    Compared,
-    pairs_of,
 )
 from testbed.analysis.comparison import LEAST as MINIMAL
+from testbed.analysis.pairs import OTHER, Compared, pairs_of
 from testbed.experiment.record import COARSE
 from testbed.experiment.timeline import in_words
 from testbed.studies import Chart, Colour, Series, points

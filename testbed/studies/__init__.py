@@ -1,7 +1,6 @@
 """Studies: what is counted of the runs of an experiment, beside what was published of it."""
 
 from testbed.studies.charts import Chart, Colour, Key, Point, Series, points
-from testbed.studies.pairs import Ratio, Sample, joined
 from testbed.studies.study import (
     STUDIES,
     Results,
@@ -21,10 +20,8 @@ __all__ = [
     "Key",
     "Line",
     "Point",
-    "Ratio",
     "Results",
     "Rounded",
-    "Sample",
     "Section",
     "Series",
     "Sheet",
@@ -32,7 +29,6 @@ __all__ = [
     "Value",
     "View",
     "grid",
-    "joined",
     "left_out",
     "points",
     "results_of",

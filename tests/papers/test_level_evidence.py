@@ -3,8 +3,9 @@
 import pytest
 
 from papers.levels import evidence
-from papers.levels.pairing import Meeting, Pair, pairs_of
+from papers.levels.pairing import Meeting, Pair, pairs_in
 from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.table import table_of
 from testbed.experiment.record import Attempt, Explained, Occurrence, TrialRecord
 from testbed.studies import Cell, Rounded
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM
@@ -22,7 +23,7 @@ def _trial(robot: str, *events: tuple[int, str], pair: str = "p", **values: obje
 
 
 def _pair(zoom: TrialRecord, no_zoom: TrialRecord) -> Pair:
-    (pair,) = pairs_of([zoom, no_zoom])
+    (pair,) = pairs_in(table_of([zoom, no_zoom]))
     return pair
 
 
@@ -64,9 +65,9 @@ def test_pairs_are_joined_in_any_order_and_others_are_passed_over() -> None:
     third = _trial("traditional", pair="p")
     coarse = a_record("p2", robot=ZOOM)
     for records in ([zoom, third, no_zoom], [coarse, no_zoom, zoom]):
-        (pair,) = pairs_of(records)
+        (pair,) = pairs_in(table_of(records))
         assert (pair.zoom.trial, pair.no_zoom.trial) == (zoom.trial, no_zoom.trial)
-    assert list(pairs_of([zoom, third])) == []
+    assert list(pairs_in(table_of([zoom, third]))) == []
 
 
 def test_it_is_counted_who_met_and_did_the_same() -> None:

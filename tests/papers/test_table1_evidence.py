@@ -8,7 +8,8 @@ from papers.table1.evidence import (
     published_weights,
 )
 from testbed.analysis.bootstrap import Estimate
-from testbed.studies.table1.measures import Ratio, Row, Table
+from testbed.analysis.pairs import Ratio
+from testbed.studies.table1.measures import Row, Table
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED, SCENARIOS
 
 
@@ -37,7 +38,7 @@ def _row(name: str, factor: float) -> Row:
         for m, v in paper.ratios.items()
     }
     right = Estimate(paper.baseline, paper.baseline, paper.baseline)
-    return Row(name, 9, 0, 0, 0, {}, right, right, None, ratios)
+    return Row(name, 9, right, right, None, ratios)
 
 
 def test_closeness_counts_what_is_inside_and_measures_how_far_off_the_rest_is() -> None:

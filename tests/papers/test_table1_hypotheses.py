@@ -13,6 +13,7 @@ from papers.table1.hypotheses import (
     hypotheses,
     weigh,
 )
+from papers.table1.pairs import Pair, Side
 from papers.table1.released import released
 from papers.table1.runs import read_run, told_name, told_order
 from testbed.config import load_config
@@ -22,7 +23,6 @@ from testbed.experiment.errors import StoreError
 from testbed.experiment.record import Activity, Attempt, TrialRecord
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import read_records
-from testbed.studies.table1.load import Pair, Side
 from testbed.studies.table1.published import MEASURES, PUBLISHED, SCENARIOS
 from testbed.world import load_world
 from tests.experiment.samples import a_record
@@ -87,7 +87,7 @@ def test_a_run_of_its_own_is_shown_under_either_draw() -> None:
 def _as_published(name: str, factor: float = 1.0, state: str = "s") -> Pair:
     """A pair whose ratios are the published ones, times a factor."""
     values = {m: factor * PUBLISHED[name].ratios[m] for m in MEASURES}
-    return a_pair(name, base=a_side(PUBLISHED[name].baseline == 1.0, **values), state=state)
+    return a_pair(name, baseline=a_side(PUBLISHED[name].baseline == 1.0, **values), state=state)
 
 
 def _two(first: list[Pair], second: list[Pair]) -> str:
@@ -134,8 +134,8 @@ def test_the_nearest_of_several_comes_with_a_caution(with_told: bool) -> None:
 
 def test_the_table_shows_what_is_asked_of_each_row() -> None:
     pairs = [
-        a_pair("2", base=a_side(plans=3)),
-        a_pair("3", base=a_side(False)),
+        a_pair("2", baseline=a_side(plans=3)),
+        a_pair("3", baseline=a_side(False)),
         a_pair("3"),
         a_pair("5", a_side(actions=4, execution_units=10), a_side(False, execution_units=2)),
     ]

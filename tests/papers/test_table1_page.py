@@ -8,21 +8,16 @@ from papers.table1 import evidence
 from papers.table1.drawing import drawing, unclassified
 from papers.table1.failing import blindness, failures, meetings
 from papers.table1.others import later, unaided
+from papers.table1.pairs import Pair
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run
 from testbed.config import load_config
-from testbed.studies.table1.load import Pair
-from testbed.studies.table1.measures import Analysis, analyse
 from testbed.studies.table1.published import PUBLISHED
 from testbed.world import load_world
-from tests.studies.table1.made import a_pair, a_side
+from tests.studies.table1.made import a_pair, a_side, analysed
 
 WORLD = load_world("office")
 CONFIG = load_config("table1", ["name=made"])
-
-
-def _analysis(pairs: list[Pair]) -> Analysis:
-    return analyse(pairs, "intentional", "traditional", {"2", "3", "4", "5"})
 
 
 def _lines(page: str) -> dict[str, list[str]]:
@@ -37,24 +32,24 @@ def _text(page: str) -> str:
 
 UNDONE, LEFT = a_side(correct=False, undone=True), a_side(undone=False)
 FAILING = [
-    a_pair("3", base=UNDONE),
-    a_pair("3", base=UNDONE),
-    a_pair("3", base=LEFT),
-    a_pair("4", base=LEFT),
-    a_pair("5", intended="5", base=UNDONE),
-    a_pair("1", mind=a_side(event=None), intended="5", base=a_side(event=None)),
+    a_pair("3", baseline=UNDONE),
+    a_pair("3", baseline=UNDONE),
+    a_pair("3", baseline=LEFT),
+    a_pair("4", baseline=LEFT),
+    a_pair("5", intended="5", baseline=UNDONE),
+    a_pair("1", treatment=a_side(event=None), intended="5", baseline=a_side(event=None)),
     a_pair("nothing to do"),
 ]
 
 
 def test_pairs_are_told_apart_by_whether_the_event_undid_a_part_of_the_goal() -> None:
-    seen = evidence.blindness([*FAILING[:3], a_pair("3", base=a_side(undone=True))])
+    seen = evidence.blindness([*FAILING[:3], a_pair("3", baseline=a_side(undone=True))])
     assert seen == evidence.Blindness(undone=3, undone_right=1, others=1, others_right=1)
 
 
 def test_lost_trials_say_nothing_of_what_the_event_undid() -> None:
-    lost = a_side(correct=False, undone=True, lost=True)
-    assert evidence.blindness([a_pair("3", base=lost)]).undone == 0
+    lost = a_pair("3", baseline=a_side(correct=False, undone=True), apart="lost")
+    assert evidence.blindness([lost]).undone == 0
 
 
 def test_where_the_traditional_robot_fails_is_said_row_by_row() -> None:
@@ -68,13 +63,17 @@ def test_where_the_traditional_robot_fails_is_said_row_by_row() -> None:
 def test_what_decides_its_accuracy_is_said_only_where_it_does() -> None:
     assert "thus decided by the share" in _text(blindness(FAILING))
     assert "published pairs 28% in row 3 and 27% in row 4" in _text(blindness(FAILING))
-    otherwise = [*FAILING, a_pair("3", base=a_side(undone=True)), a_pair("4", base=a_side(False))]
+    otherwise = [
+        *FAILING,
+        a_pair("3", baseline=a_side(undone=True)),
+        a_pair("4", baseline=a_side(False)),
+    ]
     assert "decided by" not in blindness(otherwise)
     assert "In 2 of these pairs TP is right although" in _text(blindness(otherwise))
 
 
 def test_failures_of_the_intentional_robot_come_with_their_replay() -> None:
-    wrong = a_pair("3", mind=a_side(False, trial="abc", outcome="gave_up"))
+    wrong = a_pair("3", treatment=a_side(False, trial="abc", outcome="gave_up"))
     pairs = [wrong, *FAILING]
     run = Run(None, CONFIG, {"intentional": pairs}, {})  # type: ignore[arg-type]  # no folder
     page = failures(run, "intentional")
@@ -83,7 +82,7 @@ def test_failures_of_the_intentional_robot_come_with_their_replay() -> None:
 
 
 def test_meetings_are_counted() -> None:
-    other = a_pair("3", base=a_side(event="exo_lock(library)"))
+    other = a_pair("3", baseline=a_side(event="exo_lock(library)"))
     rows = _lines(meetings([*FAILING, other]))
     assert rows["nothing exogenous happened to either"] == ["1"]
     assert rows["same event beside the same action, after the same actions"] == ["6"]
@@ -104,7 +103,7 @@ def test_mean_ratios_are_over_pairs_that_have_one() -> None:
 
 def test_plans_are_counted_by_their_number() -> None:
     made = [2, 3, 2, 1]
-    pairs = [a_pair("2", base=a_side(plans=plans)) for plans in made]
+    pairs = [a_pair("2", baseline=a_side(plans=plans)) for plans in made]
     assert list(evidence.plans_made(pairs).items()) == [(1, 1), (2, 2), (3, 1)]
 
 
@@ -132,11 +131,11 @@ def test_rows_three_and_four_are_split_by_whether_the_traditional_robot_fails() 
 def test_row_two_says_how_often_the_place_it_is_in_comes_last() -> None:
     last, first = "exo_move(book2,library)", "exo_move(book2,kitchen)"
     pairs = [
-        a_pair("2", base=a_side(plans=3, event=last)),
-        a_pair("2", base=a_side(plans=3, event=last), intended="2"),
-        a_pair("2", base=a_side(plans=1, event=first)),
-        a_pair("2", base=a_side(plans=7, event=None)),
-        a_pair("1", base=a_side(plans=8, event=last)),
+        a_pair("2", baseline=a_side(plans=3, event=last)),
+        a_pair("2", baseline=a_side(plans=3, event=last), intended="2"),
+        a_pair("2", baseline=a_side(plans=1, event=first)),
+        a_pair("2", baseline=a_side(plans=7, event=None)),
+        a_pair("1", baseline=a_side(plans=8, event=last)),
     ]
     page = _text(row_by_row(pairs, WORLD))
     assert "TP made 1 plans in 1 pairs, 3 plans in 2 pairs, triggered or random." in page
@@ -166,7 +165,7 @@ def test_seconds_and_units_are_medians_of_the_random_pairs() -> None:
 
 
 def test_the_even_average_and_the_weighted_one_are_those_of_the_published_rows() -> None:
-    page = drawing(_analysis(SPLIT))
+    page = drawing(analysed(SPLIT))
     even = (0.81 + 3.06 + 0.81 + 1.00 + 0.18) / 5
     assert f"a total time of {even:.2f} in place of 1.00, and 69% in place of 74%" in _text(page)
     rows = _lines(page)
@@ -182,22 +181,20 @@ def test_shares_are_of_the_pairs_in_scenarios_one_to_five() -> None:
         a_pair("6"),
         a_pair("nothing to do"),
     ]
-    table = _analysis(pairs).random
-    assert table is not None
+    table = analysed(pairs).tables["random"]
     assert evidence.shares(table) == {"1": 0.25, "2": 0.0, "3": 0.75, "4": 0.0, "5": 0.0}
-    assert _lines(drawing(_analysis(pairs)))["random"] != []
+    assert _lines(drawing(analysed(pairs)))["random"] != []
 
 
 def test_shares_of_no_pair_are_none() -> None:
-    table = _analysis([a_pair("6", intended="6")]).triggered
-    assert table is not None
+    table = analysed([a_pair("6", intended="6")]).tables["triggered"]
     assert evidence.shares(table) == dict.fromkeys("12345", 0.0)
 
 
 def test_what_became_what_is_counted_and_so_is_what_no_rule_fits() -> None:
     pairs = [a_pair("3"), a_pair("unclassified"), a_pair("unclassified", intended="4"), a_pair("4")]
-    page = drawing(_analysis(pairs))
-    assert unclassified(_analysis(pairs)) == 2
+    page = drawing(analysed(pairs))
+    assert unclassified(analysed(pairs)) == 2
     assert "No rule of classification fits in 2 of these pairs." in page
     head = next(line for line in page.splitlines() if line.startswith("| played as"))
     assert head.strip("| ").split(" | ") == ["played as", "3", "4", "unclassified"]
@@ -206,10 +203,8 @@ def test_what_became_what_is_counted_and_so_is_what_no_rule_fits() -> None:
 
 
 def test_what_lies_outside_is_named_with_both_values() -> None:
-    pairs = [a_pair("1", base=a_side(actions=2), state=state) for state in ("a", "b")]
-    row = _analysis(pairs).random
-    assert row is not None
-    missed = list(evidence.outside(row.rows))
+    pairs = [a_pair("1", baseline=a_side(actions=2), state=state) for state in ("a", "b")]
+    missed = list(evidence.outside(analysed(pairs).tables["random"].rows))
     assert missed == [evidence.Outside("1", "actions", 2.0, PUBLISHED["1"].ratios["actions"])]
 
 
@@ -217,8 +212,8 @@ def test_how_soon_events_come_is_counted_in_the_main_run() -> None:
     late = a_side(before=("move(rob1,kitchen)", "move(rob1,library)"))
     main = [a_pair("3"), a_pair("3"), a_pair("3", late), a_pair("1", a_side(event=None))]
     config = load_config("table1", ["adversary.rate=0.3"])
-    other = [a_pair("3", base=a_side(False)), a_pair("3")]
-    run = Run(None, config, {"intentional": other}, {"intentional": _analysis(other)})  # type: ignore[arg-type]
+    other = [a_pair("3", baseline=a_side(False)), a_pair("3")]
+    run = Run(None, config, {"intentional": other}, {"intentional": analysed(other)})  # type: ignore[arg-type]
     page = later(run, main)
     assert "tried with probability 0.92 at each action" in _text(page)
     assert "in 67% of the pairs that have one it comes beside the first" in _text(page)
@@ -229,7 +224,7 @@ def test_how_soon_events_come_is_counted_in_the_main_run() -> None:
 
 def test_a_run_without_random_pairs_has_no_such_section() -> None:
     triggered = [dataclasses.replace(pair, intended="3") for pair in SPLIT]
-    analyses = {"intentional": _analysis(triggered)}
+    analyses = {"intentional": analysed(triggered)}
     run = Run(None, CONFIG, {"intentional": triggered}, analyses)  # type: ignore[arg-type]
     assert later(run, triggered) == ""
 
@@ -249,9 +244,9 @@ def _three(trial: str, happened: str, first: bool, second: bool, base: bool) -> 
 
 def test_without_feedback_each_robot_is_counted_under_the_first_ones_scenario() -> None:
     threes = [
-        _three("t1", "3", first=True, second=True, base=False),
-        _three("t2", "3", first=False, second=True, base=False),
-        _three("t3", "1", first=True, second=True, base=True),
+        _three("t1", "3", first=True, second=True, baseline=False),
+        _three("t2", "3", first=False, second=True, baseline=False),
+        _three("t3", "1", first=True, second=True, baseline=True),
     ]
     names = ("intentional", "intentional-checking")
     page = _unaided({name: [three[name] for three in threes] for name in names})
@@ -268,12 +263,12 @@ def test_without_feedback_pairs_without_event_or_work_are_counted_apart() -> Non
     own = {
         "intentional": [
             a_pair("3", a_side(False), a_side(trial="t1"), intended="3"),
-            a_pair("1", quiet, a_side(trial="t2", event=None), intended="3"),
-            a_pair("nothing to do", quiet, idle),
+            a_pair("1", quiet, a_side(trial="t2", event=None), intended="3", apart="no event"),
+            a_pair("nothing to do", quiet, idle, apart="nothing to do"),
             a_pair("1", quiet, a_side(trial="t4", event=None)),
         ]
     }
-    own[names[1]] = [dataclasses.replace(pair, mind=a_side()) for pair in own[names[0]]]
+    own[names[1]] = [dataclasses.replace(pair, treatment=a_side()) for pair in own[names[0]]]
     page = _unaided(own)
     rows = _lines(page)
     assert rows["triggered, 3"] == ["1", "0.0% (0)", "100.0% (1)", "100.0% (1)"]
@@ -283,5 +278,5 @@ def test_without_feedback_pairs_without_event_or_work_are_counted_apart() -> Non
 
 
 def test_why_nothing_is_missed_is_said_only_where_nothing_is() -> None:
-    pairs = [pair for pair in SPLIT if pair.mind.achieved]
+    pairs = [pair for pair in SPLIT if pair.treatment.achieved]
     assert "ATI does without feedback here" in _unaided({"intentional": pairs})

@@ -3,9 +3,9 @@
 import pytest
 
 from papers.table1.weighing import Weighing, weighing
-from testbed.studies.table1.measures import Row, analyse
+from testbed.studies.table1.measures import Row
 from testbed.studies.table1.published import MEASURES
-from tests.studies.table1.made import a_pair, a_side
+from tests.studies.table1.made import a_pair, a_side, analysed
 
 PAIRS = [
     a_pair("3", a_side(actions=2), a_side(actions=4), state="s1"),
@@ -61,7 +61,7 @@ def test_where_all_are_right_the_interval_is_the_exact_one_of_as_many_states() -
 def test_states_that_weigh_differently_are_as_few_as_weigh_alike() -> None:
     """Two states of weight 3 and 1 say as much as 16/10 of one weight, however they are split."""
     right = [a_pair("1", state=state) for state in ("s1", "s1", "s2")]
-    wrong = [a_pair("1", base=a_side(False), state=state) for state in ("s1", "s1", "s2")]
+    wrong = [a_pair("1", baseline=a_side(False), state=state) for state in ("s1", "s1", "s2")]
     above, below = (_rows(weighing(own, [1.0, 2.0, 1.0]))["1"].baseline for own in (right, wrong))
     assert above is not None
     assert below is not None
@@ -71,7 +71,7 @@ def test_states_that_weigh_differently_are_as_few_as_weigh_alike() -> None:
 
 
 def test_a_single_state_with_both_outcomes_says_as_much_as_one_trial() -> None:
-    pairs = [a_pair("1"), a_pair("1", base=a_side(False))]
+    pairs = [a_pair("1"), a_pair("1", baseline=a_side(False))]
     own = _rows(weighing(pairs, [1.0, 1.0]))["1"].baseline
     assert own is not None
     assert own.value == 0.5
@@ -79,14 +79,13 @@ def test_a_single_state_with_both_outcomes_says_as_much_as_one_trial() -> None:
 
 
 def test_lost_trials_are_in_no_row() -> None:
-    lost = a_pair("3", base=a_side(correct=False, lost=True))
+    lost = a_pair("3", baseline=a_side(correct=False), apart="lost")
     weighed = weighing([*PAIRS, lost], [1.0, 3.0, 4.0, 5.0, 9.0])
     assert (_rows(weighed)["3"].pairs, weighed.shares["3"]) == (2, 0.5)
 
 
 def test_equal_weights_give_the_table_itself() -> None:
-    table = analyse(PAIRS, "m", "b", set()).random
-    assert table is not None
+    table = analysed(PAIRS).tables["random"]
     weighed = _rows(weighing(PAIRS, [2.0] * 4))
     for row in table.rows:
         if row.name == "6":

@@ -6,13 +6,14 @@ import pytest
 
 from testbed.analysis import Run
 from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.pairs import Ratio
 from testbed.analysis.statistics import Test
 from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.resume import RunStatus, play_missing
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.report import write_report
-from testbed.studies import Ratio, Value, View, results_of
+from testbed.studies import Value, View, results_of
 from testbed.studies.levels.published import NO_ZOOM, OWN, PAPER, ZOOM, Paper
 from testbed.studies.levels.tables import ratio_charts
 from testbed.studies.table1.measures import Analysis, Row, Table
@@ -20,17 +21,18 @@ from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import COLUMNS, charts, sections
 from tests.experiment.samples import a_level_record, a_record
 from tests.studies.levels.found import found, views
+from tests.studies.table1.made import ROBOTS
 
 ALWAYS = Estimate(1.0, 0.98, 1.0)
 
 
 def _row(name: str, mean: Estimate | None, share: Estimate | None = ALWAYS) -> Row:
     ratio = Ratio(10, mean, mean, Test(0.01, 0.5, 0.02))
-    return Row(name, 10, 0, 0, 0, {"same": 10}, share, share, None, dict.fromkeys(MEASURES, ratio))
+    return Row(name, 10, share, share, None, dict.fromkeys(MEASURES, ratio), {"same": 10})
 
 
 def _analysis(*rows: Row, apart: dict[str, int] | None = None) -> Analysis:
-    return Analysis("intentional", "traditional", Table(rows, apart or {}), None, {})
+    return Analysis(ROBOTS, {"triggered": Table(rows, apart or {})}, {})
 
 
 def _view(analysis: Analysis) -> View:

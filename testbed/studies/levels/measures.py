@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from statistics import fmean, median, stdev
 
-import numpy as np
+import polars as pl
 
 from testbed.analysis import Run
-from testbed.analysis.bootstrap import Estimate, Values, ratio_of_means, ratio_of_medians
+from testbed.analysis.bootstrap import Estimate, ratio_of_means, ratio_of_medians
+from testbed.analysis.comparison import measured
+from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, corrected, pairs_of
 from testbed.analysis.statistics import Test
-from testbed.studies.levels.load import FineOutline, outlines_of
 from testbed.studies.levels.published import FIRST, NO_ZOOM, OWN, PAPER, PARTS, ZOOM, Paper
-from testbed.studies.pairs import Ratio, Sample, corrected
 
-Outlines = Sequence[FineOutline]
-Pair = tuple[FineOutline, FineOutline]
-"""The trial with zooming, and the one without."""
+ROBOTS = Compared(NO_ZOOM, ZOOM)
+WORK = ("refined_plans", "concrete_actions")
+Trials = Mapping[str, pl.DataFrame]
+"""Those of a level, by robot."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ class Growth:
 
 
 @dataclass(frozen=True)
-class Compared:
+class Comparison:
     """What can be compared across machines: shares, by robot; ratios, by part; growth, by both.
 
     A ratio is a time without zooming, divided by that with it, over the pairs of which both trials
@@ -81,7 +82,7 @@ class Level:
 
     reasoning: Mapping[str, Reasoning]
     zoom_ratios: Mapping[str, float | None]
-    compared: Compared
+    compared: Comparison
 
 
 @dataclass(frozen=True)
@@ -94,105 +95,105 @@ class Levels:
 
 def measures(run: Run, as_published: bool) -> Levels | None:
     """The columns of the levels of a run."""
-    levels = analyse(outlines_of(run.records()))
+    levels = analyse(run.trials)
     return Levels(levels, PAPER if as_published else OWN) if levels else None
 
 
-def analyse(levels: Mapping[str, Outlines]) -> dict[str, Level]:
+def fine_trials(trials: pl.DataFrame) -> pl.DataFrame:
+    """The trials at levels, `measured`, with their seconds of process time by PARTS.
+
+    They are those of a whole trial: `coarse` is planning and diagnosis, `fine` refined plans and
+    the inference of what came of them, `total` both; `refined_plan` is the mean time of one of
+    them, null where none was made. `refined_plans`, `concrete_actions` and `tests` are numbers.
+    """
+    own = pl.col("fine").struct
+    coarse = pl.col("planning_cpu_s") + pl.col("diagnosis_cpu_s")
+    fine = own.field("planning_cpu_s") + own.field("infer_cpu_s")
+    plans = own.field("plans")
+    columns = trials.select(
+        total=fine + coarse,
+        fine=fine,
+        coarse=coarse,
+        refined_plan=pl.when(plans > 0).then(own.field("planning_cpu_s") / plans),
+        refined_plans=plans,
+        concrete_actions=own.field("actions"),
+        tests=own.field("tests"),
+    )
+    rows = measured(trials).hstack(columns).drop_nulls("fine")
+    return rows.with_columns(achieved=pl.col("achieved") & pl.col("ended"))
+
+
+def analyse(trials: pl.DataFrame) -> dict[str, Level]:
     """The columns of each level; p-values are corrected over the tests of all of them."""
-    first = _by_robot(levels.get(FIRST, ()))
-    return corrected({name: _level(name, _by_robot(own), first) for name, own in levels.items()})
+    counted = fine_trials(trials).filter(~pl.col("lost"), ~pl.col("late"))
+    levels = counted.partition_by("level", as_dict=True, maintain_order=True)
+    first = _by_robot(levels[(FIRST,)]) if (FIRST,) in levels else {}
+    return corrected({str(name): _level(own, first) for (name,), own in levels.items()})
 
 
-def _by_robot(outlines: Outlines) -> dict[str, list[FineOutline]]:
+def _by_robot(trials: pl.DataFrame) -> Trials:
     """The two conditions first, other robots as they come."""
-    robots: dict[str, list[FineOutline]] = {ZOOM: [], NO_ZOOM: []}
-    for outline in outlines:
-        robots.setdefault(outline.robot, []).append(outline)
-    return {robot: own for robot, own in robots.items() if own}
+    groups = trials.partition_by("robot", as_dict=True, maintain_order=True)
+    order = [(ZOOM,), (NO_ZOOM,), *groups]
+    return {str(name): groups[name,] for (name,) in dict.fromkeys(order) if (name,) in groups}
 
 
-def _level(name: str, robots: Mapping[str, Outlines], first: Mapping[str, Outlines]) -> Level:
-    pairs = Sample(list(_pairs(robots)))
-    decided = pairs.where(lambda pair: all(own.decided for own in pair))
-    ended = pairs.where(lambda pair: all(own.achieved for own in pair))
-    ratios = {part: _ratio(ended, part) for part in PARTS}
-    compared = Compared(
+def _level(trials: pl.DataFrame, first: Trials) -> Level:
+    robots = _by_robot(trials)
+    pairs = Sample(pairs_of(trials, ROBOTS).sort("number" + OTHER), cluster=None)
+    ended = pairs.where("achieved", "achieved" + OTHER)
+    # Of the pairs that have this part of the time.
+    ratios = {
+        part: ended.where(pl.col(part).is_not_null(), pl.col(part + OTHER) > 0).ratio(part)
+        for part in PARTS
+    }
+    compared = Comparison(
         pairs=len(pairs.pairs),
-        completed=_shares(robots, lambda outline: outline.achieved),
-        correct=_shares(
-            {robot: [o for o in own if o.decided] for robot, own in robots.items()},
-            lambda outline: outline.correct,
-        ),
+        completed=_shares(robots, "achieved"),
+        correct=_shares(robots, "correct"),
         ratios=ratios,
-        growth={} if name == FIRST else _growth(robots, first),
-        completed_test=pairs.mcnemar(lambda pair: pair[0].achieved, lambda pair: pair[1].achieved),
-        correct_test=decided.mcnemar(lambda pair: pair[0].correct, lambda pair: pair[1].correct),
+        growth={} if trials["level"][0] == FIRST else _growth(robots, first),
+        completed_test=pairs.mcnemar("achieved"),
+        correct_test=pairs.decided.mcnemar("correct"),
     )
     means = {part: None if r.mean is None else r.mean.value for part, r in ratios.items()}
     return Level({robot: _reasoning(own) for robot, own in robots.items()}, means, compared)
 
 
-def _pairs(robots: Mapping[str, Outlines]) -> Iterator[Pair]:
-    whole = {outline.pair: outline for outline in robots.get(NO_ZOOM, ())}
-    for outline in robots.get(ZOOM, ()):
-        if outline.pair in whole:
-            yield outline, whole[outline.pair]
-
-
-def _ratio(ended: Sample[Pair], part: str) -> Ratio:
-    """Of the pairs that have this part of the time."""
-    known = ended.where(lambda pair: pair[0].seconds.get(part) and part in pair[1].seconds)
-    return known.ratio(lambda pair: pair[1].seconds[part], lambda pair: pair[0].seconds[part])
-
-
-def _reasoning(outlines: Outlines) -> Reasoning:
-    played = [outline for outline in outlines if outline.played]
+def _reasoning(trials: pl.DataFrame) -> Reasoning:
+    achieved, played = len(trials.filter("achieved")), trials.filter("ended")
     return Reasoning(
-        trials=len(outlines),
-        achieved=sum(outline.achieved for outline in outlines),
-        out_of_reach=sum(outline.out_of_reach for outline in outlines),
-        completed=fmean(outline.achieved for outline in outlines),
-        refined_plans=_spread(outline.plans for outline in played),
-        concrete_actions=_spread(outline.actions for outline in played),
-        **{part: _spread(_seconds(played, part)) for part in PARTS},
+        trials=len(trials),
+        achieved=achieved,
+        out_of_reach=len(trials.filter("out_of_reach")),
+        completed=achieved / len(trials),
+        **{name: _spread(played[name].drop_nulls()) for name in (*WORK, *PARTS)},
     )
 
 
-def _seconds(outlines: Iterable[FineOutline], part: str) -> Values:
-    """The seconds of a part of the time, of the trials that have it."""
-    return np.array([o.seconds[part] for o in outlines if part in o.seconds], dtype=float)
-
-
-def _spread(values: Iterable[float]) -> Spread | None:
+def _spread(values: pl.Series) -> Spread | None:
     """None of nothing."""
-    sample = [float(value) for value in values]
-    if not sample:
+    if not len(values):
         return None
-    return Spread(fmean(sample), stdev(sample) if len(sample) > 1 else 0.0, median(sample))
+    return Spread(fmean(values), stdev(values) if len(values) > 1 else 0.0, median(values))
 
 
-def _shares(
-    robots: Mapping[str, Outlines], holds: Callable[[FineOutline], bool]
-) -> dict[str, Estimate]:
-    shares = {robot: Sample(own).share(holds) for robot, own in robots.items()}
+def _shares(robots: Trials, holds: str) -> dict[str, Estimate]:
+    """Of the trials of which it is known."""
+    known = ((robot, own.drop_nulls(holds)) for robot, own in robots.items())
+    shares = {robot: Sample(own, cluster=None).share(holds) for robot, own in known}
     return {robot: share for robot, share in shares.items() if share is not None}
 
 
-def _growth(
-    robots: Mapping[str, Outlines], first: Mapping[str, Outlines]
-) -> dict[str, dict[str, Growth]]:
+def _growth(robots: Trials, first: Trials) -> dict[str, dict[str, Growth]]:
     """By robot and part of the time; nothing for a robot that did not play the first level."""
     return {
-        robot: {part: _times(_played(own, part), _played(first[robot], part)) for part in PARTS}
+        robot: {part: _times(own, first[robot], part) for part in PARTS}
         for robot, own in robots.items()
         if robot in first
     }
 
 
-def _played(outlines: Outlines, part: str) -> Values:
-    return _seconds((outline for outline in outlines if outline.played), part)
-
-
-def _times(above: Values, below: Values) -> Growth:
+def _times(trials: pl.DataFrame, first: pl.DataFrame, part: str) -> Growth:
+    above, below = (own.filter("ended")[part].drop_nulls().to_numpy() for own in (trials, first))
     return Growth(ratio_of_means(above, below), ratio_of_medians(above, below))

@@ -4,19 +4,29 @@ from __future__ import annotations
 
 import dataclasses
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from math import lcm
-from statistics import fmean
 from typing import TypeAlias
+
+import polars as pl
 
 from testbed.analysis import Run
 from testbed.analysis.bootstrap import Estimate
-from testbed.analysis.comparison import LEAST, TIMES, eventful
+from testbed.analysis.comparison import (
+    DEADLINE,
+    LEAST,
+    LOST,
+    NO_EVENT,
+    NOTHING_TO_DO,
+    TIMES,
+    UNSOLVABLE,
+    eventful,
+)
+from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, corrected
 from testbed.analysis.statistics import Test
 from testbed.config import ExperimentConfig
-from testbed.studies.pairs import Ratio, Sample, corrected
-from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of
+from testbed.studies.table1.pairs import Meeting, pairs_in
 from testbed.studies.table1.published import (
     ALL,
     BASELINE,
@@ -30,6 +40,8 @@ from testbed.studies.table1.published import (
 from testbed.world import load_world
 
 RANDOM = "random"
+LEFT_OUT = {"failed": LOST, "deadline": DEADLINE, "unsolvable": UNSOLVABLE}
+"""Why pairs of a scenario do not count, by the keys of a summary."""
 Optimum: TypeAlias = Mapping[str, float | None]
 """What a robot needed over the least that achieves the goal, by measure; of how many `trials`."""
 
@@ -39,37 +51,35 @@ class Seconds:
     """Seconds of process time per trial, the means of both robots, and what their ratio is."""
 
     baseline: float | None
-    intentional: float | None
+    treatment: float | None
     ratio: Ratio
 
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the table; `pairs` are those counted; `lost`, `late`, `unsolvable` those left out.
+    """A row of the table; `pairs` are those counted, `left_out` the others by LEFT_OUT.
 
     `undecided` pairs count, but in no accuracy: of these it is not known whether both trials were
     correct.
-    The test of the accuracies has its effect above 0 where the intentional robot was right more
-    often; `advantage` is that difference of the proportions with its interval. `out_of_reach` are
-    goals that could not be achieved any more where a trial ended. `optimum` is by robot,
-    `times` by the name of the measure: planning, diagnosis, and both.
+    The test of the accuracies has its effect above 0 where the treatment was right more often;
+    `advantage` is that difference of the proportions with its interval. `out_of_reach` are goals
+    that could not be achieved any more where a trial ended. `optimum` is by robot, `times` by the
+    name of the measure: planning, diagnosis, and both.
     """
 
     name: str
     pairs: int
-    lost: int
-    unsolvable: int
-    out_of_reach: int
-    meetings: Mapping[Meeting, int]
-    intentional: Estimate | None
     baseline: Estimate | None
+    treatment: Estimate | None
     accuracy: Test | None
     ratios: Mapping[str, Ratio]
+    meetings: Mapping[Meeting, int] = field(default_factory=dict)
     advantage: Estimate | None = None
     optimum: Mapping[str, Optimum] = field(default_factory=dict)
-    undecided: int = 0
     times: Mapping[str, Seconds] = field(default_factory=dict)
-    late: int = 0
+    left_out: Mapping[str, int] = field(default_factory=lambda: dict.fromkeys(LEFT_OUT, 0))
+    undecided: int = 0
+    out_of_reach: int = 0
 
 
 @dataclass(frozen=True)
@@ -88,21 +98,14 @@ class Table:
 class Analysis:
     """What the pairs of two robots come to.
 
-    `triggered`: by the scenario that was played; `random`: by the scenario that a random event came
-    to be. `became` counts the pairs by both: which scenario was played, and what it came to be.
+    `tables` are `triggered`, by the scenario that was played, and `random`, by the scenario that a
+    random event came to be; one without pairs is absent. `became` counts the pairs by both: which
+    scenario was played, and what it came to be.
     """
 
-    mind: str
-    base: str
-    triggered: Table | None
-    random: Table | None
+    robots: Compared
+    tables: Mapping[str, Table]
     became: Mapping[str, Mapping[str, int]]
-
-    @property
-    def tables(self) -> dict[str, Table]:
-        """Those that there are, by name."""
-        both = {"triggered": self.triggered, "random": self.random}
-        return {name: table for name, table in both.items() if table is not None}
 
 
 def measures(run: Run, as_published: bool) -> list[Analysis]:
@@ -111,154 +114,124 @@ def measures(run: Run, as_published: bool) -> list[Analysis]:
     The published figures are those of one robot; these of all scenarios together are of five.
     """
     world, sure = load_world(run.config.domain), eventful(run.config)
-    found = [
-        analyse(pairs_of(run.trials, world, mind, BASELINE), mind, BASELINE, sure)
-        for mind in minds_of(run.config)
-    ]
     whole = set(SCENARIOS) <= set(run.config.scenarios)
-    paper = PUBLISHED if as_published else {}
-    parts = {name: row for name, row in paper.items() if whole or not name.startswith(ALL)}
+    parts = {name: row for name, row in PUBLISHED.items() if whole or not name.startswith(ALL)}
     return [
-        _beside(own, *((parts, paper) if own.mind == INTENTIONAL else ({}, {}))) for own in found
+        _beside(
+            analyse(pairs_in(run.trials, world, robots, sure), robots),
+            {"triggered": parts, "random": PUBLISHED}
+            if as_published and robots.treatment == INTENTIONAL
+            else {},
+        )
+        for robots in comparisons_of(run.config)
     ]
 
 
-def _beside(
-    own: Analysis, triggered: Mapping[str, Published], random: Mapping[str, Published]
-) -> Analysis:
+def _beside(own: Analysis, published: Mapping[str, Mapping[str, Published]]) -> Analysis:
     """The same beside these published rows."""
-    return dataclasses.replace(
-        own,
-        triggered=own.triggered and dataclasses.replace(own.triggered, published=triggered),
-        random=own.random and dataclasses.replace(own.random, published=random),
-    )
+    tables = {
+        way: dataclasses.replace(table, published=published.get(way, {}))
+        for way, table in own.tables.items()
+    }
+    return dataclasses.replace(own, tables=tables)
 
 
-def minds_of(config: ExperimentConfig) -> tuple[str, ...]:
-    """The robots of a configuration with activities, where the baseline is there, too."""
+def comparisons_of(config: ExperimentConfig) -> list[Compared]:
+    """The robots of a configuration with activities, each with the baseline, if it is there."""
     if BASELINE not in config.robots:
-        return ()
-    return tuple(name for name in config.robots if name.startswith(INTENTIONAL))
+        return []
+    return [Compared(BASELINE, name) for name in config.robots if name.startswith(INTENTIONAL)]
 
 
-def analyse(pairs: Iterable[Pair], mind: str, base: str, sure: Collection[str]) -> Analysis:
-    """Both tables of the pairs of two robots; a table without pairs is None.
-
-    In the scenarios of `sure` something exogenous is to happen (`counting.eventful`).
-    """
-    known, who = list(pairs), (mind, base)
-    drawn = [pair for pair in known if pair.intended == RANDOM]
-    played = [pair for pair in known if pair.intended != RANDOM]
-    became: dict[str, Counter[str]] = {}
-    for pair in known:
-        became.setdefault(pair.intended, Counter())[pair.happened] += 1
-    return Analysis(
-        mind=mind,
-        base=base,
-        triggered=_table(played, lambda pair: _as_triggered(pair, sure), who) if played else None,
-        random=_table(drawn, lambda pair: pair.happened, who) if drawn else None,
-        became={name: dict(sorted(counts.items())) for name, counts in became.items()},
-    )
-
-
-def _as_triggered(pair: Pair, sure: Collection[str]) -> str:
-    """The scenario played; but a pair without its event, or with nothing to do, is in none.
-
-    Failures and goals that nothing achieves are told in the row of their scenario.
-    """
-    return pair.apart(sure) or pair.intended
+def analyse(pairs: pl.DataFrame, robots: Compared) -> Analysis:
+    """Both tables of `pairs_in`."""
+    # Failures and goals that nothing achieves are told in the row of their scenario.
+    apart = pl.col("apart").is_in([NOTHING_TO_DO, NO_EVENT])
+    ways = {
+        "triggered": pairs.filter(pl.col("scenario") != RANDOM).with_columns(
+            row=pl.when(apart).then("apart").otherwise("scenario")
+        ),
+        "random": pairs.filter(pl.col("scenario") == RANDOM).with_columns(row="happened"),
+    }
+    became = {
+        str(name): dict(sorted(Counter(own["happened"]).items()))
+        for (name,), own in pairs.partition_by(
+            "scenario", as_dict=True, maintain_order=True
+        ).items()
+    }
+    tables = {way: _table(own, robots) for way, own in ways.items() if len(own)}
+    return Analysis(robots, tables, became)
 
 
-def _table(
-    pairs: Sequence[Pair], scenario_of: Callable[[Pair], str], who: tuple[str, str]
-) -> Table:
-    groups: dict[str, list[Pair]] = {}
-    for pair in pairs:
-        groups.setdefault(scenario_of(pair), []).append(pair)
-    scenarios = {name: groups[name] for name in sorted(groups) if name.isdigit()}
-    played = Counter(pair.intended for pair in pairs)
+def _table(pairs: pl.DataFrame, robots: Compared) -> Table:
+    groups = dict(sorted(Counter(pairs["row"]).items()))
+    scenarios = [name for name in groups if name.isdigit()]
+    played = Counter(pairs["scenario"])
     # Weights in whole numbers: sums of them are exact, and what is alike stays alike.
     weights = {name: lcm(*played.values()) / count for name, count in played.items()}
-    rows = corrected([_row(name, _sample(own, weights), who) for name, own in _rows(scenarios)])
-    apart = {name: len(own) for name, own in sorted(groups.items()) if not name.isdigit()}
-    return Table(tuple(rows), apart)
+    weighed = pairs.with_columns(
+        weight=pl.col("scenario").replace_strict(weights, return_dtype=pl.Float64)
+    )
+    sample = Sample(weighed.sort("row", maintain_order=True), weight="weight")
+    rows = [_row(name, sample.where(holds), robots) for name, holds in _rows(scenarios)]
+    apart = {name: count for name, count in groups.items() if not name.isdigit()}
+    return Table(tuple(corrected(rows)), apart)
 
 
-def _sample(pairs: Sequence[Pair], weights: Mapping[str, float]) -> Sample[Pair]:
-    """Each scenario that was played counts as if it had been repeated like the others."""
-    return Sample(pairs, lambda pair: pair.intended, weights, lambda pair: pair.state)
-
-
-def _rows(scenarios: Mapping[str, list[Pair]]) -> Iterator[tuple[str, list[Pair]]]:
-    yield from scenarios.items()
-    everything = [pair for name, own in scenarios.items() if name in SCENARIOS for pair in own]
+def _rows(scenarios: list[str]) -> Iterator[tuple[str, pl.Expr]]:
+    """The rows of a table, and which of its pairs are theirs."""
+    # Without the pairs in which the traditional robot does not achieve the goal.
+    unfailing = pl.col("correct").fill_null(False) | pl.col("lost")
+    everything = pl.col("row").is_in(SCENARIOS)
+    for name in scenarios:
+        yield name, pl.col("row") == name
     yield ALL, everything
-    for name, own in ((name, scenarios.get(name, [])) for name in ("3", "4")):
-        yield name + NO_FAILURES, _without_failures(own)
-    yield ALL + NO_FAILURES, _without_failures(everything)
+    for name in ("3", "4"):
+        yield name + NO_FAILURES, (pl.col("row") == name) & unfailing
+    yield ALL + NO_FAILURES, everything & unfailing
 
 
-def _without_failures(pairs: Iterable[Pair]) -> list[Pair]:
-    """Without the pairs in which the traditional robot does not achieve the goal."""
-    return [pair for pair in pairs if pair.base.correct or pair.base.lost]
-
-
-def _row(name: str, sample: Sample[Pair], who: tuple[str, str]) -> Row:
-    counted = sample.where(lambda pair: pair.played)
-    decided, ended = counted.where(lambda pair: pair.decided), counted.where(lambda p: p.ended)
-    pairs = counted.pairs
+def _row(name: str, sample: Sample, robots: Compared) -> Row:
+    reasons = Counter(sample.pairs["apart"])
+    counted = sample.where(~pl.col("apart").is_in(list(LEFT_OUT.values())).fill_null(False))
+    pairs, decided, ended = counted.pairs, counted.decided, counted.ended
+    own, base = pl.col("correct" + OTHER), pl.col("correct")
     return Row(
         name=name,
         pairs=len(pairs),
-        lost=sum(pair.lost for pair in sample.pairs),
-        late=sum(pair.late and not pair.lost for pair in sample.pairs),
-        unsolvable=sum(not (pair.solvable or pair.lost or pair.late) for pair in sample.pairs),
-        out_of_reach=sum(pair.mind.out_of_reach or pair.base.out_of_reach for pair in pairs),
-        meetings=dict(sorted(Counter(pair.meeting for pair in pairs).items())),
+        left_out={key: reasons[reason] for key, reason in LEFT_OUT.items()},
+        out_of_reach=len(pairs.filter(pl.col("out_of_reach") | pl.col("out_of_reach" + OTHER))),
+        meetings=dict(sorted(Counter(pairs["meeting"]).items())),
         undecided=len(pairs) - len(decided.pairs),
-        intentional=decided.share(lambda pair: pair.mind.correct),
-        baseline=decided.share(lambda pair: pair.base.correct),
-        accuracy=decided.mcnemar(lambda pair: pair.mind.correct, lambda pair: pair.base.correct),
-        ratios={measure: _ratio(ended, measure) for measure in MEASURES},
-        advantage=decided.mean(lambda pair: pair.mind.correct - pair.base.correct),
-        optimum=dict(zip(who, _optima(ended), strict=True)),
+        baseline=decided.share(base),
+        treatment=decided.share(own),
+        accuracy=decided.mcnemar("correct"),
+        advantage=decided.mean(own.cast(pl.Int8) - base.cast(pl.Int8)),
+        ratios={measure: ended.ratio(measure) for measure in MEASURES},
+        optimum={
+            robots.treatment: _optimum(ended, OTHER),
+            robots.baseline: _optimum(ended, ""),
+        },
         times={name: _seconds(ended, name) for name in TIMES},
     )
 
 
-def _ratio(sample: Sample[Pair], measure: str) -> Ratio:
-    return sample.ratio(lambda p: p.base.measures[measure], lambda p: p.mind.measures[measure])
-
-
-def _seconds(sample: Sample[Pair], name: str) -> Seconds:
+def _seconds(sample: Sample, name: str) -> Seconds:
     """Beside the published measures: what is tested is one of these, or not."""
-    weights = [sample.weights[pair.intended] for pair in sample.pairs]
-
-    def mean(sides: Sequence[Side]) -> float | None:
-        return fmean([s.measures[name] for s in sides], weights=weights) if sides else None
-
-    return Seconds(
-        baseline=mean([pair.base for pair in sample.pairs]),
-        intentional=mean([pair.mind for pair in sample.pairs]),
-        ratio=dataclasses.replace(_ratio(sample, name), test=None),
-    )
+    base, own = (_mean(sample.pairs, pl.col(name + who)) for who in ("", OTHER))
+    return Seconds(base, own, dataclasses.replace(sample.ratio(name), test=None))
 
 
-def _optima(sample: Sample[Pair]) -> tuple[Optimum, Optimum]:
-    """How far both robots are from the least that achieves the goal."""
-    return _optimum(sample, lambda pair: pair.mind), _optimum(sample, lambda pair: pair.base)
+def _mean(pairs: pl.DataFrame, value: pl.Expr) -> float | None:
+    """The weighted mean; None of none."""
+    mean: float | None = pairs.select(
+        (value * pl.col("weight")).sum() / pl.col("weight").sum()
+    ).item()
+    return mean if len(pairs) else None
 
 
-def _optimum(sample: Sample[Pair], side: Callable[[Pair], Side]) -> Optimum:
-    known = [
-        (side(pair).measures, pair.minimal, sample.weights[pair.intended])
-        for pair in sample.pairs
-        if side(pair).achieved and all(pair.minimal.get(name) for name in LEAST)
-    ]
-    weights = [weight for _, _, weight in known]
-    means = {
-        name: fmean([own[name] / least[name] for own, least, _ in known], weights=weights)
-        for name in LEAST
-        if known
-    }
-    return {"trials": len(known), **dict.fromkeys(LEAST), **means}
+def _optimum(sample: Sample, who: str) -> Optimum:
+    """How far a robot is from the least that achieves the goal, where it achieved it."""
+    known = sample.pairs.filter("achieved" + who, *(pl.col(own) > 0 for own in LEAST.values()))
+    means = {n: _mean(known, pl.col(n + who) / pl.col(own)) for n, own in LEAST.items()}
+    return {"trials": len(known), **means}

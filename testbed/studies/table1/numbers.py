@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.pairs import Compared, Ratio
 from testbed.analysis.statistics import Test
-from testbed.studies.pairs import Ratio
 from testbed.studies.study import Numbers
 from testbed.studies.table1.measures import Analysis, Row, Table
 from testbed.studies.table1.tables import WAYS, cells
@@ -18,9 +18,9 @@ def numbers(analyses: Iterable[Analysis]) -> Numbers:
     """By the robot compared with the traditional one: both tables, and changes of scenario."""
     return {
         "table1": {
-            own.mind: {
+            own.robots.treatment: {
                 **dict.fromkeys(WAYS),
-                **{way: _table(table, own) for way, table in own.tables.items()},
+                **{way: _table(table, own.robots) for way, table in own.tables.items()},
                 "became": {name: dict(counts) for name, counts in own.became.items()},
             }
             for own in analyses
@@ -28,24 +28,21 @@ def numbers(analyses: Iterable[Analysis]) -> Numbers:
     }
 
 
-def _table(table: Table, of: Analysis) -> Numbers:
-    rows = {row.name: _row(row, cells(table, row), of) for row in table.rows}
+def _table(table: Table, robots: Compared) -> Numbers:
+    rows = {row.name: _row(row, cells(table, row), robots) for row in table.rows}
     return {"rows": rows, "apart": dict(table.apart)}
 
 
-def _row(row: Row, beside: Mapping[str, Cell], of: Analysis) -> Numbers:
-    robots = {"baseline": of.base, "intentional": of.mind}
+def _row(row: Row, beside: Mapping[str, Cell], robots: Compared) -> Numbers:
     return {
         "pairs": row.pairs,
-        "failed": row.lost,
-        "deadline": row.late,
-        "unsolvable": row.unsolvable,
+        **row.left_out,
         "undecided": row.undecided,
         "out_of_reach": row.out_of_reach,
         "meetings": dict(row.meetings),
         "accuracy": {
             robot: _interval(beside[key].ours, "value") | _published(beside[key])
-            for key, robot in robots.items()
+            for key, robot in robots._asdict().items()
         },
         "difference": _interval(row.advantage, "value") | _test(row.accuracy),
         "ratios": {
@@ -55,7 +52,7 @@ def _row(row: Row, beside: Mapping[str, Cell], of: Analysis) -> Numbers:
         "optimum": {robot: dict(own) for robot, own in row.optimum.items()},
         "times": {
             name: {
-                "seconds": {of.base: own.baseline, of.mind: own.intentional},
+                "seconds": {robots.baseline: own.baseline, robots.treatment: own.treatment},
                 **_ratio(own.ratio),
             }
             for name, own in row.times.items()

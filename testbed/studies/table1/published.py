@@ -23,7 +23,7 @@ class Published:
 
     ratios: Mapping[str, float]
     baseline: float
-    intentional: float
+    treatment: float
 
 
 def _row(*ratios: float, baseline: float) -> Published:

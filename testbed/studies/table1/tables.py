@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
+from testbed.analysis.pairs import Compared
 from testbed.experiment.timeline import in_words
 from testbed.studies.charts import Chart, Key, Series, points, published
 from testbed.studies.study import Section
-from testbed.studies.table1.load import MEETINGS
 from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
+from testbed.studies.table1.pairs import MEETINGS
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
 from testbed.text.wording import counted
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
-ROBOTS = {"baseline": "TP correct", "intentional": "ATI correct"}
+ROBOTS = {"baseline": "TP correct", "treatment": "ATI correct"}
 COLUMNS = ("scenario", "pairs", *HEADINGS, *ROBOTS.values())
 TIMES = ("scenario", "time", "TP", "ATI", "mean of ratios", "ratio of sums", "published")
 OPTIMUM = (
@@ -32,6 +33,11 @@ READINGS = (PLANNING, "reasoning_time")
 """What the published planning time can mean: planning alone, or all reasoning."""
 WAYS = {"triggered": "triggered", "random": "drawn at random, classified"}
 """How scenarios are drawn."""
+NOT_COUNTED = {
+    "failed": "with a lost trial",
+    "deadline": "with a decision cut off by the clock",
+    "unsolvable": "whose goal no plan achieves",
+}
 LEGEND = (
     Key("interval", "first", "triggered, with its 95% interval"),
     Key("square", "second", "drawn at random, classified by what happened"),
@@ -46,22 +52,22 @@ def sections(analyses: Iterable[Analysis]) -> list[Section]:
 def _section(own: Analysis) -> Section:
     paper = any(table.published for table in own.tables.values())
     return Section(
-        name=f"table1-{own.mind}",
-        title=f"Table 1: {own.mind} against {own.base}",
+        name=f"table1-{own.robots.treatment}",
+        title=f"Table 1: {own.robots.treatment} against {own.robots.baseline}",
         views=[_view(own, name, table) for name, table in own.tables.items()],
         charts=charts(own),
         legend=(*LEGEND, *[Key("published", "paper", "published")] * paper),
         sheets=[_became(own)],
         template=Path(__file__).with_name("section.html.j2"),
-        values={"robot": own.mind, "paper": paper},
+        values={"robot": own.robots.treatment, "paper": paper},
     )
 
 
 def _view(own: Analysis, name: str, table: Table) -> View:
     tests = ("scenario", *HEADINGS, "correct")
-    distances = optimum_rows(table, own.mind, own.base)
+    distances = optimum_rows(table, own.robots)
     return View(
-        name=f"table1-{own.mind}-{name}",
+        name=f"table1-{own.robots.treatment}-{name}",
         title=f"Scenarios {WAYS[name]}",
         columns=COLUMNS,
         lines=lines(table),
@@ -102,13 +108,14 @@ def lines(table: Table) -> list[Line]:
 def cells(table: Table, row: Row) -> dict[str, Cell]:
     """By measure, then by robot, ours beside the published values."""
     paper = table.published.get(row.name)
-    shares = {"baseline": row.baseline, "intentional": row.intentional}
     return {
         name: Cell(own.mean, own.median, Rounded(paper.ratios[name]) if paper else None)
         for name, own in row.ratios.items()
     } | {
-        who: Cell(own, None, Rounded(getattr(paper, who)) if paper else None, share=True)
-        for who, own in shares.items()
+        who: Cell(
+            getattr(row, who), None, Rounded(getattr(paper, who)) if paper else None, share=True
+        )
+        for who in ROBOTS
     }
 
 
@@ -141,7 +148,7 @@ def times_rows(table: Table) -> list[Cells]:
 def _times(row: Row, name: str, own: Seconds, paper: Published | None) -> Cells:
     theirs = Rounded(paper.ratios[PLANNING]) if paper is not None and name in READINGS else None
     value = Cell(own.ratio.mean, published=theirs, of_sums=own.ratio.of_sums).value
-    seconds = map(_milliseconds, (own.baseline, own.intentional))
+    seconds = map(_milliseconds, (own.baseline, own.treatment))
     return (row.name, in_words(name), *seconds, value.whole, value.of_sums or "-", value.marked)
 
 
@@ -149,12 +156,11 @@ def _milliseconds(value: float | None) -> str:
     return "-" if value is None else f"{1000 * value:.1f} ms"
 
 
-def optimum_rows(table: Table, mind: str, base: str) -> Iterator[Cells]:
+def optimum_rows(table: Table, robots: Compared) -> Iterator[Cells]:
     """Under OPTIMUM: for each row with pairs how far its robots are from the optimum."""
     for row in table.rows:
-        if row.pairs and {mind, base} <= set(row.optimum):
-            both = (row.optimum[robot] for robot in (base, mind))
-            yield (row.name, *(text for own in both for text in _optimum(own)))
+        if row.pairs and set(robots) <= set(row.optimum):
+            yield (row.name, *(text for who in robots for text in _optimum(row.optimum[who])))
 
 
 def _optimum(own: Mapping[str, float | None]) -> Iterator[str]:
@@ -172,12 +178,8 @@ def _notes(table: Table) -> Iterator[str]:
     """What is in no row, and whether the robots of the pairs met the same."""
     rows = [row for row in table.rows if row.name.isdigit()]
     apart = [f"{counted(count, 'pair')} of {name}" for name, count in table.apart.items()]
-    for key, words in (
-        ("lost", "with a lost trial"),
-        ("late", "with a decision cut off by the clock"),
-        ("unsolvable", "whose goal no plan achieves"),
-    ):
-        count = sum(getattr(row, key) for row in rows)
+    for key, words in NOT_COUNTED.items():
+        count = sum(row.left_out[key] for row in rows)
         apart += [f"{counted(count, 'pair')} {words}"] * (count > 0)
     undecided = sum(row.undecided for row in rows)
     if undecided:
@@ -200,7 +202,7 @@ def charts(own: Analysis) -> list[Chart]:
     ratios = {name: f"{title}, TP / ATI" for name, title in zip(MEASURES, HEADINGS, strict=True)}
     return [
         Chart(
-            f"{own.mind}-{name}",
+            f"{own.robots.treatment}-{name}",
             title,
             rows,
             _series({w: {r: c[r][name] for r in rows if r in c} for w, c in beside.items()}),

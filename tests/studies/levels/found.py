@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from typing import Any
 
+from testbed.analysis.table import table_of
 from testbed.experiment.record import TrialRecord
-from testbed.studies.levels.load import outlines_of
 from testbed.studies.levels.measures import Levels, analyse
 from testbed.studies.levels.numbers import numbers
 from testbed.studies.levels.published import OWN, Paper
@@ -14,7 +14,7 @@ from testbed.studies.tables import View
 
 def found(records: Iterable[TrialRecord], paper: Paper = OWN) -> Levels:
     """The columns of the levels, beside what was published."""
-    return Levels(analyse(outlines_of(records)), paper)
+    return Levels(analyse(table_of(records)), paper)
 
 
 def columns(records: Iterable[TrialRecord], paper: Paper = OWN) -> dict[str, Any]:

@@ -1,8 +1,16 @@
 """Pairs made by hand, from which the numbers of a page can be worked out on paper."""
 
-from testbed.analysis.comparison import TIMES
-from testbed.studies.table1.load import Pair, Side
-from testbed.studies.table1.published import MEASURES
+from collections.abc import Iterable, Mapping
+
+import polars as pl
+
+from papers.table1.pairs import Pair, Side
+from testbed.analysis.comparison import DIVIDED, LEAST, Apart
+from testbed.analysis.pairs import OTHER, Compared
+from testbed.studies.table1.measures import Analysis, analyse
+from testbed.studies.table1.pairs import TOLD
+
+ROBOTS = Compared("traditional", "intentional")
 
 
 def a_side(correct: bool = True, **values: object) -> Side:
@@ -10,17 +18,12 @@ def a_side(correct: bool = True, **values: object) -> Side:
 
     `plans`, `actions` and other measures are given by their names.
     """
-    names = (*MEASURES, *TIMES)
-    measures = dict.fromkeys(names, 1.0)
-    measures.update(
-        {name: float(str(values.pop(name))) for name in dict.fromkeys(names) if name in values}
-    )
+    measures = dict.fromkeys(DIVIDED, 1.0)
+    measures.update({name: float(str(values.pop(name))) for name in DIVIDED if name in values})
     given: dict[str, object] = {
         "trial": "t",
-        "lost": False,
         "achieved": correct,
         "correct": correct,
-        "out_of_reach": False,
         "outcome": "achieved" if correct else "false_finish",
         "event": "exo_move(book1,kitchen)",
         "undone": False,
@@ -32,10 +35,59 @@ def a_side(correct: bool = True, **values: object) -> Side:
 
 def a_pair(
     happened: str,
-    mind: Side | None = None,
-    base: Side | None = None,
+    treatment: Side | None = None,
+    baseline: Side | None = None,
     intended: str = "random",
     state: str = "s",
+    apart: Apart | None = None,
 ) -> Pair:
     """A pair that came to be a scenario; drawn at random unless another one was intended."""
-    return Pair(intended, happened, True, mind or a_side(), base or a_side(), state, {})
+    sides = treatment or a_side(), baseline or a_side()
+    return Pair(intended, happened, *sides, state, apart)
+
+
+def frame_of(pairs: Iterable[Pair], least: Mapping[str, int | None]) -> pl.DataFrame:
+    """The pairs as `pairs_in` has them; `least` are the measures of a shortest plan."""
+    rows = [
+        {
+            "scenario": pair.intended,
+            "happened": pair.happened,
+            "state": pair.state,
+            "apart": pair.apart,
+            "meeting": pair.meeting,
+            **{column: least.get(name) for name, column in LEAST.items()},
+            **_columns(pair.baseline, "", pair.apart),
+            **_columns(pair.treatment, OTHER, pair.apart),
+        }
+        for pair in pairs
+    ]
+    told = {name + who: kind for name, kind in TOLD.items() for who in ("", OTHER)}
+    strings = dict.fromkeys(("happened", "apart", "meeting"), pl.String)
+    known = dict.fromkeys(("correct", "correct" + OTHER), pl.Boolean)
+    numbers = dict.fromkeys(LEAST.values(), pl.Int64)
+    types = told | strings | known | numbers
+    return pl.DataFrame(
+        rows, schema_overrides={n: kind for n, kind in types.items() if n in rows[0]}
+    )
+
+
+def _columns(side: Side, who: str, apart: Apart | None) -> dict[str, object]:
+    own = {
+        "trial": side.trial,
+        "achieved": side.achieved,
+        "correct": side.correct if side.decided else None,
+        "outcome": side.outcome,
+        "ended": side.ended,
+        "lost": apart == "lost",
+        "out_of_reach": False,
+        "event": side.event,
+        "undone": side.undone,
+        "before": list(side.before),
+        **side.measures,
+    }
+    return {name + who: value for name, value in own.items()}
+
+
+def analysed(pairs: Iterable[Pair], least: Mapping[str, int | None] | None = None) -> Analysis:
+    """What the study finds in the pairs."""
+    return analyse(frame_of(pairs, least or {}), ROBOTS)

@@ -5,18 +5,20 @@ from itertools import count
 
 import pytest
 
-from testbed.analysis.comparison import DIVIDED
+from papers.table1.pairs import Pair, Side, each
+from testbed.analysis.comparison import DIVIDED, Apart
 from testbed.analysis.comparison import MEASURES as COMPUTED
 from testbed.analysis.table import table_of
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
 from testbed.studies import rows_of
-from testbed.studies.table1.load import Meeting, Pair, Side, pairs_of, undone
-from testbed.studies.table1.measures import Analysis, Row, Table, analyse
+from testbed.studies.table1.measures import Row
+from testbed.studies.table1.pairs import Meeting, meeting, pairs_in, undone
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.studies.table1.tables import lines
 from testbed.studies.table1.tables import test_rows as effects
 from testbed.world import load_world
 from tests.experiment.samples import a_record
+from tests.studies.table1.made import ROBOTS, a_pair, a_side, analysed
 
 WORLD = load_world("office")
 NUMBERS = count()
@@ -29,37 +31,24 @@ def _side(
     correct: bool = True,
     event: str | None = "exo_lock(library)",
     before: tuple[str, ...] = ("a",),
-    lost: bool = False,
 ) -> Side:
-    return Side(
-        trial="t",
-        lost=lost,
-        achieved=correct,
-        correct=correct,
-        out_of_reach=False,
-        outcome="achieved" if correct else "false_finish",
-        event=event,
-        undone=False,
-        before=before,
-        measures=dict.fromkeys(DIVIDED, value),
-    )
+    return a_side(correct, event=event, before=before, **dict.fromkeys(DIVIDED, value))
 
 
 def _pair(
-    intended: str, mind: Side, base: Side, happened: str | None = None, solvable: bool = True
+    intended: str,
+    treatment: Side,
+    baseline: Side,
+    happened: str | None = None,
+    apart: Apart | None = None,
 ) -> Pair:
     """A pair from a state of its own."""
     state = f"state {next(NUMBERS)}"
-    return Pair(intended, happened or intended, solvable, mind, base, state, {})
+    return a_pair(happened or intended, treatment, baseline, intended, state, apart)
 
 
-def _analyse(pairs: list[Pair]) -> Analysis:
-    return analyse(pairs, "m", "b", {"2", "3", "4", "5"})
-
-
-def _named(table: Table | None) -> dict[str, Row]:
-    assert table is not None
-    return {row.name: row for row in table.rows}
+def _rows(pairs: list[Pair], way: str = "triggered") -> dict[str, Row]:
+    return {row.name: row for row in analysed(pairs).tables[way].rows}
 
 
 def test_the_measures_are_the_published_columns() -> None:
@@ -69,14 +58,14 @@ def test_the_measures_are_the_published_columns() -> None:
 
 def test_a_row_has_the_mean_of_the_ratios_and_not_the_ratio_of_the_means() -> None:
     pairs = [_pair("3", _side(1.0), _side(4.0)), _pair("3", _side(10.0), _side(10.0))]
-    ratio = _named(_analyse(pairs).triggered)["3"].ratios["actions"]
+    ratio = _rows(pairs)["3"].ratios["actions"]
     assert ratio.mean is not None
     assert (ratio.mean.value, ratio.pairs) == (2.5, 2)
 
 
 def test_a_pair_without_a_measure_has_no_ratio_and_counts_for_the_accuracy() -> None:
     pairs = [_pair("3", _side(0.0), _side(4.0)), _pair("3", _side(2.0), _side(1.0, correct=False))]
-    row = _named(_analyse(pairs).triggered)["3"]
+    row = _rows(pairs)["3"]
     assert (row.pairs, row.ratios["plans"].pairs) == (2, 1)
     assert row.baseline is not None
     assert row.baseline.value == 0.5
@@ -84,7 +73,7 @@ def test_a_pair_without_a_measure_has_no_ratio_and_counts_for_the_accuracy() -> 
 
 def test_what_nobody_failed_in_is_left_after_the_baselines_failures() -> None:
     pairs = [_pair("4", _side(), _side(3.0)), _pair("4", _side(), _side(0.5, correct=False))]
-    rows = _named(_analyse(pairs).triggered)
+    rows = _rows(pairs)
     for name in ("4" + NO_FAILURES, "all" + NO_FAILURES):
         mean = rows[name].ratios["actions"].mean
         assert mean is not None
@@ -95,42 +84,39 @@ def test_what_nobody_failed_in_is_left_after_the_baselines_failures() -> None:
 def test_lost_trials_and_goals_that_nothing_achieves_are_counted_apart() -> None:
     pairs = [
         _pair("3", _side(), _side()),
-        _pair("3", _side(lost=True, correct=False), _side()),
-        _pair("3", _side(), _side(lost=True, correct=False)),
-        _pair("3", _side(), _side(lost=True, correct=False), solvable=False),
-        _pair("3", _side(correct=False), _side(correct=False), solvable=False),
+        _pair("3", _side(correct=False), _side(), apart="lost"),
+        _pair("3", _side(), _side(correct=False), apart="lost"),
+        _pair("3", _side(correct=False), _side(correct=False), apart="unsolvable"),
     ]
-    row = _named(_analyse(pairs).triggered)["3"]
-    assert (row.pairs, row.lost, row.unsolvable) == (1, 3, 1)
-    assert row.intentional is not None
-    assert row.intentional.value == 1.0
+    row = _rows(pairs)["3"]
+    assert (row.pairs, row.left_out) == (1, {"failed": 2, "deadline": 0, "unsolvable": 1})
+    assert row.treatment is not None
+    assert row.treatment.value == 1.0
 
 
 def test_what_did_not_come_to_its_scenario_is_in_no_row() -> None:
     quiet = _side(event=None)
     pairs = [
         _pair("1", quiet, quiet),
-        _pair("1", quiet, quiet, happened="nothing to do"),
-        _pair("2", quiet, quiet, happened="1"),
+        _pair("1", quiet, quiet, happened="nothing to do", apart="nothing to do"),
+        _pair("2", quiet, quiet, happened="1", apart="no event"),
         _pair("2", _side(), _side()),
         _pair("random", _side(), _side(), happened="6"),
         _pair("random", _side(), _side(), happened="unclassified"),
     ]
-    analysis = _analyse(pairs)
-    triggered, drawn = _named(analysis.triggered), _named(analysis.random)
+    analysis = analysed(pairs)
+    triggered, drawn = _rows(pairs), _rows(pairs, "random")
     assert [triggered[name].pairs for name in ("1", "2", "all")] == [1, 1, 2]
-    assert analysis.triggered is not None
-    assert analysis.triggered.apart == {"no event": 1, "nothing to do": 1}
+    assert analysis.tables["triggered"].apart == {"no event": 1, "nothing to do": 1}
     assert [drawn[name].pairs for name in ("6", "all")] == [1, 0]
-    assert analysis.random is not None
-    assert analysis.random.apart == {"unclassified": 1}
+    assert analysis.tables["random"].apart == {"unclassified": 1}
     assert analysis.became["2"] == {"1": 1, "2": 1}
 
 
 def test_in_the_row_of_all_each_scenario_weighs_as_if_played_equally_often() -> None:
     pairs = [_pair("2", _side(), _side(9.0))]
     pairs += [_pair("3", _side(), _side(1.0)) for _ in range(4)]
-    mean = _named(_analyse(pairs).triggered)["all"].ratios["actions"].mean
+    mean = _rows(pairs)["all"].ratios["actions"].mean
     assert mean is not None
     assert mean.value == pytest.approx((4 * 9.0 + 4 * 1.0) / 8)
 
@@ -142,7 +128,7 @@ def test_scenarios_weigh_alike_where_one_number_is_no_multiple_of_the_other(
     """Half of the row of all is scenario 2, however many of its pairs are on record."""
     pairs = [_pair("2", _side(), _side(9.0, correct=False)) for _ in range(few)]
     pairs += [_pair("3", _side(), _side(1.0)) for _ in range(many)]
-    row = _named(_analyse(pairs).triggered)["all"]
+    row = _rows(pairs)["all"]
     ratio = row.ratios["actions"]
     assert ratio.mean is not None
     assert ratio.median is not None
@@ -161,7 +147,7 @@ def test_in_the_tests_of_all_scenarios_of_three_and_of_four_repeats_weigh_alike(
         own = [_pair("2", _side(1.0), _side(2.0)) for _ in range(3)]
         own += [_pair("3", _side(2.0), _side(1.0)) for _ in range(4)]
         pairs += [dataclasses.replace(pair, state=own[0].state) for pair in own]
-    test = _named(_analyse(pairs).triggered)["all"].ratios["actions"].test
+    test = _rows(pairs)["all"].ratios["actions"].test
     assert test is not None
     assert (test.p, test.effect) == (1.0, 0.0)
 
@@ -169,12 +155,12 @@ def test_in_the_tests_of_all_scenarios_of_three_and_of_four_repeats_weigh_alike(
 def test_pairs_from_one_state_are_one_witness() -> None:
     pairs = [_pair("3", _side(1.0), _side(2.0 + n)) for n in range(8)]
     again = [dataclasses.replace(pair) for pair in pairs]
-    alone, both = (_named(_analyse(own).triggered)["3"] for own in (pairs, [*pairs, *again]))
+    alone, both = (_rows(own)["3"] for own in (pairs, [*pairs, *again]))
     assert (alone.pairs, both.pairs) == (8, 16)
     assert both.ratios == {
         name: dataclasses.replace(ratio, pairs=16) for name, ratio in alone.ratios.items()
     }
-    assert (both.intentional, both.baseline) == (alone.intentional, alone.baseline)
+    assert (both.treatment, both.baseline) == (alone.treatment, alone.baseline)
 
 
 def test_in_the_tests_of_all_a_pair_weighs_as_in_its_means() -> None:
@@ -184,14 +170,14 @@ def test_in_the_tests_of_all_a_pair_weighs_as_in_its_means() -> None:
         once = _pair("2", _side(1.0), _side(1.5))
         often = [_pair("3", _side(1.5), _side(1.0)) for _ in range(3)]
         pairs += [once, *(dataclasses.replace(pair, state=once.state) for pair in often)]
-    test = _named(_analyse(pairs).triggered)["all"].ratios["actions"].test
+    test = _rows(pairs)["all"].ratios["actions"].test
     assert test is not None
     assert (test.p, test.effect) == (1.0, 0.0)
 
 
 def test_the_corrected_p_values_are_those_of_the_whole_table() -> None:
     few = [_pair("3", _side(1.0), _side(2.0 + n)) for n in range(8)]
-    alone = _named(_analyse(few).triggered)["3"].ratios["actions"].test
+    alone = _rows(few)["3"].ratios["actions"].test
     assert alone is not None
     assert alone.holm is not None
     assert (alone.p, alone.effect) == (pytest.approx(2 / 2**8), 1.0)
@@ -200,7 +186,7 @@ def test_the_corrected_p_values_are_those_of_the_whole_table() -> None:
 
 def test_the_advantage_is_how_much_more_often_the_intentional_robot_is_right() -> None:
     pairs = [_pair("4", _side(), _side(correct=n >= 30)) for n in range(100)]
-    row = _named(_analyse(pairs).triggered)["4"]
+    row = _rows(pairs)["4"]
     assert row.advantage is not None
     assert row.accuracy is not None
     assert (row.advantage.value, row.accuracy.effect) == (pytest.approx(0.3), pytest.approx(0.3))
@@ -210,8 +196,7 @@ def test_the_advantage_is_how_much_more_often_the_intentional_robot_is_right() -
 
 def test_a_published_value_outside_of_our_interval_is_marked() -> None:
     pairs = [_pair("1", _side(1.0, event=None), _side(1.0, event=None)) for _ in range(30)]
-    table = _analyse(pairs).triggered
-    assert table is not None
+    table = analysed(pairs).tables["triggered"]
     cells = {row[0].strip(): row for row in list(rows_of(lines(table)))[:3]}
     assert cells["1"][3] == "1.00 [1.00, 1.00]"
     assert cells["published"][2:] == ("0.81 *", "1.00", "0.45 *", "1.00", "1.00", "100%", "100%")
@@ -219,7 +204,7 @@ def test_a_published_value_outside_of_our_interval_is_marked() -> None:
 
 
 @pytest.mark.parametrize(
-    ("mind", "base", "meeting"),
+    ("treatment", "baseline", "met"),
     [
         ((None, ("a", "b")), (None, ("a", "b")), "nothing"),
         (("e", ("a", "b")), ("e", ("a", "b")), "same"),
@@ -233,12 +218,11 @@ def test_a_published_value_outside_of_our_interval_is_marked() -> None:
     ],
 )
 def test_whether_both_met_the_same(
-    mind: tuple[str | None, tuple[str, ...]],
-    base: tuple[str | None, tuple[str, ...]],
-    meeting: Meeting,
+    treatment: tuple[str | None, tuple[str, ...]],
+    baseline: tuple[str | None, tuple[str, ...]],
+    met: Meeting,
 ) -> None:
-    sides = [_side(event=event, before=before) for event, before in (mind, base)]
-    assert _pair("3", *sides).meeting == meeting
+    assert meeting(*treatment, *baseline) == met
 
 
 def _record(robot: str, **values: object) -> TrialRecord:
@@ -251,13 +235,10 @@ def test_pairs_are_joined_in_any_order_and_others_are_passed_over() -> None:
     mind.actions = [Attempt(2, "move(rob1,library)", True)]
     base, third = _record("traditional"), _record("intentional-checking")
     for records in ([mind, third, base], [base, mind]):
-        (pair,) = pairs_of(table_of(records), WORLD, "intentional", "traditional")
-        assert (pair.happened, pair.mind.trial, pair.base.trial) == (
-            "1",
-            "intentional",
-            "traditional",
-        )
-    assert list(pairs_of(table_of([mind, third]), WORLD, "intentional", "traditional")) == []
+        (pair,) = each(pairs_in(table_of(records), WORLD, ROBOTS, ()))
+        trials = (pair.baseline.trial, pair.treatment.trial)
+        assert (pair.happened, trials) == ("1", ROBOTS)
+    assert len(pairs_in(table_of([mind, third]), WORLD, ROBOTS, ())) == 0
 
 
 @pytest.mark.parametrize(

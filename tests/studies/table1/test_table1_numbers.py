@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from testbed.analysis import load_run
+from testbed.analysis.pairs import Compared
 from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
@@ -16,8 +17,8 @@ from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import read_records
 from testbed.report import write_report
-from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import Analysis, Row, analyse, measures
+from testbed.studies.table1.pairs import pairs_in
 from testbed.studies.table1.published import ALL, MEASURES, PUBLISHED
 from testbed.world import load_world
 from tests.experiment.samples import a_record, summary_of
@@ -51,18 +52,17 @@ def analysis(folder: Path) -> Analysis:
 
 
 def _triggered(analysis: Analysis) -> dict[str, Row]:
-    assert analysis.triggered is not None
-    return {row.name: row for row in analysis.triggered.rows}
+    return {row.name: row for row in analysis.tables["triggered"].rows}
 
 
 def test_a_scenario_has_the_numbers_of_its_row(summary: Any, analysis: Analysis) -> None:
     rows = _triggered(analysis)
     for name in INTENDED:
         row, group = rows[name], summary["scenarios"][name]
-        assert row.intentional is not None
+        assert row.treatment is not None
         assert row.baseline is not None
         assert group["pairs"] == row.pairs
-        shares = {"intentional": row.intentional.value, "traditional": row.baseline.value}
+        shares = {"intentional": row.treatment.value, "traditional": row.baseline.value}
         assert group["accuracy"] == pytest.approx(shares)
         means = {m: ratio.mean and ratio.mean.value for m, ratio in row.ratios.items()}
         assert {m: group["ratios"][m] for m in means} == pytest.approx(means)
@@ -77,12 +77,11 @@ def test_a_scenario_has_the_numbers_of_its_row(summary: Any, analysis: Analysis)
 
 def test_what_is_in_no_row_is_counted_apart_in_the_summary(summary: Any, folder: Path) -> None:
     (found,) = measures(load_run(folder), as_published=True)
-    assert found.triggered is not None
     apart = {
         reason: sum(summary["scenarios"][name][key] for name in INTENDED)
         for reason, key in (("no event", "without_event"), ("nothing to do", "nothing_to_do"))
     }
-    assert dict(found.triggered.apart) == apart
+    assert dict(found.tables["triggered"].apart) == apart
     assert min(apart.values()) > 0
     pairs = {record.pair for record in read_records(folder) if record.scenario in INTENDED}
     counted = sum(summary["scenarios"][name]["pairs"] for name in INTENDED)
@@ -92,8 +91,7 @@ def test_what_is_in_no_row_is_counted_apart_in_the_summary(summary: Any, folder:
 def test_the_random_pairs_are_those_of_the_rows_of_the_other_table(
     summary: Any, analysis: Analysis
 ) -> None:
-    assert analysis.random is not None
-    pairs = sum(row.pairs for row in analysis.random.rows if row.name.isdigit())
+    pairs = sum(row.pairs for row in analysis.tables["random"].rows if row.name.isdigit())
     assert summary["scenarios"]["random"]["pairs"] == pairs
 
 
@@ -101,8 +99,8 @@ def test_the_summary_has_both_tables(summary: Any, analysis: Analysis) -> None:
     assert set(summary["table1"]) == {"intentional"}
     tables = summary["table1"]["intentional"]
     assert tables["became"] == analysis.became
-    for kind, table in (("triggered", analysis.triggered), ("random", analysis.random)):
-        assert table is not None
+    assert set(analysis.tables) == {"triggered", "random"}
+    for kind, table in analysis.tables.items():
         assert tables[kind]["apart"] == table.apart
         assert list(tables[kind]["rows"]) == [row.name for row in table.rows]
         for row in table.rows:
@@ -110,9 +108,9 @@ def test_the_summary_has_both_tables(summary: Any, analysis: Analysis) -> None:
 
 
 def _compare(found: Any, row: Row) -> None:
-    counts = ("pairs", "unsolvable", "out_of_reach", "meetings")
+    counts = ("pairs", "out_of_reach", "meetings")
     assert {key: found[key] for key in counts} == {key: getattr(row, key) for key in counts}
-    assert found["failed"] == row.lost
+    assert {key: found[key] for key in row.left_out} == row.left_out
     for measure, ratio in row.ratios.items():
         own = found["ratios"][measure]
         assert own["pairs"] == ratio.pairs
@@ -135,7 +133,7 @@ def test_a_published_value_says_whether_it_lies_in_our_interval(summary: Any) ->
             own = rows[name]["ratios"][measure]
             assert own["published"] == paper.ratios[measure]
             _inside(own, own["mean"])
-        for robot, share in (("traditional", paper.baseline), ("intentional", paper.intentional)):
+        for robot, share in (("traditional", paper.baseline), ("intentional", paper.treatment)):
             own = rows[name]["accuracy"][robot]
             assert own["published"] == share
             _inside(own, own["value"])
@@ -199,8 +197,9 @@ def test_whatever_comes_of_pairs_both_count_the_same(trials: list[list[TrialReco
     both = [a_record("i", scenario="6"), a_record("t", scenario="6", robot="traditional")]
     records = [*both, *(record for pair in trials for record in pair)]
     summary: Any = summary_of(records, SURE)
-    pairs = list(pairs_of(table_of(records[2:]), WORLD, "intentional", "traditional"))
-    table = analyse(pairs, "intentional", "traditional", SURE).triggered
+    robots = Compared("traditional", "intentional")
+    pairs = pairs_in(table_of(records[2:]), WORLD, robots, SURE)
+    table = analyse(pairs, robots).tables.get("triggered")
     rows = {} if table is None else {row.name: row for row in table.rows}
     apart = {"no event": 0, "nothing to do": 0} | dict({} if table is None else table.apart)
     groups = {name: own for name, own in summary["scenarios"].items() if name != "6"}
@@ -210,9 +209,9 @@ def test_whatever_comes_of_pairs_both_count_the_same(trials: list[list[TrialReco
             assert (group["pairs"], group["failed_pairs"], group["unsolvable"]) == (0, 0, 0)
             continue
         counts = (group["pairs"], group["failed_pairs"], group["unsolvable"])
-        assert counts == (row.pairs, row.lost, row.unsolvable)
+        assert counts == (row.pairs, row.left_out["failed"], row.left_out["unsolvable"])
         shares = (group["accuracy"].get("intentional"), group["accuracy"].get("traditional"))
-        assert shares == tuple(own and own.value for own in (row.intentional, row.baseline))
+        assert shares == tuple(own and own.value for own in (row.treatment, row.baseline))
         means = {m: ratio.mean and ratio.mean.value for m, ratio in row.ratios.items()}
         assert {m: group["ratios"][m] for m in means} == pytest.approx(means)
     assert sum(group["without_event"] for group in groups.values()) == apart["no event"]

@@ -8,14 +8,16 @@ import pytest
 
 from benchmarks.killing import killed_at
 from papers.table1.__main__ import main
+from papers.table1.pairs import each
 from testbed.analysis import load_run
+from testbed.analysis.pairs import Compared
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import read_records
-from testbed.studies.table1.load import pairs_of
+from testbed.studies.table1.pairs import pairs_in
 from testbed.world import load_world
 
 SMALL = ["limit=4", "repeats=2", "scenario_settings={}"]
@@ -47,11 +49,12 @@ def test_the_intentional_robot_never_fails_with_feedback(here: Path) -> None:
 
 def test_the_traditional_robot_fails_where_the_goal_was_undone(here: Path) -> None:
     trials = load_run(here, _config()).trials
-    pairs = list(pairs_of(trials, load_world("office"), "intentional", "traditional"))
+    robots = Compared("traditional", "intentional")
+    pairs = list(each(pairs_in(trials, load_world("office"), robots, ())))
     assert len(pairs) == 6 * 4
-    assert any(pair.base.undone for pair in pairs)
+    assert any(pair.baseline.undone for pair in pairs)
     for pair in pairs:
-        assert pair.base.correct != pair.base.undone
+        assert pair.baseline.correct != pair.baseline.undone
         assert pair.meeting in ("nothing", "same")
 
 

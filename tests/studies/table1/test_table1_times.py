@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from testbed.experiment.record import TrialRecord
-from testbed.studies.table1.measures import Analysis, Row, analyse
+from testbed.studies.table1.measures import Analysis, Row
 from testbed.studies.table1.tables import times_rows
 from tests.experiment.samples import a_record, summary_of
-from tests.studies.table1.made import a_pair, a_side
+from tests.studies.table1.made import a_pair, a_side, analysed
 
 
 def _analysis() -> Analysis:
@@ -23,12 +23,11 @@ def _analysis() -> Analysis:
         )
         for number, (mp, md, bp, bd) in enumerate(own)
     ]
-    return analyse(pairs, "mind", "base", ())
+    return analysed(pairs)
 
 
 def _row(analysis: Analysis) -> Row:
-    assert analysis.random is not None
-    return next(row for row in analysis.random.rows if row.name == "2")
+    return next(row for row in analysis.tables["random"].rows if row.name == "2")
 
 
 def test_each_time_has_both_robots_seconds_the_mean_of_ratios_and_the_ratio_of_sums() -> None:
@@ -41,7 +40,7 @@ def test_each_time_has_both_robots_seconds_the_mean_of_ratios_and_the_ratio_of_s
     for name, (base, mind, mean, of_sums) in expected.items():
         own = found[name]
         assert own.ratio.mean is not None
-        measured = (own.baseline, own.intentional, own.ratio.mean.value, own.ratio.of_sums)
+        measured = (own.baseline, own.treatment, own.ratio.mean.value, own.ratio.of_sums)
         assert measured == pytest.approx((base, mind, mean, of_sums))
         assert own.ratio.test is None, (
             "they are no tests of the table, whose correction is over all"
@@ -49,15 +48,13 @@ def test_each_time_has_both_robots_seconds_the_mean_of_ratios_and_the_ratio_of_s
 
 
 def test_the_published_column_stands_beside_the_readings_that_it_can_have() -> None:
-    table = _analysis().random
-    assert table is not None
+    table = _analysis().tables["random"]
     cells = [row for row in times_rows(table) if row[0] == "2"]
     assert [row[-1].removesuffix(" *") for row in cells] == ["1.08", "", "1.08"]
 
 
 def test_without_published_figures_the_column_is_empty() -> None:
-    table = _analysis().random
-    assert table is not None
+    table = _analysis().tables["random"]
     cells = [row for row in times_rows(replace(table, published={})) if row[0] == "2"]
     assert [row[-1] for row in cells] == ["", "", ""]
 
