@@ -16,7 +16,6 @@ from testbed.analysis.condition import condition
 from testbed.analysis.summary import write_summary
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import coverage_of
-from testbed.experiment.record import FAILURES
 from testbed.experiment.run_folder import REPORT, replace_text
 from testbed.experiment.specs import TrialSpec
 from testbed.report.comparison import OPTIMUM, charts, comparisons, optima
@@ -25,12 +24,6 @@ from testbed.report.stories import accounts_of, chapters, command_of, failures, 
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Results, Section, grid, left_out, results_of
 from testbed.text.grid import Grid
-
-PLACE = ("scenario", "level")
-WRONG = pl.col("correct").fill_null(True).not_() | pl.col("outcome").is_in(FAILURES)
-"""Of the trials that are told as failures: all others are passed over."""
-COUNTED = ("achieved", "failed", "lost")
-SAID = ("digest", "notice", "condition", "left_out")
 
 
 @dataclass(frozen=True)
@@ -60,7 +53,10 @@ def write_report(
     With `specs` records are to be those of these trials. Raises StoreError for one that is not.
     """
     run = load_run(folder, config, specs)
-    found, covered = results_of(run), coverage_of(run.trials.select(*PLACE).iter_rows(), config)
+    found, covered = (
+        results_of(run),
+        coverage_of(run.trials.select("scenario", "level").iter_rows(), config),
+    )
     summary = write_summary(run, covered.numbers(), [own.numbers for own in found])
     main, *_ = compared(config)
     rows = with_apart(measured(run.trials), main, eventful(config))
@@ -69,7 +65,7 @@ def write_report(
         summary["digest"],
         summary["deadline"],
         covered.notice(),
-        rows_of(run.records(), dict(rows.select("pair", "apart").iter_rows())),
+        rows_of(run.trials.with_columns(rows["apart"])),
         list(_grids(sections)),
         condition(config),
         left_out(config),
@@ -90,26 +86,24 @@ def _write_page(
     sections: Sequence[Section],
     compared: Mapping[str, Any],
 ) -> None:
+    source = reversed(read_domain(run.config.domain))
+    notes = scenario_notes(*source) if run.config.plays_triggers else {}
     parts = {
-        **_heading(run.config, tables),
+        "config": run.config,
+        "domain": Path(run.config.domain).stem,
+        "tables": tables,
         "columns": headings(tables.rows),
         "rows": tables.rows,
         "sections": [(section, rendered(section)) for section in sections],
         **compared,
-        **_trials(run),
+        "trials": len(run.trials),
+        "accounts": list(accounts_of(run.records(pl.col("explanations").list.len() > 0))),
+        "slowest": slowest(run.trials),
+        "failures": failures(run.trials),
+        "chapters": list(chapters(run.trials, notes)),
         "replay": lambda trial: command_of(run.folder, trial),
     }
     replace_text(run.folder / REPORT, environment().get_template("page.html.j2").render(parts))
-
-
-def _heading(config: ExperimentConfig, tables: Tables) -> dict[str, Any]:
-    return {
-        "config": config,
-        "domain": Path(config.domain).stem,
-        "trials": sum(row.trials + row.lost for row in tables.rows),
-        **{key: sum(getattr(row, key) for row in tables.rows) for key in COUNTED},
-        **{key: getattr(tables, key) for key in SAID},
-    }
 
 
 def _compared(
@@ -124,17 +118,4 @@ def _compared(
         "compared_charts": charts(trials, summary) if rows and several else [],
         "optimum_columns": OPTIMUM,
         "optima": optima(summary) if own else [],
-    }
-
-
-def _trials(run: Run) -> dict[str, Any]:
-    source = reversed(read_domain(run.config.domain))
-    notes = scenario_notes(*source) if run.config.plays_triggers else {}
-    told = list(chapters(run.trials, notes))
-    return {
-        "accounts": accounts_of(run.records(pl.col("explanations").list.len() > 0)),
-        "slowest": slowest(run.trials, run.folder),
-        "failures": failures(run.records(WRONG), run.folder),
-        "told": sum(len(chapter.stories) for chapter in told),
-        "chapters": told,
     }

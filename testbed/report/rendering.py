@@ -8,7 +8,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from testbed.experiment.timeline import in_words
+from testbed.experiment.timeline import in_words, of_place, timeline
 from testbed.studies import Chart, Section
 from testbed.text.terminal import plain
 from testbed.text.wording import counted
@@ -28,7 +28,15 @@ def environment() -> Environment:
     """Templates in which text is escaped and a name that is not given is an error."""
     loader = PackageLoader("testbed.report", "templates")
     made = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, finalize=_visible)
-    made.filters |= {"atoms": _atoms, "counted": counted, "drawn": _drawn, "in_words": in_words}
+    made.filters |= {
+        "atoms": _atoms,
+        "counted": counted,
+        "drawn": _drawn,
+        "events": lambda own: ", ".join(f"{e.action} at step {e.step}" for e in own.exogenous),
+        "in_words": in_words,
+        "of_place": lambda own: of_place(own.scenario, own.level),
+        "steps": lambda own: list(timeline(own)),
+    }
     made.trim_blocks = made.lstrip_blocks = True
     return made
 

@@ -12,7 +12,7 @@ import polars as pl
 
 from testbed.analysis.table import records_of
 from testbed.experiment.record import COARSE, FAILURES, Explained, TrialRecord
-from testbed.experiment.timeline import Step, exception, in_words, of_place, timeline
+from testbed.experiment.timeline import exception, in_words, of_place
 
 SHOWN = 60
 """Trials told step by step; of a larger run those that failed come first."""
@@ -20,14 +20,8 @@ SLOWEST = 10
 MOST = 12
 """Explanations of a robot that are shown."""
 NOTHING = "nothing"
-
-
-@dataclass(frozen=True)
-class Story:
-    """A trial as the report tells it."""
-
-    record: TrialRecord
-    steps: tuple[Step, ...]
+WRONG = pl.col("correct").fill_null(True).not_() | pl.col("outcome").is_in(FAILURES)
+"""Of the trials that are told as failures: all others are passed over."""
 
 
 @dataclass(frozen=True)
@@ -36,50 +30,22 @@ class Chapter:
 
     title: str
     note: str
-    stories: tuple[Story, ...]
+    records: list[TrialRecord]
 
 
 def chapters(trials: pl.DataFrame, notes: Mapping[str, str]) -> Iterator[Chapter]:
-    """The told trials of a run by scenario or level; `notes` are the domain's, by scenario."""
-    stories: dict[tuple[str, str], list[Story]] = {}
-    for record in records_of(_worth_telling(trials)):
-        story = Story(record, tuple(timeline(record)))
-        stories.setdefault((record.scenario, record.level), []).append(story)
-    for (scenario, level), told in stories.items():
-        note = notes.get(scenario, "") if level == COARSE else ""
-        yield Chapter(of_place(scenario, level), note, tuple(told))
+    """At most `SHOWN` trials in their order by scenario or level: what went wrong comes first.
 
-
-def _worth_telling(trials: pl.DataFrame) -> pl.DataFrame:
-    """At most `SHOWN` trials, in their order: what went wrong first, then the others."""
-    wrong = pl.col("outcome").is_in(FAILURES) | ~pl.col("achieved")
+    `notes` are the domain's, by scenario.
+    """
+    failed = pl.col("outcome").is_in(FAILURES) | ~pl.col("achieved")
     numbered = trials.with_row_index("number")
-    chosen = pl.concat([numbered.filter(wrong), numbered.filter(~wrong)]).head(SHOWN)
-    return chosen.sort("number").drop("number")
-
-
-@dataclass(frozen=True)
-class Slow:
-    """One of the trials that took the robot most reasoning; `seconds` are those of the trial."""
-
-    place: str
-    robot: str
-    outcome: str
-    plans: int
-    steps: int
-    seconds: float
-    command: str
-
-
-@dataclass(frozen=True)
-class Failed:
-    """The trials of one robot that ended alike: of each its command, with what others did."""
-
-    place: str
-    robot: str
-    ending: str
-    lost: bool
-    lines: tuple[tuple[str, str], ...]
+    chosen = pl.concat([numbered.filter(failed), numbered.filter(~failed)]).head(SHOWN)
+    places = chosen.sort("number").drop("number").partition_by("scenario", "level")
+    for told in places:
+        scenario, level = told.select("scenario", "level").row(0)
+        note = notes.get(scenario, "") if level == COARSE else ""
+        yield Chapter(of_place(scenario, level), note, list(records_of(told)))
 
 
 def command_of(folder: Path, trial: str) -> str:
@@ -87,34 +53,30 @@ def command_of(folder: Path, trial: str) -> str:
     return f"testbed replay {shlex.quote(str(folder))} --trial {trial}"
 
 
-def slowest(trials: pl.DataFrame, folder: Path) -> list[Slow]:
+def slowest(trials: pl.DataFrame) -> list[TrialRecord]:
     """The trials with most reasoning, the slowest first."""
-    chosen = trials.sort("reasoning_time_s", descending=True, maintain_order=True).head(SLOWEST)
-    return [
-        Slow(
-            place=of_place(record.scenario, record.level),
-            robot=record.robot,
-            outcome=in_words(record.outcome),
-            plans=record.plans,
-            steps=record.steps,
-            seconds=record.reasoning_time_s,
-            command=command_of(folder, record.trial),
-        )
-        for record in records_of(chosen)
-    ]
+    ordered = trials.sort("reasoning_time_s", descending=True, maintain_order=True)
+    return list(records_of(ordered.head(SLOWEST)))
 
 
-def failures(records: Iterable[TrialRecord], folder: Path) -> list[Failed]:
+@dataclass(frozen=True)
+class Failed:
+    """The trials of one robot that ended alike."""
+
+    place: str
+    robot: str
+    ending: str
+    lost: bool
+    records: list[TrialRecord]
+
+
+def failures(trials: pl.DataFrame) -> list[Failed]:
     """Every trial that is not correct, by place, robot and ending; lost ones and errors first."""
-    groups: dict[tuple[str, str, str, bool], list[tuple[str, str]]] = {}
-    for record in records:
-        if record.correct is False or record.lost:
-            lost = record.outcome in FAILURES
-            key = (of_place(record.scenario, record.level), record.robot, _ending(record), lost)
-            line = (command_of(folder, record.trial), _events(record))
-            groups.setdefault(key, []).append(line)
-    found = [Failed(*key, tuple(lines)) for key, lines in groups.items()]
-    return sorted(found, key=lambda group: not group.lost)
+    groups: dict[tuple[str, str, str, bool], list[TrialRecord]] = {}
+    for record in records_of(trials.filter(WRONG)):
+        place, lost = of_place(record.scenario, record.level), record.outcome in FAILURES
+        groups.setdefault((place, record.robot, _ending(record), lost), []).append(record)
+    return sorted((Failed(*key, own) for key, own in groups.items()), key=lambda own: not own.lost)
 
 
 def _ending(record: TrialRecord) -> str:
@@ -125,22 +87,21 @@ def _ending(record: TrialRecord) -> str:
     return f"{in_words(record.outcome)}{reach}{reason}"
 
 
-def _events(record: TrialRecord) -> str:
-    return ", ".join(f"{event.action} at step {event.step}" for event in record.exogenous)
-
-
 @dataclass(frozen=True)
 class Account:
     """An explanation, and how often it was adopted.
 
-    `happened` is what others had done by then without telling, `right` whether the explanation
-    names just that, whatever the steps.
+    `happened` is what others had done by then without telling.
     """
 
     happened: str
     explained: str
     count: int
-    right: bool
+
+    @property
+    def right(self) -> bool:
+        """Whether the explanation names just what happened, whatever the steps."""
+        return self.happened == self.explained
 
 
 @dataclass(frozen=True)
@@ -150,33 +111,28 @@ class Accounts:
     robot: str
     total: int
     right: int
-    common: tuple[Account, ...]
+    common: list[Account]
     kinds: int
 
 
-def accounts_of(records: Iterable[TrialRecord]) -> list[Accounts]:
+def accounts_of(records: Iterable[TrialRecord]) -> Iterator[Accounts]:
     """What each robot explained by what, in the order in which records name the robots."""
     counts: dict[str, Counter[tuple[str, str]]] = {}
     for record in records:
         own = counts.setdefault(record.robot, Counter())
         own.update((_happened(record, e.step), _assumed(e)) for e in record.explanations)
-    return [_accounts(robot, own) for robot, own in counts.items() if own]
-
-
-def _accounts(robot: str, counts: Counter[tuple[str, str]]) -> Accounts:
-    ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-    told = [
-        Account(happened, explained, count, happened == explained)
-        for (happened, explained), count in ordered
-    ]
-    right = sum(account.count for account in told if account.right)
-    return Accounts(robot, counts.total(), right, tuple(told[:MOST]), len(told))
+    for robot, own in counts.items():
+        ordered = sorted(own.items(), key=lambda item: (-item[1], item[0]))
+        told = [Account(*names, count) for names, count in ordered]
+        right = sum(account.count for account in told if account.right)
+        if told:
+            yield Accounts(robot, own.total(), right, told[:MOST], len(told))
 
 
 def _happened(record: TrialRecord, step: int) -> str:
     """What others had done before a step, and the robot was not told of."""
     unseen = (e.action for e in record.exogenous if e.step < step and not e.observed)
-    return _said(sorted(unseen))
+    return " ".join(sorted(unseen)) or NOTHING
 
 
 def _assumed(explained: Explained) -> str:
@@ -184,8 +140,4 @@ def _assumed(explained: Explained) -> str:
     exceptions = sorted(map(exception, explained.exceptions))
     events = sorted(event.action for event in explained.unobserved)
     distrusted = sorted(f"distrusted {report.action}" for report in explained.distrusted)
-    return _said([*exceptions, *events, *distrusted])
-
-
-def _said(names: list[str]) -> str:
-    return " ".join(names) or NOTHING
+    return " ".join([*exceptions, *events, *distrusted]) or NOTHING

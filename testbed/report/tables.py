@@ -1,13 +1,16 @@
-"""The table of a run: one row a scenario (or level) and robot, means over their trials."""
+"""The table of a run: one row per scenario (or level) and robot, means over their trials."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Any
+
+import polars as pl
 
 from testbed.analysis.comparison import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
-from testbed.experiment.record import COARSE, OUTCOMES, Outcome, TrialRecord
+from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome
 from testbed.experiment.timeline import exception, in_words, of_place, place
 from testbed.text.grid import Grid
 from testbed.text.wording import counted
@@ -23,14 +26,14 @@ COLUMNS = (
     "explained by",
 )
 AT_LEVELS = {"scenario": "level", "planning": "coarse planning"}
+MEANS = ("plans", "action_count", "execution_units")
 MOST_COMMON = 3
 UNJUDGED = "the fewest actions are not known: more than limits.judge_states states"
-NONE_APART: Mapping[str, Apart] = {}
 
 
-@dataclass
+@dataclass(frozen=True)
 class Row:
-    """What the trials of one robot in one scenario, or at one level, come to: sums for means.
+    """What the trials of one robot in one scenario, or at one level, come to; means of numbers.
 
     `apart` says of trials with rows of their own that their pairs are compared in none. Trials that
     the robot's own error ended (`failed`) count as trials, not achieved, and in no mean; those that
@@ -41,38 +44,17 @@ class Row:
     level: str
     apart: Apart | None
     robot: str
-    trials: int = 0
-    lost: int = 0
-    failed: int = 0
-    achieved: int = 0
-    plans: int = 0
-    actions: int = 0
-    units: int = 0
-    planning_s: float = 0.0
-    explanations: Counter[str] = field(default_factory=Counter)
-    reasons: Counter[str] = field(default_factory=Counter)
-    endings: Counter[Outcome] = field(default_factory=Counter)
-
-    def add(self, record: TrialRecord) -> None:
-        """Count one more trial."""
-        if record.lost:
-            self.lost += 1
-            return
-        self.trials += 1
-        self.endings[record.outcome] += 1
-        if record.failed:
-            self.failed += 1
-            return
-        self.achieved += record.achieved
-        self.plans += record.plans
-        self.actions += record.action_count
-        self.units += record.execution_units
-        self.planning_s += record.planning_cpu_s
-        self.explanations.update(explained(record))
-        if record.reason is not None:
-            self.reasons[record.reason] += 1
-        if record.minimal_reason == "budget":
-            self.reasons[UNJUDGED] += 1
+    trials: int
+    lost: int
+    failed: int
+    achieved: int
+    plans: float | None
+    action_count: float | None
+    execution_units: float | None
+    planning_cpu_s: float | None
+    explanations: list[list[Mapping[str, Any]]]
+    reasons: list[str]
+    endings: list[Outcome]
 
     @property
     def place(self) -> str:
@@ -81,99 +63,101 @@ class Row:
 
     def cells(self) -> tuple[str, ...]:
         """The row as text, in the order of `COLUMNS`."""
+        form = ".0f" if self.trials == 1 else ".1f"
+        means = (getattr(self, name) for name in MEANS)
+        seconds = self.planning_cpu_s
         return (
             self.place,
             self.robot,
             self._achieved(),
-            self._mean(self.plans),
-            self._mean(self.actions),
-            self._mean(self.units),
-            self._planning(),
+            *("-" if mean is None else format(mean, form) for mean in means),
+            "-" if seconds is None else f"{1000 * seconds:.0f} ms",
             self._explained(),
         )
 
     def notes(self) -> tuple[str, ...]:
         """What is to be known of trials that were played to their end, one line each."""
         whose = f"{self._named(of_place(self.scenario, self.level))}, {self.robot}"
+        reasons = Counter(self.reasons).items()
         if self.trials == 1:
-            return tuple(f"{whose}: {reason}" for reason in self.reasons)
-        trials = f"of {self.trials} trials"
-        return tuple(f"{whose}: {reason} in {n} {trials}" for reason, n in self.reasons.items())
+            return tuple(f"{whose}: {reason}" for reason, _ in reasons)
+        return tuple(f"{whose}: {reason} in {n} of {self.trials} trials" for reason, n in reasons)
 
     def _named(self, where: str) -> str:
         if self.apart == NOTHING_TO_DO:
             return NOTHING_TO_DO
         return where if self.apart is None else f"{where}, {self.apart}"
 
-    @property
-    def _played(self) -> int:
-        return self.trials - self.failed
-
     def _achieved(self) -> str:
         """How many, and how the others ended, in the order in which outcomes are declared."""
-        others = [name for name in OUTCOMES if self.endings[name] and name != "achieved"]
-        lost = [f"{self.lost} lost"] * (self.lost > 0)
+        lost, counts = [f"{self.lost} lost"] * (self.lost > 0), Counter(self.endings)
+        others = [name for name in OUTCOMES if counts[name] and name != "achieved"]
         if not self.trials:
             return ", ".join(["-", *lost])
         if self.trials == 1:
             share = "yes" if self.achieved else "no"
             return ", ".join([share, *map(in_words, others), *lost])
-        share = f"{self.achieved}/{self.trials}"
-        told = (f"{self.endings[name]} {in_words(name)}" for name in others)
-        return ", ".join([share, *told, *lost])
-
-    def _mean(self, total: int) -> str:
-        if not self._played:
-            return "-"
-        return str(total) if self.trials == 1 else f"{total / self._played:.1f}"
-
-    def _planning(self) -> str:
-        return f"{1000 * self.planning_s / self._played:.0f} ms" if self._played else "-"
+        told = (f"{counts[name]} {in_words(name)}" for name in others)
+        return ", ".join([f"{self.achieved}/{self.trials}", *told, *lost])
 
     def _explained(self) -> str:
-        counts = list(self.explanations.items())
+        counts = list(Counter(text for own in self.explanations for text in explained(own)).items())
         if self.trials > 1:
             counts.sort(key=lambda item: (-item[1], item[0]))
         common = counts[:MOST_COMMON]
         texts = [text if self.trials == 1 else f"{text} x{count}" for text, count in common]
-        rest = len(self.explanations) - len(common)
-        if rest:
-            texts.append(counted(rest, "other"))
-        return ", ".join(texts) or "-"
+        rest = len(counts) - len(common)
+        return ", ".join([*texts, *[counted(rest, "other")] * (rest > 0)]) or "-"
 
 
-def explained(record: TrialRecord) -> list[str]:
-    """What the robot explained, each once, in the order of its steps.
+def explained(explanations: Iterable[Mapping[str, Any]]) -> list[str]:
+    """What the robot explained in a trial, each once, in the order of its steps.
 
     These are the exogenous actions that it assumed, and the exceptions, which hold from step 0 on.
     """
-    explanations = record.explanations
-    events = [(event.step, event.action) for own in explanations for event in own.unobserved]
-    exceptions = [exception(literal) for own in explanations for literal in own.exceptions]
-    return list(dict.fromkeys([*sorted(exceptions), *(action for _, action in sorted(events))]))
+    told = list(explanations)
+    events = sorted((at["step"], at["action"]) for own in told for at in own["unobserved"])
+    exceptions = sorted(exception(literal) for own in told for literal in own["exceptions"])
+    return list(dict.fromkeys([*exceptions, *(action for _, action in events)]))
 
 
-def rows_of(records: Iterable[TrialRecord], apart: Mapping[str, Apart] = NONE_APART) -> list[Row]:
-    """The rows of a table: places as the records name them first, robots by name.
+def rows_of(trials: pl.DataFrame) -> list[Row]:
+    """The rows of a table: places as the trials name them first, robots by name.
 
-    `apart` are the pairs that are not compared (`counting.pairs_apart`). Where the event of their
-    scenario never fired, or a decision was cut off by the clock, they have rows behind it; where
-    there was nothing to do, rows at the end; others stand in their scenario, where it is told how
-    they ended.
+    The column `apart` says why the pair of a trial is not compared, or is null. Where the event of
+    their scenario never fired, or a decision was cut off by the clock, pairs have rows behind it;
+    where there was nothing to do, rows at the end; others stand in their scenario, where it is told
+    how they ended.
     """
-    rows: dict[tuple[str, str, Apart | None, str], Row] = {}
-    for record in records:
-        key = (*_place(record, apart.get(record.pair)), record.robot)
-        rows.setdefault(key, Row(*key)).add(record)
-    places = {place: number for number, place in enumerate(dict.fromkeys(k[:2] for k in rows))}
-    order = sorted(rows, key=lambda k: (k[2] == NOTHING_TO_DO, places[k[:2]], k[2] or "", k[3]))
-    return [rows[key] for key in order]
+    failure, own = pl.col("outcome").is_in(FAILURES), pl.col("cause").eq_missing("robot")
+    lost, told_apart = failure & ~own, pl.col("apart").is_in([NOTHING_TO_DO, NO_EVENT, DEADLINE])
+    unjudged = pl.when(pl.col("minimal_reason") == "budget").then(pl.lit(UNJUDGED))
+    groups = trials.with_columns(
+        apart=pl.when(told_apart).then("apart"),
+        scenario=pl.when(pl.col("apart").eq_missing(NOTHING_TO_DO))
+        .then(pl.lit(""))
+        .otherwise("scenario"),
+        reasons=pl.concat_list("reason", unjudged),
+    ).group_by("scenario", "level", "apart", "robot", maintain_order=True)
+    rows = groups.agg(
+        pl.col(*MEANS, "planning_cpu_s").filter(~failure).mean(),
+        pl.col("explanations").filter(~failure),
+        pl.col("reasons").filter(~failure).explode().drop_nulls(),
+        trials=(~lost).sum(),
+        lost=lost.sum(),
+        failed=(failure & own).sum(),
+        achieved=(pl.col("achieved") & ~failure).sum(),
+        endings=pl.col("outcome").filter(~lost),
+    )
+    known = [Row(**row) for row in rows.iter_rows(named=True)]
+    names = dict.fromkeys((row.scenario, row.level) for row in known)
+    places = {name: number for number, name in enumerate(names)}
 
+    def order(row: Row) -> tuple[bool, int, str, str]:
+        where = places[row.scenario, row.level]
+        return row.apart == NOTHING_TO_DO, where, row.apart or "", row.robot
 
-def _place(record: TrialRecord, reason: Apart | None) -> tuple[str, str, Apart | None]:
-    if reason == NOTHING_TO_DO:
-        return "", record.level, reason
-    return record.scenario, record.level, reason if reason in (NO_EVENT, DEADLINE) else None
+    return sorted(known, key=order)
 
 
 def headings(rows: Iterable[Row]) -> tuple[str, ...]:
@@ -188,10 +172,7 @@ def headings(rows: Iterable[Row]) -> tuple[str, ...]:
 def grid(rows: Sequence[Row]) -> Grid:
     """The table for a terminal, with an empty line between scenarios, or levels."""
     cells: list[Sequence[str] | None] = []
-    before: str | None = None
-    for row in rows:
-        if before not in (None, row.place):
-            cells.append(None)
-        before = row.place
+    for before, row in zip((None, *rows), rows, strict=False):
+        cells += [None] * (before is not None and before.place != row.place)
         cells.append(row.cells())
     return Grid(headings(rows), cells, numbers=range(3, len(COLUMNS) - 1))

@@ -10,6 +10,7 @@ import polars as pl
 import pytest
 from typer.testing import CliRunner
 
+from testbed.analysis.pairs import Compared
 from testbed.analysis.table import table_of
 from testbed.cli import app
 from testbed.experiment.plan import plan_trials
@@ -19,8 +20,8 @@ from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, RobotGone, RobotStops, Task
-from testbed.studies.table1.load import pairs_of
 from testbed.studies.table1.measures import analyse
+from testbed.studies.table1.pairs import pairs_in
 from testbed.world import load_world
 from tests.experiment.samples import Configure, a_level_record, summary_of
 from tests.studies.levels.found import columns
@@ -104,13 +105,13 @@ def test_a_robots_own_error_is_in_no_ratio(failing: Any) -> None:
 def test_table_1_counts_it_as_the_summary_does(failing: Any) -> None:
     folder, own = failing
     records = list(read_records(folder))
-    pairs = pairs_of(table_of(records), load_world("office"), "intentional", "traditional")
-    analysis = analyse(pairs, "intentional", "traditional", ())
-    assert analysis.triggered is not None
-    row = next(row for row in analysis.triggered.rows if row.name == "1")
-    assert row.intentional is not None
+    robots = Compared("traditional", "intentional")
+    pairs = pairs_in(table_of(records), load_world("office"), robots, ())
+    table = analyse(pairs, robots).tables["triggered"]
+    row = next(row for row in table.rows if row.name == "1")
+    assert row.treatment is not None
     group: Any = summary_of(records)["scenarios"]
-    assert row.intentional.value == group["1"]["accuracy"]["intentional"]
+    assert row.treatment.value == group["1"]["accuracy"]["intentional"]
     assert (row.pairs, row.lost) == ((PAIRS, 0) if own else (PAIRS - 1, 1))
 
 

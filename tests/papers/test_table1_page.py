@@ -233,9 +233,9 @@ def _unaided(minds: dict[str, list[Pair]]) -> str:
     return unaided(Run(None, CONFIG, minds, {}))  # type: ignore[arg-type]  # no folder
 
 
-def _three(trial: str, happened: str, first: bool, second: bool, base: bool) -> dict[str, Pair]:
+def _three(trial: str, happened: str, first: bool, second: bool, baseline: bool) -> dict[str, Pair]:
     """The pairs of two robots with the same trial of the traditional one."""
-    other = a_side(base, trial=trial)
+    other = a_side(baseline, trial=trial)
     return {
         "intentional": a_pair(happened, a_side(first, execution_units=40), other),
         "intentional-checking": a_pair("6", a_side(second, execution_units=50), other),

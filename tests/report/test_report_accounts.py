@@ -21,7 +21,7 @@ def test_what_happens_later_is_not_what_was_explained() -> None:
     record = a_record(
         exogenous=[Occurrence(4, MOVED, False)], explanations=[Explained(4, [], ["locked(x)"])]
     )
-    (account,) = accounts_of([record])[0].common
+    ((account,),) = (own.common for own in accounts_of([record]))
     assert (account.happened, account.explained) == ("nothing", "exception locked(x)")
 
 

@@ -6,15 +6,17 @@ import subprocess
 import sys
 from pathlib import Path
 
+import polars as pl
 import pytest
 from rich.cells import cell_len
 
 from testbed import studies
+from testbed.analysis.table import table_of
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import At, Explained
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import TrialWriter
-from testbed.report.tables import grid, rows_of
+from testbed.report.tables import Row, grid, rows_of
 from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM
 from testbed.text.grid import Grid
 from tests.experiment.samples import Configure, a_level_record, a_record
@@ -56,7 +58,11 @@ def _levels() -> list[Grid]:
     return [studies.grid(view, view.title) for view in views(records, PAPER).values()]
 
 
-GRIDS = [grid(rows_of(_records(1))), grid(rows_of(_records(184))), *_levels()]
+def _rows(trials: int) -> list[Row]:
+    return rows_of(table_of(_records(trials)).with_columns(apart=pl.lit(None, pl.String)))
+
+
+GRIDS = [grid(_rows(1)), grid(_rows(184)), *_levels()]
 
 
 @pytest.mark.parametrize("width", WIDTHS)

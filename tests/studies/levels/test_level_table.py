@@ -1,11 +1,13 @@
 """The tables of the levels, from records made by hand."""
 
+import polars as pl
 import pytest
 
 from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.table import table_of
 from testbed.experiment.record import TrialRecord
-from testbed.report.tables import headings
-from testbed.report.tables import rows_of as trials_of
+from testbed.report.tables import Row, headings
+from testbed.report.tables import rows_of as rows_of_run
 from testbed.studies import Cell, Rounded, grid, rows_of
 from testbed.studies.levels.published import (
     NO_ZOOM,
@@ -145,12 +147,16 @@ def test_totals_of_the_published_figures_are_the_sums_of_their_parts() -> None:
     assert set(RATIOS) == {"L1", "L2", "L3"}
 
 
+def _trials(record: TrialRecord) -> list[Row]:
+    return rows_of_run(table_of([record]).with_columns(apart=pl.lit(None, pl.String)))
+
+
 def test_rows_are_by_level() -> None:
-    rows = trials_of([a_level_record("a", ZOOM)])
+    rows = _trials(a_level_record("a", ZOOM))
     assert headings(rows)[0] == "level"
     assert headings(rows)[-2] == "coarse planning"
     assert rows[0].cells()[:2] == ("L3", ZOOM)
-    coarse = [a_record("a")]
-    assert headings(trials_of(coarse))[0] == "scenario"
-    assert headings(trials_of(coarse))[-2] == "planning"
-    assert found(coarse).levels == {}
+    coarse = a_record("a")
+    assert headings(_trials(coarse))[0] == "scenario"
+    assert headings(_trials(coarse))[-2] == "planning"
+    assert found([coarse]).levels == {}
