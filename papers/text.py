@@ -8,6 +8,7 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from papers.markdown import markdown, paragraph
+from testbed.text.wording import number
 
 TEMPLATES = Path(__file__).with_name("templates")
 
@@ -21,7 +22,7 @@ def render(name: str, **values: object) -> str:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    made.filters |= {"paragraph": paragraph, "percent": percent, "table": table, "times": times}
+    made.filters |= {"paragraph": paragraph, "percent": percent, "table": table, "times": number}
     return made.get_template(f"{name}.md.j2").render(values)
 
 
@@ -33,8 +34,3 @@ def table(rows: Iterable[Sequence[str]], columns: Sequence[str]) -> str:
 def percent(share: float) -> str:
     """A share in whole percents."""
     return f"{100 * share:.0f}%"
-
-
-def times(value: float | None) -> str:
-    """A ratio."""
-    return "-" if value is None else f"{value:.2f}"

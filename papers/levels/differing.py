@@ -9,10 +9,10 @@ from papers.levels import evidence
 from papers.levels.evidence import Scatter, Surprise, Work
 from papers.levels.pairing import Trial
 from papers.levels.runs import Run
-from papers.text import times
 from testbed.studies.levels.published import FIRST, NO_ZOOM, PAPER, ZOOM
 from testbed.studies.levels.tables import CONDITIONS, RATIO, ratios, seconds, shares
 from testbed.studies.levels.tables import growth as grown
+from testbed.text.wording import number
 
 
 def differences(run: Run) -> dict[str, Any]:
@@ -85,7 +85,7 @@ def _ratios(run: Run) -> dict[str, Any]:
 
 def _scatter(name: str, own: Scatter) -> tuple[str, ...]:
     medians = (own.median, own.zoom_first, own.no_zoom_first)
-    return (name, str(own.pairs), times(own.mean), times(own.inverse), *map(times, medians))
+    return (name, str(own.pairs), number(own.mean), number(own.inverse), *map(number, medians))
 
 
 def growth(run: Run) -> dict[str, Any]:
@@ -121,10 +121,10 @@ def _work(name: str, own: Work, first: Work) -> tuple[str, ...]:
         f"{own.abstract:.1f}",
         f"{own.plans:.1f}",
         "-" if own.implied is None else f"{own.implied:.1f}",
-        times(_divided(own.plans, first.plans)),
-        times(_divided(own.implied, first.implied)),
-        times(_divided(own.seconds, first.seconds)),
-        times(_divided(own.published, first.published)),
+        number(_divided(own.plans, first.plans)),
+        number(_divided(own.implied, first.implied)),
+        number(_divided(own.seconds, first.seconds)),
+        number(_divided(own.published, first.published)),
     )
 
 
@@ -145,9 +145,9 @@ def _surprise(name: str, own: Surprise, first: Surprise) -> tuple[str, ...]:
         name,
         f"{own.events:.1f}",
         f"{own.calm} of {own.trials}",
-        times(_divided(own.seconds, first.seconds)),
-        "-" if published is None else times(published.value),
-        times(_divided(own.others, own.seconds)),
+        number(_divided(own.seconds, first.seconds)),
+        "-" if published is None else number(published.value),
+        number(_divided(own.others, own.seconds)),
     )
 
 

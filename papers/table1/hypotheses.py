@@ -13,7 +13,7 @@ from papers.text import percent, render
 from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS
-from testbed.studies.table1.tables import number
+from testbed.text.wording import number
 
 AS_PLAYED, PASSED_ON = "as played", "released draw"
 Weights = Callable[[Pair], float]

@@ -12,8 +12,9 @@ from papers.text import percent, render
 from testbed.analysis.comparison import NO_EVENT, NOTHING_TO_DO
 from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
-from testbed.studies.table1.tables import HEADINGS, number
+from testbed.studies.table1.tables import HEADINGS
 from testbed.studies.tables import written
+from testbed.text.wording import number
 from testbed.world import load_world
 
 

@@ -9,18 +9,14 @@ from typing import Any
 
 import polars as pl
 
-from testbed.analysis.bootstrap import Estimate, mean, proportion
-from testbed.analysis.comparison import (
-    ACCURACY,
-    COUNTS,
-    MEASURES,
-)
+from testbed.analysis.bootstrap import Estimate
+from testbed.analysis.comparison import ACCURACY, COUNTS, MEASURES
 from testbed.analysis.comparison import LEAST as MINIMAL
-from testbed.analysis.pairs import OTHER, Compared, pairs_of
+from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
 from testbed.experiment.record import COARSE
 from testbed.experiment.timeline import in_words
 from testbed.studies import Chart, Colour, Series, points
-from testbed.text.wording import chance
+from testbed.text.wording import chance, number
 
 OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in MINIMAL))
 LEAST = 2
@@ -48,7 +44,7 @@ class Comparison:
 
 
 def comparisons(summary: Mapping[str, Any]) -> list[Comparison]:
-    """One row a scenario, then one for all; none where not both robots played."""
+    """One row per scenario, then one for all; none where not both robots played."""
     groups = dict(summary["scenarios"])
     if len(groups) > 1:
         levels = summary["levels"]
@@ -61,7 +57,8 @@ def comparisons(summary: Mapping[str, Any]) -> list[Comparison]:
 
 def _cells(group: Mapping[str, Any], robots: tuple[str, str]) -> Iterator[Cell]:
     """Of both robots, the one first whose effects are told."""
-    yield Cell("pairs", str(group["pairs"]), ", ".join(_apart(group)))
+    apart = [f"{group[key]} {reason}" for reason, key in COUNTS.items() if group[key]]
+    yield Cell("pairs", str(group["pairs"]), ", ".join(apart))
     for robot in robots:
         share = group["accuracy"].get(robot)
         notes = [_test(group, ACCURACY)] if robot == robots[0] else []
@@ -70,15 +67,7 @@ def _cells(group: Mapping[str, Any], robots: tuple[str, str]) -> Iterator[Cell]:
         value = "-" if share is None else f"{100 * share:.1f} %"
         yield Cell(f"{robot} correct", value, ", ".join(filter(None, notes)))
     for measure in MEASURES:
-        ratio = group["ratios"][measure]
-        yield Cell(in_words(measure), _number(ratio), _test(group, measure))
-
-
-def _apart(group: Mapping[str, Any]) -> Iterator[str]:
-    """How many pairs are counted apart, and why."""
-    for reason, key in COUNTS.items():
-        if group[key]:
-            yield f"{group[key]} {reason}"
+        yield Cell(in_words(measure), number(group["ratios"][measure]), _test(group, measure))
 
 
 def _test(group: Mapping[str, Any], name: str) -> str:
@@ -92,15 +81,11 @@ def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
     levels = [name for name in summary["levels"] if name != COARSE]
     groups = summary["levels" if levels else "scenarios"].items()
     return [
-        (name, robot, str(own["trials"]), *(_number(own[measure]) for measure in MINIMAL))
+        (name, robot, str(own["trials"]), *(number(own[measure]) for measure in MINIMAL))
         for name, group in groups
         for robot, own in sorted(group["optimum"].items())
         if own["trials"]
     ]
-
-
-def _number(value: float | None) -> str:
-    return "-" if value is None else f"{value:.2f}"
 
 
 def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
@@ -112,44 +97,44 @@ def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
     where = pl.when(pl.col("level") == COARSE).then("scenario").otherwise("level")
     pairs = pairs_of(trials.filter(pl.col("apart").is_null()), robots).with_columns(place=where)
     groups = {
-        str(name): own
+        str(name): Sample(own)
         for (name,), own in pairs.partition_by("place", as_dict=True).items()
         if len(own) >= LEAST
     }
     if not groups:
         return []
+
+    def series(
+        label: str,
+        colour: Colour,
+        estimate: Callable[[Sample], Estimate | None],
+        marker: str = "o",
+    ) -> Series:
+        drawn = points((name, estimate(own)) for name, own in groups.items())
+        return Series(label, colour, drawn, marker)
+
     shares = [
-        _series(robots.treatment, "first", groups, partial(_share, "correct" + OTHER)),
-        _series(robots.baseline, "second", groups, partial(_share, "correct"), "s"),
+        series(robots.treatment, "first", partial(_share, "correct" + OTHER)),
+        series(robots.baseline, "second", partial(_share, "correct"), "s"),
     ]
-    ratios = [
-        Chart(
-            f"compared-{name}",
-            f"{in_words(name)}, ratio",
-            list(groups),
-            [_series("ratio", "first", groups, partial(_mean, name))],
-        )
-        for name in MEASURES
+    return [
+        Chart("compared-correct", "correct", list(groups), shares, "shares"),
+        *(
+            Chart(
+                f"compared-{name}",
+                f"{in_words(name)}, ratio",
+                list(groups),
+                [series("ratio", "first", partial(_mean, name))],
+            )
+            for name in MEASURES
+        ),
     ]
-    return [Chart("compared-correct", "correct", list(groups), shares, "shares"), *ratios]
 
 
-def _series(
-    label: str,
-    colour: Colour,
-    groups: Mapping[str, pl.DataFrame],
-    estimate: Callable[[pl.DataFrame], Estimate | None],
-    marker: str = "o",
-) -> Series:
-    drawn = points((name, estimate(pairs)) for name, pairs in groups.items())
-    return Series(label, colour, drawn, marker)
+def _share(correct: str, sample: Sample) -> Estimate | None:
+    return sample.where(pl.col(correct).is_not_null()).share(correct)
 
 
-def _share(correct: str, pairs: pl.DataFrame) -> Estimate | None:
-    known = pairs.drop_nulls(correct)
-    return proportion(known[correct].cast(pl.Float64), clusters=known["state"])
-
-
-def _mean(measure: str, pairs: pl.DataFrame) -> Estimate | None:
-    known = pairs.filter("ended", "ended" + OTHER, pl.col(measure + OTHER) != 0)
-    return mean(known[measure] / known[measure + OTHER], clusters=known["state"])
+def _mean(measure: str, sample: Sample) -> Estimate | None:
+    above, below = pl.col(measure), pl.col(measure + OTHER)
+    return sample.ended.where(below != 0).mean(above / below)

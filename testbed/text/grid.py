@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import zip_longest
 
 from rich.cells import cell_len
@@ -28,29 +28,19 @@ class Grid:
 
     def lines(self, width: int) -> Iterator[str]:
         """The table in lines of at most `width` columns, as far as words and numbers allow it."""
-        shown = _Shown(
-            [plain(name) for name in self.columns],
-            [None if row is None else [plain(cell) for cell in row] for row in self.rows],
-            self.numbers,
-        )
         if self.title:
             yield from textwrap.wrap(plain(self.title), width)
-        yield from shown.lines(width)
+        rows = [row and list(map(plain, row)) for row in self.rows]
+        yield from replace(self, columns=list(map(plain, self.columns)), rows=rows)._lines(width)
 
-
-@dataclass(frozen=True)
-class _Shown:
-    columns: Cells
-    rows: Sequence[Cells | None]
-    numbers: range
-
-    def lines(self, width: int) -> Iterator[str]:
-        whole, last = self._widths(width), len(self.columns) - 1
+    def _lines(self, width: int) -> Iterator[str]:
+        whole = self._widths(width)
         if whole is not None:
-            yield from self._table(whole)
+            for row in (self.columns, *self.rows):
+                yield from self._row(row, whole)
             return
-        first = _Shown(self.columns[:-1], [r and r[:-1] for r in self.rows], self.numbers)
-        narrow = None if last in self.numbers else first._widths(width)
+        first = replace(self, columns=self.columns[:-1], rows=[r and r[:-1] for r in self.rows])
+        narrow = None if len(first.columns) in self.numbers else first._widths(width)
         if narrow is None:
             yield from self._stacked(width)
             return
@@ -63,14 +53,13 @@ class _Shown:
     def _widths(self, width: int) -> list[int] | None:
         """The widths of the columns, those of text narrowed as needed; None if that is too wide."""
         whole = [self.columns, *(row for row in self.rows if row)]
-        widths = [max(cell_len(row[i]) for row in whole) for i in range(len(self.columns))]
-        least = [self._least(number, widths[number]) for number in range(len(widths))]
-        room = width - GAP * (len(widths) - 1)
-        while sum(widths) > room:
-            wide = [number for number in range(len(widths)) if widths[number] > least[number]]
+        widths = [max(map(cell_len, column)) for column in zip(*whole, strict=True)]
+        least = [self._least(number, own) for number, own in enumerate(widths)]
+        while sum(widths) > width - GAP * (len(widths) - 1):
+            wide = [number for number, own in enumerate(widths) if own > least[number]]
             if not wide:
                 return None
-            widths[max(wide, key=lambda number: widths[number])] -= 1
+            widths[max(wide, key=widths.__getitem__)] -= 1
         return widths
 
     def _least(self, number: int, width: int) -> int:
@@ -81,10 +70,6 @@ class _Shown:
         longest = max(map(cell_len, [*cells, *self.columns[number].split()]))
         last = number == len(self.columns) - 1 and number not in self.numbers
         return max(longest, min(width, LEAST_TEXT)) if last else longest
-
-    def _table(self, widths: Sequence[int]) -> Iterator[str]:
-        for row in (self.columns, *self.rows):
-            yield from self._row(row, widths)
 
     def _row(self, row: Cells | None, widths: Sequence[int]) -> Iterator[str]:
         if row is None:
@@ -100,15 +85,14 @@ class _Shown:
         return blanks + cell if number in self.numbers else cell + blanks
 
     def _stacked(self, width: int) -> Iterator[str]:
-        """Each row as pairs of a heading and its cell, as many a line as fit."""
+        """Each row as pairs of a heading and its cell, as many to a line as fit."""
         for row in self.rows:
             if row is None:
                 yield ""
                 continue
             pairs = zip(self.columns, row, strict=True)
-            told = [f"{name} {cell.strip()}" for name, cell in pairs if cell.strip()]
-            line = told[0]
-            for pair in told[1:]:
+            line, *told = [f"{name} {cell.strip()}" for name, cell in pairs if cell.strip()]
+            for pair in told:
                 if cell_len(line) + GAP + cell_len(pair) > width:
                     yield from _broken(line, width)
                     line = " " * INDENT + pair
@@ -119,15 +103,9 @@ class _Shown:
 
 def _broken(line: str, width: int) -> list[str]:
     """A line in several, those after the first further in."""
-    indent = " " * (len(line) - len(line.lstrip()))
-    further = " " * (INDENT + GAP)
-    return textwrap.wrap(
-        line.strip(),
-        width,
-        initial_indent=indent,
-        subsequent_indent=further,
-        break_on_hyphens=False,
-    )
+    indents = " " * (len(line) - len(line.lstrip())), " " * (INDENT + GAP)
+    wrapper = textwrap.TextWrapper(width, *indents, break_on_hyphens=False)
+    return wrapper.wrap(line.strip())
 
 
 def _wrapped(cell: str, width: int) -> list[str]:

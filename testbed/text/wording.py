@@ -15,6 +15,11 @@ def listed(names: Sequence[str]) -> str:
     return " and ".join([part for part in (", ".join(names[:-1]), *names[-1:]) if part])
 
 
+def number(value: float | None) -> str:
+    """A ratio with two decimals."""
+    return "-" if value is None else f"{value:.2f}"
+
+
 def chance(p: float | None) -> str:
     """A p-value as text."""
     if p is None:

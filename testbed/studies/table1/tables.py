@@ -13,7 +13,7 @@ from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
 from testbed.studies.table1.pairs import MEETINGS
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
-from testbed.text.wording import counted
+from testbed.text.wording import counted, number
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
@@ -167,11 +167,6 @@ def _optimum(own: Mapping[str, float | None]) -> Iterator[str]:
     yield str(own["trials"])
     for name in ("execution_units", "actions"):
         yield number(own[name])
-
-
-def number(value: float | None) -> str:
-    """A ratio with two decimals."""
-    return "-" if value is None else f"{value:.2f}"
 
 
 def _notes(table: Table) -> Iterator[str]:
