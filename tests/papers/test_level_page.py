@@ -16,6 +16,7 @@ from testbed.experiment.run_folder import PROVENANCE, write_config
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.studies.levels.published import NO_ZOOM, ZOOM
 from tests.experiment.samples import a_level_record
+from tests.papers.prose import says
 
 SMALL = ["levels=[L1,L3]", "limit=3", "adversary.rate=0.2"]
 DOCS = Path(__file__).parents[2] / "docs"
@@ -46,10 +47,9 @@ def _headings(page: str) -> list[str]:
 def test_the_page_is_made_from_a_run(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     page = _page(here, capsys)
     assert digest(read_records(here)) in page
-    flat = " ".join(page.split())
-    assert "0 of 12 trials were not correct." in flat
-    assert "Of 6 pairs, 6 had the same start for both robots, and 6 the same goal." in flat
-    assert "65% of the trials at L3. Here 3 of 3 trials at these levels did." in flat
+    assert says(page, 6, 6, 6)  # pairs, of the same start, and of the same goal
+    assert says(page, 0, 12, 0, 0)  # not correct of all trials, lost, out of reach
+    assert says(page, "65%", 3, 3)
     rows = [line for line in page.splitlines() if line.startswith("| L3 |")]
     # Of three alike the exact interval is wide: 0.025 ** (1 / 3) = 0.292.
     assert "| L3 | no zoom | 3 | 100.0% [29.2, 100.0] | 65% |" in rows
@@ -85,12 +85,8 @@ def test_a_run_without_the_protocols_name_is_read_and_its_failures_are_told(
 ) -> None:
     wrong = a_level_record("p", NO_ZOOM, achieved=False, in_reach=False)
     page = _page(_stored(tmp_path, a_level_record("p", ZOOM), wrong), capsys)
-    assert "$ testbed replay runs/levels --trial p intentional-nozoom  # L3, no zoom: gave_up" in (
-        page.replace("'", "")
-    )
-    flat = " ".join(page.split())
-    assert "1 of 2 trials were not correct." in flat
-    assert "and 1 where their goal was out of reach." in flat
+    assert "$ testbed replay runs/levels --trial p intentional-nozoom " in page.replace("'", "")
+    assert says(page, 1, 2, 0, 1)  # not correct of all trials, lost, out of reach
     assert "### The growth" not in page
     assert "### The ratios" not in page
 

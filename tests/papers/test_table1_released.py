@@ -15,6 +15,7 @@ from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import read_records
 from testbed.studies.table1.published import SCENARIOS
+from tests.papers.prose import numbers
 
 HOLDING = "[loc(rob1,kitchen), 'in_hand(rob1,book1)', loc(book1,kitchen), loc(book2,office2)]"
 MIND = "intentional"
@@ -66,7 +67,7 @@ def test_the_weights_of_trials_are_those_worked_out_by_hand(
 
 def _weighed(run: Run) -> Weighing:
     weights = released_weights(run, MIND)
-    return weigh(run.pairs[MIND], lambda pair: weights[pair.mind.trial])
+    return weigh(run.pairs[MIND], lambda pair: weights[pair.treatment.trial])
 
 
 def _cells(page: str, name: str) -> list[str]:
@@ -93,7 +94,7 @@ def test_the_section_is_of_the_weighed_pairs(runs: tuple[Run, Run]) -> None:
     section = page.split("## The draw of the released simulator")[1].split("\n## ")[0]
     weighed = _weighed(runs[0])
     assert weighed.worth < len(runs[0].pairs[MIND]) - 1
-    assert f"as certain as {weighed.worth:.0f} pairs" in " ".join(section.split())
+    assert f"{weighed.worth:.0f}" in numbers(section)
     for name in SCENARIOS:
         if weighed.shares[name]:
             share = section.split(f"\n| {name} | ")[1].split(" | ")[0]
