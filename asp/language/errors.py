@@ -55,6 +55,10 @@ class Problems(list[SourceError]):
     def report(self, place: syntax.Place, message: str) -> None:
         self.append(SourceError(self.file, place.line, place.column, message))
 
+    def report_all(self, mistakes: Iterable[tuple[syntax.Place, str]]) -> None:
+        for place, message in mistakes:
+            self.report(place, message)
+
     def raise_first(self) -> None:
         """Raises the first mistake in the order of the source, which then knows all of them."""
         if self:

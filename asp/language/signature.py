@@ -5,13 +5,14 @@ Names to which the programs give a meaning of their own are reserved: a domain h
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-import clingo
-from clingo import ast
+from clingo import SymbolType, ast
+from clingo.ast import ASTType
 
 from asp.language import syntax
 from asp.language.errors import Problems, suggestion
@@ -110,50 +111,31 @@ def check_reserved(name: str, kind: str, place: syntax.Place, problems: Problems
 def _reserved(kind: str) -> frozenset[str]:
     words = _words()
     if kind in ("sort", "static"):
-        return _CONSTANTS | (words.predicates - _REFINED)
-    names = _CONSTANTS | words.constants
-    return names if kind == "constant" else names | words.terms | _ENVIRONMENT
-
-
-class _Words(ast.Transformer):
-    """Collects the names that stand in programs, by what they stand for."""
-
-    def __init__(self) -> None:
-        self.predicates: set[str] = set()
-        self.terms: set[str] = set()
-        self.constants: set[str] = set()
-
-    def visit_SymbolicAtom(self, node: ast.AST) -> ast.AST:  # noqa: N802 (clingo's name)
-        symbol = node.symbol
-        while symbol.ast_type == ast.ASTType.UnaryOperation:
-            symbol = symbol.argument
-        self.predicates.add(symbol.name)
-        self.visit_sequence(symbol.arguments)
-        return node
-
-    def visit_Function(self, node: ast.AST) -> ast.AST:  # noqa: N802
-        self.terms.add(node.name)
-        self.visit_sequence(node.arguments)
-        return node
-
-    def visit_SymbolicTerm(self, node: ast.AST) -> ast.AST:  # noqa: N802
-        if node.symbol.type == clingo.SymbolType.Function:
-            self.terms.add(node.symbol.name)
-        return node
-
-    def visit_Definition(self, node: ast.AST) -> ast.AST:  # noqa: N802
-        self.constants.add(node.name)
-        return node
+        return _CONSTANTS.union(words[ASTType.SymbolicAtom] - _REFINED)
+    names = _CONSTANTS | words[ASTType.Definition]
+    return names if kind == "constant" else names | words[ASTType.Function] | _ENVIRONMENT
 
 
 @cache
-def _words() -> _Words:
-    """The names in all of `asp/theories`."""
-    words = _Words()
-    statements: list[ast.AST] = []
+def _words() -> Mapping[ASTType, set[str]]:
+    """The names in all of `asp/theories`: of predicates, of terms, and of defined constants."""
+    names: dict[ASTType, set[str]] = defaultdict(set)
+
+    def collect(node: ast.AST) -> None:
+        kind = node.ast_type
+        if kind == ASTType.SymbolicAtom:  # a function, or its negation
+            node = node.symbol
+            while node.ast_type == ASTType.UnaryOperation:
+                node = node.argument
+        if kind in (ASTType.SymbolicAtom, ASTType.Function, ASTType.Definition):
+            names[kind].add(node.name)
+        elif kind == ASTType.SymbolicTerm and node.symbol.type == SymbolType.Function:
+            names[ASTType.Function].add(node.symbol.name)
+        for children in (getattr(node, key) for key in node.child_keys):
+            for child in [children] if isinstance(children, ast.AST) else children or ():
+                collect(child)
+
     for entry in files("asp").joinpath("theories").iterdir():
         if entry.name.endswith(".lp"):
-            ast.parse_string(entry.read_text(encoding="utf-8"), statements.append)
-    for statement in statements:
-        words.visit(statement)
-    return words
+            ast.parse_string(entry.read_text(encoding="utf-8"), collect)
+    return names
