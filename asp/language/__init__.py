@@ -37,7 +37,7 @@ from asp.language.loading import (
     read_domain,
     read_text,
 )
-from asp.language.matching import NOTHING, Facts, Pattern, Row
+from asp.language.matching import NOTHING, Facts, Pattern, Row, Truth
 from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
 from asp.language.signature import Signature, signature_of
@@ -68,6 +68,7 @@ __all__ = [
     "SourceError",
     "ToSyntax",
     "Trigger",
+    "Truth",
     "analyse",
     "arguments",
     "atom",

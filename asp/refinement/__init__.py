@@ -5,6 +5,7 @@ from asp.refinement.loading import load, load_refinement, read_refinement, refin
 from asp.refinement.observation import TRUE
 from asp.refinement.refinement import Refinement
 from asp.refinement.refining import shared_places
+from asp.refinement.sensing import Sensing, sensing_of
 from asp.refinement.zooming import (
     Transition,
     fine_constants,
@@ -16,6 +17,7 @@ from asp.refinement.zooming import (
 __all__ = [
     "TRUE",
     "Refinement",
+    "Sensing",
     "Transition",
     "fine_constants",
     "fine_goal",
@@ -25,6 +27,7 @@ __all__ = [
     "read_refinement",
     "refined_name",
     "relevant",
+    "sensing_of",
     "shared_places",
     "zoom",
 ]

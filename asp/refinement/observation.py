@@ -13,6 +13,7 @@ from asp.refinement.refining import law_section, section, shared_places
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
 OUTCOME, TRUE, FALSE = "outcome", "true", "false"
+TEST, CAN_TEST = "test_", "can_test_"
 
 
 @dataclass(frozen=True)
@@ -40,7 +41,7 @@ class Tested:
 
     def said(self, prefix: str, *last: str) -> str:
         """What is said of the test, or is observed, in laws."""
-        return _atom(f"{prefix}_{self.fluent}", "R", *self.others(self.terms), *last)
+        return _atom(prefix + self.fluent, "R", *self.others(self.terms), *last)
 
 
 def check_tested(fine: syntax.Source, vocabulary: Vocabulary, problems: Problems) -> None:
@@ -112,7 +113,7 @@ def observation_text(fine: syntax.Source, vocabulary: Vocabulary, tested: Sequen
         ),
         "What components tell of coarse fluents (16d).": indirect,
     }
-    tests = (_atom(f"test_{t.fluent}", t.robot, *t.others(t.sorts)) for t in tested)
+    tests = (_atom(TEST + t.fluent, t.robot, *t.others(t.sorts)) for t in tested)
     sections = (
         "% The theory of observation.",
         section("sorts", [f"{OUTCOME} = {{{TRUE}, {FALSE}}}."]),
@@ -126,7 +127,7 @@ def observation_text(fine: syntax.Source, vocabulary: Vocabulary, tested: Sequen
 def _fluents(t: Tested, coarse: syntax.Declaration | None) -> Iterator[str]:
     own = t.robot, *t.others(t.sorts)
     yield f"inertial {_atom(f'observed_{t.fluent}', *own, OUTCOME)}."
-    yield f"defined {_atom(f'can_test_{t.fluent}', *own)}."
+    yield f"defined {_atom(CAN_TEST + t.fluent, *own)}."
     if coarse is not None:
         places = t.robot, *t.others([sort.name for sort in coarse.sorts])
         yield f"defined {_atom(f'observed_{coarse.name}', *places, OUTCOME)}."
@@ -135,16 +136,16 @@ def _fluents(t: Tested, coarse: syntax.Declaration | None) -> Iterator[str]:
 
 def _effects(t: Tested) -> Iterator[str]:
     for outcome, sign in ((TRUE, ""), (FALSE, "-")):
-        observed = t.said("observed", outcome)
-        yield f"{t.said('test')} causes {observed} if {sign}{_atom(t.fluent, *t.terms)}."
-    yield f"-{t.said('observed', 'V1')} if {t.said('observed', 'V2')}, V1 != V2."
+        observed = t.said("observed_", outcome)
+        yield f"{t.said(TEST)} causes {observed} if {sign}{_atom(t.fluent, *t.terms)}."
+    yield f"-{t.said('observed_', 'V1')} if {t.said('observed_', 'V2')}, V1 != V2."
 
 
 def _abilities(t: Tested) -> Iterator[str]:
-    yield f"impossible {t.said('test')} if -{t.said('can_test')}."
+    yield f"impossible {t.said(TEST)} if -{t.said(CAN_TEST)}."
     for statement in t.statements:
         others = t.others([term.name for term in statement.fluent.args])
-        can = _atom(f"can_test_{t.fluent}", statement.robot.name, *others)
+        can = _atom(CAN_TEST + t.fluent, statement.robot.name, *others)
         body = ", ".join(map(condition_text, statement.body))
         yield f"{can} if {body}." if body else f"{can}."
 
@@ -171,9 +172,9 @@ def _indirect(t: Tested, coarse: syntax.Declaration, vocabulary: Vocabulary) -> 
     tied = ", ".join(links)
     true, false = (_atom(f"observed_{coarse.name}", *wholes, v) for v in (TRUE, FALSE))
     possible = _atom(f"possible_{coarse.name}", *wholes)
-    yield f"{true} if {tied}, {t.said('observed', TRUE)}."
+    yield f"{true} if {tied}, {t.said('observed_', TRUE)}."
     yield (
-        f"{possible} if {tied}, -{t.said('observed', FALSE)}."
+        f"{possible} if {tied}, -{t.said('observed_', FALSE)}."
         "  % some component is not known to be false"
     )
     yield f"{false} if -{possible}."

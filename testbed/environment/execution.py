@@ -10,9 +10,10 @@ import numpy as np
 
 from asp.language import Action, Literal
 from asp.language import literals as text
+from asp.refinement import Sensing
 from testbed.environment.rules import Observability
 from testbed.protocol import Event
-from testbed.world import Sensing, World
+from testbed.world import World
 
 Statistics = Mapping[str, float]
 """By the name of an action: the probability with which it takes effect; by that of a test: the
@@ -56,7 +57,7 @@ class Execution:
     def possible(self, state: int, action: str) -> bool:
         """Whether an attempt can come to anything in the state."""
         if self._sensing and not self.physical(action):
-            return self._sensing.can(state, action)
+            return self._sensing.can(action, self.world.facts(state))
         return self.world.executable(state, (action,))
 
     def physical(self, action: str) -> tuple[str, ...]:
@@ -88,7 +89,8 @@ class Execution:
         """Whether the robot is where it could tell whether one of the fluents holds."""
         if self._sensing:
             tests = (self._sensing.test_of(self.robot, fluent) for fluent in fluents)
-            if any(test is not None and self._sensing.can(state, test) for test in tests):
+            facts = self.world.facts(state)
+            if any(test is not None and self._sensing.can(test, facts) for test in tests):
                 return True
         return not fluents.isdisjoint(map(text.atom, self.visible(state)))
 

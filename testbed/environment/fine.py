@@ -9,11 +9,11 @@ from typing import Literal
 import numpy as np
 
 from asp.language import literals as text
-from asp.refinement import Refinement
+from asp.refinement import Refinement, sensing_of
 from testbed.environment.core import Core, DrawGoal
 from testbed.environment.execution import CERTAIN, Execution, Statistics
 from testbed.environment.rules import Rules
-from testbed.world import World, sensing_of, world_of
+from testbed.world import World, world_of
 
 Pace = Literal["concrete", "abstract"]
 """When exogenous actions may happen: at each step, or only beside an action of the robot that

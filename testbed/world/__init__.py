@@ -1,7 +1,6 @@
 """The transition diagram of a domain: one interface, and two backends that find its answers."""
 
-from testbed.world.backends import load_world, sensing_of, world_of
-from testbed.world.matched.sensing import Sensing
+from testbed.world.backends import load_world, world_of
 from testbed.world.world import (
     NotExecutableError,
     StateError,
@@ -12,12 +11,10 @@ from testbed.world.world import (
 
 __all__ = [
     "NotExecutableError",
-    "Sensing",
     "StateError",
     "UnknownActionError",
     "UnknownFluentError",
     "World",
     "load_world",
-    "sensing_of",
     "world_of",
 ]

@@ -8,7 +8,6 @@ import asp
 from asp.language import Description, Problems, signature_of, syntax
 from asp.refinement import Refinement
 from testbed.world.compiled import CompiledWorld
-from testbed.world.matched.sensing import Sensing
 from testbed.world.matched.world import MatchedWorld
 from testbed.world.world import World
 
@@ -31,12 +30,6 @@ def world_of(description: Description | Refinement | syntax.Source) -> World:
 def load_world(domain: str) -> World:
     """The world of a domain given by name or path. Raises what `asp.load_description` does."""
     return world_of(asp.load_description(domain))
-
-
-@cache
-def sensing_of(refinement: Refinement) -> Sensing:
-    """The tests of a refinement's theory of observation, in its world; made once."""
-    return Sensing(_weak(refinement), refinement.strong, refinement.strong_signature)
 
 
 @cache

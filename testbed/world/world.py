@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import Any
 
-from asp.language import Action, Description, Fluent, Literal
+from asp.language import Action, Description, Facts, Fluent, Literal
 
 
 class StateError(ValueError):
@@ -30,6 +30,8 @@ class NotExecutableError(ValueError):
     """A compound action without a successor in the state; one line says why."""
 
 
+_STATES = 256
+"""Of how many states the facts are remembered."""
 Law = tuple[tuple[Literal, ...], tuple[Literal, ...]]
 """A head, or the actions that are impossible together, and a body."""
 
@@ -61,6 +63,7 @@ class World(ABC):
             self._numbers[fluent] = number, True
             self._numbers[fluent.complement] = number, False
         self._remembered = lru_cache(remembered)(self._successors)
+        self.facts = lru_cache(_STATES)(self._facts)
         self._needed = tuple(
             (sum(1 << self._numbers[fluent][0] for fluent in some), some)
             for some in description.initially
@@ -143,6 +146,10 @@ class World(ABC):
     def true_atoms(self, state: int) -> tuple[Fluent, ...]:
         """The fluents that are true in the state, in their order."""
         return tuple(self.fluents[number] for number in bits(state))
+
+    def _facts(self, state: int) -> Facts:
+        """The fluents that are true in the state, for laws that are matched against them."""
+        return Facts(self.true_atoms(state))
 
     def holds(self, state: int, literal: str) -> bool:
         """Whether the literal holds. Raises UnknownFluentError."""

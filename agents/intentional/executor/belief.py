@@ -8,7 +8,7 @@ from itertools import chain
 from agents.intentional.executor.model import fine_model
 from agents.intentional.executor.trace import FineTraceBuilder
 from agents.shared.robot import limits_of
-from asp.language import arguments, atom, complement, is_positive, name
+from asp.language import Action, arguments, atom, complement, is_positive, name
 from asp.reasoning.fine_knowledge import Known
 from asp.refinement import Refinement
 from asp.solving import State
@@ -115,7 +115,7 @@ class FineTracker:
         self.zooms = zooms
         self.trace = FineTraceBuilder()
         self.model = fine_model(refinement)
-        self.tests = self.model.tests(robot)
+        self._sensing = self.model.sensing
         self.effects = self.model.effects
         self.belief = FineBelief(refinement, ())
         self.unmagnified: frozenset[str] = frozenset()
@@ -154,7 +154,16 @@ class FineTracker:
 
     def testable(self, things: Collection[str]) -> Iterator[str]:
         """The fluents about these things that can be tested now, by what is known and believed."""
-        return self.tests.possible(self.true, things)
+        return self._sensing.possible(self.robot, self._sensing.facts(self.true), things)
+
+    def test_of(self, fluent: str) -> Action | None:
+        """The robot's test of a fluent; None where there is none."""
+        return self._sensing.test_of(self.robot, fluent)
+
+    def can_test(self, fluent: str) -> bool:
+        """Whether there is a test of the fluent, possible by what is known and believed."""
+        test = self.test_of(fluent)
+        return test is not None and self._sensing.can(test, self._sensing.facts(self.true))
 
     def is_value(self, fluent: str) -> bool:
         """Whether a coarse fluent is one of several of which one always holds, as of places."""

@@ -83,7 +83,7 @@ class Execution:
             outcome += [] if came_out is None else [came_out]
         self._fine.pending = ()
         self._fine.assume(outcome)
-        self._sensing.commit(each for each in outcome if self._fine.tests.of(each) is not None)
+        self._sensing.commit(each for each in outcome if self._fine.test_of(each) is not None)
         if outcome == list(expected):
             yield from self._sensing.look()
             return True

@@ -50,7 +50,8 @@ class Sensing:
         while possible := self._open(tested):
             for fluent in filter(self._fine.belief.is_open, possible):
                 things = set(arguments(fluent)) - robots
-                self.looked_for.update(self._fine.refinement.wholes[thing] for thing in things)
+                wholes = self._fine.refinement.wholes
+                self.looked_for.update(wholes.get(thing, thing) for thing in things)
                 yield from self._test(fluent)
             tested.update(possible)
 
@@ -77,11 +78,11 @@ class Sensing:
         not possible: the robot is not where it wanted to be.
         """
         failed = percept.happened is False
-        if self._fine.tests.of(effect) is None:
+        if self._fine.test_of(effect) is None:
             if complement(effect) in percept.visible:
                 return complement(effect)
             return None if failed and effect not in percept.visible else effect
-        if failed and not self._fine.tests.is_possible(effect, self._fine.true):
+        if failed and not self._fine.can_test(effect):
             return None
         holds = yield from self._read(effect)
         return effect if holds == is_positive(effect) else complement(effect)
@@ -126,7 +127,7 @@ class Sensing:
 
     def _read(self, fluent: str) -> Asking[bool | None]:
         """The outcome of a test; None if it shows nothing."""
-        test = self._fine.tests.of(atom(fluent))
+        test = self._fine.test_of(atom(fluent))
         assert test is not None, "only what can be tested is tested"
         self._fine.trace.add("tests")
         percept = yield test

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from asp.language import (
     Description,
-    Facts,
     Fluent,
     Literal,
     Row,
@@ -24,7 +23,7 @@ from testbed.world.matched.change import Change
 from testbed.world.matched.laws import Laws
 from testbed.world.world import Law, World
 
-_SUCCESSORS, _STATES = 4096, 256
+_SUCCESSORS = 4096
 
 
 class MatchedWorld(World):
@@ -37,7 +36,6 @@ class MatchedWorld(World):
         self.signature = signature
         self.statics = closed_world(self.description.statics, signature)
         self._laws = Laws(source, signature, self.statics)
-        self.facts = lru_cache(_STATES)(self._decode)
         self._described = lru_cache(1)(self._describe)
 
     def is_state(self, state: int) -> bool:
@@ -136,9 +134,6 @@ class MatchedWorld(World):
             self.fluents[number] if positive else self.fluents[number].complement
             for number, positive in numbered
         ]
-
-    def _decode(self, state: int) -> Facts:
-        return Facts(self.true_atoms(state))
 
 
 def _row(actions: Iterable[Literal]) -> Row:

@@ -7,9 +7,9 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from asp.language import complement, name
-from asp.refinement import Refinement
+from asp.refinement import Refinement, sensing_of
 from testbed.protocol import Decision, Event, FineTrace, Percept, Robot, Task
-from testbed.world import sensing_of, world_of
+from testbed.world import world_of
 
 Nth = tuple[str, int]
 """An action or test, and the how-manieth time it is made, from 1."""
@@ -137,7 +137,7 @@ class _Stage:
 
     def _outcome(self, nth: Nth) -> tuple[str, ...]:
         test, _ = nth
-        if not self._sensing.can(self.state, test):
+        if not self._sensing.can(test, self._world.facts(self.state)):
             return ()
         fluent = self._sensing.fluent(test)
         holds = self._world.satisfies(self.state, [fluent]) != (nth in self._faults.lies)

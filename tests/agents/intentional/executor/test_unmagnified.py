@@ -113,3 +113,12 @@ def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: 
         "swing(left_arm,red)",
     ]
     assert all(happened for _, happened in went.abstract)
+
+
+def test_what_is_tested_where_a_coarse_fluent_holds_is_tested_there() -> None:
+    """`A tests covered(Z) if over(A, Z)`: `over` is defined at the fine resolution."""
+    start = ["fine_over(left_arm,green_3)", "fine_lies(base1,yellow_1)", "fine_lies(base2,red_1)"]
+    went = play(RefinedRobot(), TABLE, start, ["held(left_arm,block1)"])
+    tested = {d.action for d in went.decisions if d.action.startswith("test_covered(")}
+    assert went.achieved
+    assert tested == {"test_covered(left_arm,green)", "test_covered(left_arm,yellow)"}
