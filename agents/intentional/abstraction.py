@@ -13,7 +13,7 @@ from functools import cached_property, lru_cache
 
 from msgspec import structs
 
-from agents.intentional.renaming import renamed_decision, renamed_event
+from agents.shared.narration import retold
 from agents.shared.sessions import sessions_of
 from asp.language import (
     Signature,
@@ -135,7 +135,7 @@ class AbstractTask:
             doubtful=self.seen(percept.doubtful),
             attempted=None if attempted is None else renamed(attempted, self._there),
             events=[
-                renamed_event(event, self._there)
+                retold(event, lambda action: action.renamed(self._there))
                 for event in percept.events
                 if self.is_about(event.action)
             ],
@@ -145,7 +145,7 @@ class AbstractTask:
         """A decision in the names of the whole task."""
         if all(old == new for old, new in self._back.items()):
             return decision
-        return renamed_decision(decision, self._back)
+        return retold(decision, lambda literal: literal.renamed(self._back))
 
 
 class AbstractingRobot:

@@ -98,9 +98,9 @@ class IntentionalRobot(ReasoningRobot[History]):
         return structs.replace(
             trace,
             mental=intention.action if intention.action.startswith(_MENTAL) else None,
-            intention=intention.action,
-            plan=list(self._ahead(intention, diagnosis)),
-            belief=sorted(intention.believed - {GOAL}),
+            intention=Literal.parse(intention.action),
+            plan=list(map(Literal.parse, self._ahead(intention, diagnosis))),
+            belief=sorted(map(Literal.parse, intention.believed - {GOAL})),
             reason=why.text,
             futile_at=why.futile_at,
             no_plan=why.no_plan,

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 
 from agents.intentional.history import History
 from agents.intentional.incremental import FIRST_EVENT
+from agents.shared.narration import Narration, Step, listed
 from agents.shared.reasons import Reasons
 from agents.shared.thought import Intention
-from asp.language import complement
+from asp.language import Literal, complement
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, problem_of
 from asp.solving import LimitError, State, deciding
 from testbed import protocol
@@ -50,7 +51,7 @@ class IntentionalReasons(Reasons):
         if action.startswith("stop("):
             return self._futile(history.step, state, left)
         by = history.step + len(left)
-        return Why(f"activity {name} still reaches the goal, by step {by}")
+        return Why(Narration(f"activity {name} still reaches the goal, by step ", Step(by)))
 
     def alternatives(
         self, history: History, diagnosis: Diagnosis
@@ -82,12 +83,15 @@ class IntentionalReasons(Reasons):
             after = self._sessions.transitions.after(state, action, ())
             if after is None or not after[1]:
                 hindrance = self._sessions.reach.hindrance(state, action)
-                why = f" with {', '.join(hindrance)}" if hindrance else ""
-                return Why(f"futile: {action} is impossible at step {later}{why}", later)
+                because = (" with ", listed(hindrance)) if hindrance else ()
+                attempt, at = Literal.parse(action), Step(later)
+                said = ("futile: ", attempt, " is impossible at step ", at, *because)
+                return Why(Narration(*said), later)
             state = after[0]
         end = step + len(left)
-        failing = ", ".join(map(complement, self._tracker.missing(state)))
-        return Why(f"futile: its end, at step {end}, violates the goal with {failing}", end)
+        failing = listed(map(complement, self._tracker.missing(state)))
+        said = ("futile: its end, at step ", Step(end), ", violates the goal with ", failing)
+        return Why(Narration(*said), end)
 
 
 def _started(history: History, intention: Intention) -> str:

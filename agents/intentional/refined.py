@@ -14,6 +14,7 @@ from agents.intentional.executor.coarse import Reporter
 from agents.intentional.executor.execution import Execution
 from agents.intentional.executor.sensing import Asking
 from agents.intentional.executor.trace import CoarseSteps
+from agents.shared.narration import retold
 from asp.language import Literal, is_positive
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
@@ -115,7 +116,7 @@ class RefinedRobot:
             first = next(self._running, None)
             self._running = None if first is None else self._running
             action = Literal.parse(first or _WAIT)
-        trace = self._steps.trace(decision.trace)
+        trace = retold(decision.trace, step=self._steps.own)
         return structs.replace(decision, step=percept.step, trace=trace, action=action)
 
     def _ask(self, percept: Percept, told: Percept) -> Decision:

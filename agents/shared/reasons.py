@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from agents.shared.narration import Narration
 from agents.shared.sessions import sessions_of
-from asp.language import Literal, complement
+from asp.language import Literal
 from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import UNLIMITED, LimitError, Limits, State, deciding
@@ -55,8 +56,8 @@ class Reasons:
             found = self._tracker.surprises(moment, state)
             if found or step >= history.step:
                 return [
-                    Contradiction(step=step, observed=seen, believed=complement(seen))
-                    for seen in found
+                    Contradiction(step=step, observed=seen, believed=seen.complement)
+                    for seen in map(Literal.parse, found)
                 ]
             record = record_of(moment, *self._knowledge.actions)
             attempt, events = adopted.executed(record, step), adopted.happened(record, step)
@@ -90,8 +91,12 @@ class Reasons:
         transitions = self._sessions.transitions
         alone = [e for e in events if transitions.after(state, None, (e,)) is None]
         return [
-            Contradiction(step=step, observed=f"hpd({event})", believed=f"impossible({event})")
-            for event in alone or events
+            Contradiction(
+                step=step,
+                observed=Narration("hpd(", event, ")"),
+                believed=Narration("impossible(", event, ")"),
+            )
+            for event in map(Literal.parse, alone or events)
         ]
 
 
@@ -100,6 +105,7 @@ def _events(happenings: Collection[Happening]) -> list[Event]:
 
 
 def _result(attempt: str, expected: bool, step: int) -> Contradiction:
-    signs = ("-", "") if expected else ("", "-")
-    observed, believed = (f"hpd({sign}{attempt})" for sign in signs)
+    done = Literal.parse(attempt)
+    sides = (done.complement, done) if expected else (done, done.complement)
+    observed, believed = (Narration("hpd(", side, ")") for side in sides)
     return Contradiction(step=step, observed=observed, believed=believed)

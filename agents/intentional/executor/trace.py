@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from bisect import bisect_right
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal
 
 from msgspec import structs
 
 from asp.solving import Reading, reasoning_clock
-from testbed.protocol import Contradiction, Event, Explanation, FineTrace, Trace
+from testbed.protocol import FineTrace
 
-_STEP = re.compile(r"(?<=\bstep )\d+")
 _LASTING = ("abstract", "begun", "plans", "actions", "tests")
 
 Phase = Literal["planning", "infer"]
-T = TypeVar("T", Explanation, Event, Contradiction)
 
 
 class FineTraceBuilder:
@@ -81,25 +78,3 @@ class CoarseSteps:
         """The step of the environment at which a coarse step began, or may begin at the soonest."""
         ahead = max(0, step - self.present)
         return self._began[step - ahead] + ahead
-
-    def trace(self, trace: Trace) -> Trace:
-        """A trace of the coarse robot with steps of the environment in it."""
-        explanation = trace.explanation
-        return structs.replace(
-            trace,
-            explanation=None if explanation is None else self._explanation(explanation),
-            contradictions=list(map(self._moved, trace.contradictions)),
-            alternatives=list(map(self._explanation, trace.alternatives)),
-            futile_at=None if trace.futile_at is None else self.own(trace.futile_at),
-            reason=_STEP.sub(lambda found: str(self.own(int(found[0]))), trace.reason),
-        )
-
-    def _explanation(self, explanation: Explanation) -> Explanation:
-        return structs.replace(
-            self._moved(explanation),
-            unobserved=list(map(self._moved, explanation.unobserved)),
-            distrusted=list(map(self._moved, explanation.distrusted)),
-        )
-
-    def _moved(self, told: T) -> T:
-        return structs.replace(told, step=self.own(told.step))
