@@ -6,9 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Intention, Reasoner
 from asp.reasoning.diagnosis import GOAL, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

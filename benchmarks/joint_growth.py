@@ -13,11 +13,9 @@ import clingo
 from clingo import Symbol
 from matplotlib.figure import Figure
 
-from agents.intentional import joint, reference
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional import joint, reasoners
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import reference as diagnosis
 from asp.reasoning.knowledge import Knowledge
@@ -134,7 +132,7 @@ def _watched() -> Iterator[list[clingo.Control]]:
         return control
 
     with ExitStack() as stack:
-        for module in (diagnosis, reference, joint, one_call):
+        for module in (diagnosis, reasoners, joint, one_call):
             stack.enter_context(patch.object(module, "ground", watched))
         yield controls
 

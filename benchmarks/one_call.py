@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from agents.intentional.history import History
-from agents.intentional.reference import ReferenceReasoner, read_intention
+from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
 from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import Diagnosis
 from asp.solving import fact, ground, optimal_model, theory

@@ -7,8 +7,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner
 from agents.shared.thought import Intention, Reasoner
 from asp.language import Literal, parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import ReferenceReasoner
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.specs import TrialSpec

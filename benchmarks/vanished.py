@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from agents.intentional.history import History
+from agents.intentional.reasoners import History
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import GOAL, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

@@ -6,8 +6,7 @@ from typing import ClassVar
 
 from msgspec import structs
 
-from agents.intentional.history import Activity, History
-from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reasoners import Activity, History, IncrementalReasoner
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared.relevance import goal_fluents, relevant_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
@@ -94,18 +93,15 @@ class IntentionalRobot(ReasoningRobot[History]):
             trace = self._with_alternatives(self._with_explanation(trace), diagnosis)
         if diagnosis is None or intention is None:
             return trace
-        why = self._reasons.why(self._history, intention, diagnosis)
-        return structs.replace(
+        trace = structs.replace(
             trace,
             mental=intention.action if intention.action.startswith(_MENTAL) else None,
             intention=Literal.parse(intention.action),
             plan=list(map(Literal.parse, self._ahead(intention, diagnosis))),
             belief=sorted(map(Literal.parse, intention.believed - {GOAL})),
-            reason=why.text,
-            futile_at=why.futile_at,
-            no_plan=why.no_plan,
             plans=trace.plans + (intention.action == f"start({trace.plans + 1})"),
         )
+        return self._reasons.explained(trace, self._history, intention, diagnosis)
 
     def _with_alternatives(self, trace: Trace, diagnosis: Diagnosis) -> Trace:
         """The trace with the other explanations that are as small, if there is a new one."""

@@ -9,8 +9,7 @@ from dataclasses import replace
 
 from clingo import Symbol
 
-from agents.intentional.history import History
-from agents.intentional.reference import ReferenceReasoner, read_intention
+from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
 from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import Diagnosis, Explanation, diagnosis_of, event_limits
 from asp.solving import fact, first_model, ground, optimal_model, theory

@@ -5,10 +5,11 @@ Nothing here has a part in a decision.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from agents.intentional.history import History
-from agents.intentional.incremental import FIRST_EVENT
+from msgspec import structs
+
+from agents.intentional.reasoners import FIRST_EVENT, History
 from agents.shared.narration import Narration, Step, listed
 from agents.shared.reasons import Reasons
 from agents.shared.thought import Intention
@@ -16,42 +17,35 @@ from asp.language import Literal, complement
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, problem_of
 from asp.solving import LimitError, State, deciding
 from testbed import protocol
-from testbed.protocol import NoPlan
+from testbed.protocol import Trace
 
 MOST_ALTERNATIVES = 20
-
-
-@dataclass(frozen=True)
-class Why:
-    """The reason of a decision; the first step at which the projected plan breaks, if any.
-
-    `no_plan` is why there is no plan, where the robot gives up.
-    """
-
-    text: str
-    futile_at: int | None = None
-    no_plan: NoPlan | None = None
 
 
 class IntentionalReasons(Reasons):
     """Gives reasons for decisions about one goal in one domain."""
 
-    def why(self, history: History, intention: Intention, diagnosis: Diagnosis) -> Why:
-        """Why this is intended at the history's step."""
+    def explained(
+        self, trace: Trace, history: History, intention: Intention, diagnosis: Diagnosis
+    ) -> Trace:
+        """The trace with the reason of a decision at the history's step."""
         state, action = intention.believed - {GOAL}, intention.action
         if action == "finish":
             if GOAL in intention.believed:
-                return Why("the goal holds")
+                return structs.replace(trace, reason="the goal holds")
             no_plan, text = self.no_plan(state)
-            return Why(text, no_plan=no_plan)
+            return structs.replace(trace, reason=text, no_plan=no_plan)
         if action.startswith("start("):
-            return Why(_started(history, intention))
+            return structs.replace(trace, reason=_started(history, intention))
         name, index = next(iter(diagnosis.indices.items()))
         left = history.activities[name - 1].plan[index:]
         if action.startswith("stop("):
-            return self._futile(history.step, state, left)
-        by = history.step + len(left)
-        return Why(Narration(f"activity {name} still reaches the goal, by step ", Step(by)))
+            futile_at, text = self._futile(history.step, state, left)
+            return structs.replace(trace, reason=text, futile_at=futile_at)
+        by = Step(history.step + len(left))
+        return structs.replace(
+            trace, reason=Narration(f"activity {name} still reaches the goal, by step ", by)
+        )
 
     def alternatives(
         self, history: History, diagnosis: Diagnosis
@@ -77,8 +71,8 @@ class IntentionalReasons(Reasons):
         explanations = self._sessions.diagnosis.explanations
         return explanations.alternatives(problem, diagnosis.explanation, MOST_ALTERNATIVES)
 
-    def _futile(self, step: int, state: State, left: tuple[str, ...]) -> Why:
-        """Where the projection of a plan breaks (36)."""
+    def _futile(self, step: int, state: State, left: tuple[str, ...]) -> tuple[int, Narration]:
+        """The first step at which the projection of a plan breaks (36), in words, too."""
         for later, action in enumerate(left, start=step):
             after = self._sessions.transitions.after(state, action, ())
             if after is None or not after[1]:
@@ -86,12 +80,12 @@ class IntentionalReasons(Reasons):
                 because = (" with ", listed(hindrance)) if hindrance else ()
                 attempt, at = Literal.parse(action), Step(later)
                 said = ("futile: ", attempt, " is impossible at step ", at, *because)
-                return Why(Narration(*said), later)
+                return later, Narration(*said)
             state = after[0]
         end = step + len(left)
         failing = listed(map(complement, self._tracker.missing(state)))
         said = ("futile: its end, at step ", Step(end), ", violates the goal with ", failing)
-        return Why(Narration(*said), end)
+        return end, Narration(*said)
 
 
 def _started(history: History, intention: Intention) -> str:

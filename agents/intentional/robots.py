@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import ReferenceReasoner
 from agents.intentional.refined import EitherRobot
 from testbed.protocol import Capabilities
 

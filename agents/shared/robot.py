@@ -69,7 +69,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
                 with deciding(self._limits):
                     self._think(thought)
             except LimitError as limit:
-                thought.end(str(limit))
+                thought.ended, thought.limit = reasoning_clock(), str(limit)
             except InconsistentHistoryError as error:
                 raise RobotStops(str(error)) from error
             trace = thought.timed(self._trace(thought), self._prepared)
@@ -130,11 +130,10 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """Both phases. Raises LimitError, after which what was found so far is kept."""
         reasoner = self._reasoner or self._prepare()
         diagnosis = self._diagnosed(reasoner)
-        thought.diagnosis_is_over()
+        thought.diagnosed = reasoning_clock()
         thought.diagnosis, self._explanation = diagnosis, diagnosis.explanation
         intention = self._intend(reasoner, thought)
-        thought.end()
-        thought.intention = intention
+        thought.ended, thought.intention = reasoning_clock(), intention
 
     def _intend(self, reasoner: Reasoner[H_contra], thought: Thought) -> Intention:
         """Phase two."""

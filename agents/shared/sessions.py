@@ -36,12 +36,11 @@ def sessions_of(knowledge: Knowledge) -> Sessions:
 
     A robot whose domain follows from its goal has as many domains as goals.
     """
-    return _SESSIONS.get(knowledge.program, lambda: _made(knowledge))
 
+    def made() -> Sessions:
+        description = knowledge.description
+        plans = IncrementalPlanner(description.source, f"{description.name}.al")
+        reach = Reachability(description, knowledge.program, plans.reachable)
+        return Sessions(DiagnosisSessions(knowledge), plans, reach)
 
-def _made(knowledge: Knowledge) -> Sessions:
-    description, program = knowledge.description, knowledge.program
-    plans = IncrementalPlanner(description.source, f"{description.name}.al")
-    return Sessions(
-        DiagnosisSessions(knowledge), plans, Reachability(description, program, plans.reachable)
-    )
+    return _SESSIONS.get(knowledge.program, made)

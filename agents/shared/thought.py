@@ -39,7 +39,7 @@ class Thought:
 
     `before` is what explained the history before; `is_new` says whether the plan was made now;
     `limit` names the limit of decisions that was reached, if any. A phase that the time for the
-    decision did not suffice for has no reading of the clock.
+    decision did not suffice for ended when the decision did.
     """
 
     before: Explanation
@@ -49,15 +49,7 @@ class Thought:
     limit: str = ""
     began: Reading = field(default_factory=reasoning_clock)
     diagnosed: Reading | None = None
-    ended: Reading | None = None
-
-    def diagnosis_is_over(self) -> None:
-        """From now on it is planning."""
-        self.diagnosed = reasoning_clock()
-
-    def end(self, limit: str = "") -> None:
-        """What follows is no reasoning."""
-        self.ended, self.limit = reasoning_clock(), limit
+    ended: Reading = field(default_factory=Reading)
 
     def timed(self, trace: Trace, prepared: float) -> Trace:
         """The trace with the times of both phases.
@@ -65,17 +57,13 @@ class Thought:
         With the preparation since the decision began goes what was `prepared` before it, in seconds
         of process time.
         """
-        over = self.diagnosed or self.ended
-        diagnosis = Reading() if over is None else over.since(self.began)
-        planning = Reading()
-        if self.diagnosed is not None and self.ended is not None:
-            planning = self.ended.since(self.diagnosed)
-        since = reasoning_clock().since(self.began)
+        diagnosed = self.diagnosed or self.ended
+        diagnosis, planning = diagnosed.since(self.began), self.ended.since(diagnosed)
         return structs.replace(
             trace,
             planning_time_s=planning.wall,
             diagnosis_time_s=diagnosis.wall,
             planning_cpu_s=planning.cpu,
             diagnosis_cpu_s=diagnosis.cpu,
-            preparation_cpu_s=prepared + since.preparation_cpu,
+            preparation_cpu_s=prepared + reasoning_clock().since(self.began).preparation_cpu,
         )

@@ -9,8 +9,7 @@ from msgspec import structs
 from agents.shared.relevance import outcome_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
-from agents.traditional.incremental import IncrementalReasoner
-from agents.traditional.reference import ReferenceReasoner, intention_of
+from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner, intention_of
 from asp.reasoning.diagnosis import GOAL, History
 from testbed.protocol import Capabilities, Percept, Task, Trace
 

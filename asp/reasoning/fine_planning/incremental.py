@@ -15,12 +15,10 @@ from asp.language import (
     arguments,
     functions,
     ground,
-    subject,
     syntax,
     without_exogenous,
 )
-from asp.reasoning.fine_planning.compact_part import CompactDescription, CompactPart
-from asp.reasoning.fine_planning.horizon import Horizon
+from asp.reasoning.fine_planning.compact_session import CompactDescription, CompactPart, Horizon
 from asp.reasoning.fine_planning.large.problem_program import Problem, ProblemPrograms
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
 from asp.reasoning.fine_planning.reference import (
@@ -28,8 +26,8 @@ from asp.reasoning.fine_planning.reference import (
     FinePlanner,
     FineStart,
     NoPlan,
-    NotCandidatesError,
     ReferenceFinePlanner,
+    function_of,
 )
 from asp.reasoning.relevance import Relevance
 from asp.solving import Recent
@@ -60,17 +58,13 @@ class _Part:
     def __init__(self, part: CompactPart, known: Mapping[str, Function]) -> None:
         self.size = len(part.names)
         self.relaxed = Relaxed(part.program)
-        self._part = part
+        self.part = part
         self._functions = known
-
-    def horizon(self, length: int) -> Horizon:
-        """A session for all problems of so many steps."""
-        return Horizon(self._part.program, self._part.actions, length)
 
     @cached_property
     def problems(self) -> ProblemPrograms:
         """Programs for single problems."""
-        return ProblemPrograms(self._part, self.relaxed, self._functions, LANDMARKS)
+        return ProblemPrograms(self.part, self.relaxed, self._functions, LANDMARKS)
 
 
 Horizons = Recent[tuple[_Part, int], Horizon]
@@ -164,17 +158,17 @@ class IncrementalFinePlanner:
         return horizon.plan(horizon.start(problem.true, problem.candidates), problem.goal)
 
     def _horizon(self, part: _Part, length: int) -> Horizon:
-        return self._horizons.get((part, length), lambda: part.horizon(length), length * part.size)
+        def made() -> Horizon:
+            return Horizon(part.part.program, part.part.actions, length)
+
+        return self._horizons.get((part, length), made, length * part.size)
 
     def _problem(self, part: CompactPart, start: FineStart, goal: tuple[str, ...]) -> Problem:
         """The problem in canonical names. Raises NotCandidatesError."""
         candidates: dict[str, tuple[str, ...]] = {}
         for group in map(part.seen, start.candidates):
-            function = subject(group[0], self._functions)
-            if function is None:
-                message = f"{group[0]}: not a value of a function that always has one"
-                raise NotCandidatesError(message)
-            candidates[ground(function[0], function[1:])] = group
+            function, *others = function_of(group, self._functions)
+            candidates[ground(function, others)] = group
         return Problem(frozenset(part.seen(start.true)), candidates, part.seen(goal))
 
 

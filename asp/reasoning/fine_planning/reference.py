@@ -201,19 +201,20 @@ def _dealing(
     start: FineStart, actions: Iterable[str], known: Mapping[str, Function]
 ) -> Iterator[Symbol]:
     """deals_with(A,G): the actions that name what a group of candidates is about."""
-    about = [_about(group, known) for group in start.candidates]
+    about = [frozenset(function_of(group, known)[1:]) for group in start.candidates]
     for action in actions:
         named = frozenset(literals.arguments(action))
         yield from (fact("deals_with", action, n) for n, some in enumerate(about) if some <= named)
 
 
-def _about(group: Sequence[str], known: Mapping[str, Function]) -> frozenset[str]:
-    """The constants that a group of candidates is about.
+def function_of(group: Sequence[str], known: Mapping[str, Function]) -> tuple[str, ...]:
+    """The function, with its other arguments, that candidates are values of.
 
     Raises NotCandidatesError for a group that is not made of values of one total function.
     """
-    found = {subject(fluent, known) for fluent in group}
-    first = next(iter(found))
-    if len(found) != 1 or first is None:
-        raise NotCandidatesError(f"not candidates for the place of one thing: {', '.join(group)}")
-    return frozenset(first[1:])
+    first, *others = {subject(fluent, known) for fluent in group}
+    if others or first is None:
+        raise NotCandidatesError(
+            f"not values of one function that always has one: {', '.join(group)}"
+        )
+    return first

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from tests.agents.intentional.lives import WORLD, live
 
 STATES = list(WORLD.initial_states())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from agents.intentional.history import History
+from agents.intentional.reasoners import History
 from asp.reasoning.diagnosis import InconsistentHistoryError, cannot_hold, conflict
 from asp.reasoning.knowledge import goal_facts
 from asp.solving import fact

@@ -11,9 +11,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from asp.language import complement
 from asp.reasoning.diagnosis import (
     GOAL,

@@ -9,9 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import GOAL, Compression, Diagnosis, Explanation, incremental
 from asp.reasoning.knowledge import Knowledge, knowledge

@@ -7,9 +7,8 @@ from pathlib import Path
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.history import Activity, History
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import Activity, History, ReferenceReasoner
 from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, Happening
 from asp.reasoning.knowledge import knowledge

@@ -6,9 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.history import History
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import History, ReferenceReasoner
 from agents.shared.thought import Intention
 from asp.language import parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import ReferenceReasoner
 from asp.language import parse_description
 from testbed.protocol import Decision
 from testbed.world import world_of

@@ -7,9 +7,7 @@ import random
 import pytest
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.history import Activity, History
-from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import Activity, History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import GOAL, Explanation
 from asp.reasoning.knowledge import knowledge

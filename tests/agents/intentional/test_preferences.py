@@ -6,9 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 
 import pytest
 
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

@@ -10,10 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.intentional.reasons import IntentionalReasons
-from agents.intentional.reference import ReferenceReasoner
 from agents.shared.sessions import sessions_of
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, Happening
 from asp.reasoning.knowledge import knowledge

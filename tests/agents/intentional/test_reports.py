@@ -7,9 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from agents.intentional.history import History
-from agents.intentional.incremental import IncrementalReasoner
-from agents.intentional.reference import ReferenceReasoner
+from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import GOAL, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

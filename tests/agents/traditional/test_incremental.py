@@ -6,12 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional import incremental, reference
-from agents.intentional.history import History as IntentionalHistory
+from agents.intentional import reasoners
+from agents.intentional.reasoners import History as IntentionalHistory
 from agents.shared.thought import Intention
 from agents.traditional import TraditionalRobot
-from agents.traditional.incremental import IncrementalReasoner
-from agents.traditional.reference import ReferenceReasoner
+from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History, InconsistentHistoryError
 from asp.reasoning.knowledge import Knowledge, knowledge
 from tests.agents.intentional import test_reports as cart
@@ -77,7 +76,7 @@ def test_what_only_an_event_at_step_0_explains_is_explained_where_no_goal_is_sel
         assert diagnosis.explanation.unobserved == ((0, "exo_lock(library)"),)
     selecting = IntentionalHistory(step=1, moments=history.moments)
     selecting.happened("select(my_goal)", True, 0)
-    for intentional in (incremental.IncrementalReasoner, reference.ReferenceReasoner):
+    for intentional in (reasoners.IncrementalReasoner, reasoners.ReferenceReasoner):
         with pytest.raises(InconsistentHistoryError):
             intentional(office, BOTH_IN_THE_LIBRARY, 20).diagnose(selecting, Explanation())
 

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from agents.shared.thought import Intention
 from agents.traditional import TraditionalRobot
-from agents.traditional.incremental import IncrementalReasoner
+from agents.traditional.reasoners import IncrementalReasoner
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History
 from asp.reasoning.knowledge import Knowledge
 from asp.solving.budget import OUT_OF_TIME, TimeLimitError

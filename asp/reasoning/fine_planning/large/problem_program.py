@@ -1,7 +1,7 @@
 """Plans of exactly so many steps for one problem alone, where a session would be too large.
 
-The rules are those of `asp.reasoning.fine_planning.horizon`, but start and goal are part of the
-program, and functions are confined to the values that can lead to the goal
+The rules are those of `asp.reasoning.fine_planning.compact_session`, but start and goal are part of
+the program, and functions are confined to the values that can lead to the goal
 (`asp.reasoning.fine_planning.large.value_pruning`). So clingo grounds what is about states on the
 way only, and not each step for all of the description. That pays from rooms of 64 cells on.
 
@@ -21,8 +21,7 @@ import clingo
 from clingo import Number
 
 from asp.language import Function, arguments, atom, is_positive
-from asp.reasoning.fine_planning.compact_part import CompactPart
-from asp.reasoning.fine_planning.horizon import MOST_LEVELS, parts, read
+from asp.reasoning.fine_planning.compact_session import MOST_LEVELS, CompactPart, parts, read
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
 from asp.reasoning.fine_planning.large.value_pruning import Functions, Values, confined
 from asp.solving import ground, solving, theory

@@ -13,7 +13,7 @@ from agents.intentional.executor.model import FineModel, fine_model
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
 from asp.reasoning.fine_planning import Horizons, incremental
-from asp.reasoning.fine_planning.horizon import Horizon
+from asp.reasoning.fine_planning.compact_session import Horizon
 from asp.refinement import Refinement, load
 from asp.solving import Recent
 from tests.agents.intentional.executor.stage import TEXTS, play

@@ -12,7 +12,7 @@ import pytest
 from asp.domains.levels import LevelSize
 from asp.language import analyse, arguments, functions
 from asp.reasoning.fine_planning import FineStart, IncrementalFinePlanner
-from asp.reasoning.fine_planning.compact_part import CompactDescription
+from asp.reasoning.fine_planning.compact_session import CompactDescription
 from asp.reasoning.fine_planning.large.problem_program import in_play, loose
 from asp.reasoning.fine_planning.large.relaxed_reachability import Relaxed
 from asp.reasoning.fine_planning.large.value_pruning import Functions, confined

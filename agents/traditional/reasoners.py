@@ -1,9 +1,16 @@
-"""Diagnosis and planning without intentions, solved from scratch."""
+"""Diagnosis and planning without intentions: from scratch, and step by step."""
 
 from __future__ import annotations
 
+from agents.shared.sessions import sessions_of
 from agents.shared.thought import Intention
-from asp.reasoning.diagnosis import GOAL, Diagnosis, History, ReferenceDiagnoser
+from asp.reasoning.diagnosis import (
+    GOAL,
+    Diagnosis,
+    History,
+    IncrementalDiagnoser,
+    ReferenceDiagnoser,
+)
 from asp.reasoning.knowledge import Knowledge, goal_facts
 from asp.solving import first_model, ground, select, theory
 
@@ -40,3 +47,26 @@ def intention_of(plan: tuple[str, ...] | None, believed: frozenset[str]) -> Inte
     if plan:
         return Intention(plan[0], plan, believed)
     return Intention("finish", (), believed if plan is None else believed | {GOAL})
+
+
+# No goal is selected, so that something may happen at once.
+_FIRST_EVENT = 0
+
+
+class IncrementalReasoner(IncrementalDiagnoser[History]):
+    """Explains one history and plans for one goal, as the reference does, for one trial."""
+
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        """`plan_limit` is the greatest number of actions in a plan."""
+        sessions = sessions_of(knowledge)
+        reference = ReferenceReasoner(knowledge, goal, plan_limit)
+        super().__init__(sessions.diagnosis, goal, _FIRST_EVENT, reference)
+        self._plans = sessions.plans
+        self._plan_limit = plan_limit
+
+    def intend(self, _history: History, _diagnosis: Diagnosis, /) -> Intention:
+        """To carry out a shortest plan from what is believed; to finish where there is none."""
+        state = self.belief.state
+        if self.holds(state):
+            return intention_of((), state)
+        return intention_of(self._plans.shortest(state, self._goal, self._plan_limit), state)

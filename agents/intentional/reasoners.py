@@ -1,0 +1,191 @@
+"""The two phases of reasoning of the intentional robot: from scratch, and step by step.
+
+The `ReferenceReasoner` solves the theory of intentions, the `IncrementalReasoner` gives the same
+answers on multi-shot sessions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from clingo import Symbol
+
+from agents.shared.sessions import sessions_of
+from agents.shared.thought import Intention
+from asp.reasoning import diagnosis
+from asp.reasoning.diagnosis import (
+    GOAL,
+    Diagnosis,
+    Explanation,
+    IncrementalDiagnoser,
+    ReferenceDiagnoser,
+)
+from asp.reasoning.knowledge import Knowledge
+from asp.solving import State, fact, first_model, ground, select, theory
+
+
+@dataclass(frozen=True)
+class Activity:
+    """A plan made for the goal: its name (1, 2, ...) and its physical actions."""
+
+    name: int
+    plan: tuple[str, ...]
+
+
+@dataclass
+class History(diagnosis.History):
+    """What was observed and attempted at each step, and every activity so far."""
+
+    activities: list[Activity] = field(default_factory=list)
+
+    def activity_facts(self) -> Iterator[Symbol]:
+        """What the theory knows of each activity: its goal, its components, its length."""
+        for activity in self.activities:
+            yield fact("activity_goal", activity.name, GOAL)
+            yield fact("activity_length", activity.name, len(activity.plan))
+            for index, action in enumerate(activity.plan, start=1):
+                yield fact("activity_component", activity.name, index, action)
+
+    @property
+    def longest(self) -> int:
+        """The length of the longest plan so far."""
+        return max((len(activity.plan) for activity in self.activities), default=0)
+
+
+class ReferenceReasoner(ReferenceDiagnoser[History]):
+    """Reasons about one goal in one domain; every call solves its program from scratch."""
+
+    theories = ("history", "intentions", "persistence")
+
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        """`plan_limit` is the greatest number of actions in a plan."""
+        super().__init__(knowledge, goal)
+        self._plan_limit = plan_limit
+
+    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
+        """Phase two, over a horizon that grows from the end of the activity in progress on.
+
+        Where no activity is in progress this is iterative deepening: the first horizon with an
+        intention is that of a shortest plan. Beyond the plan limit the goal is futile.
+        """
+        plans = {activity.name: len(activity.plan) for activity in history.activities}
+        left = (plans[name] - index for name, index in diagnosis.indices.items())
+        first = max([1, *left])
+        for length in range(first, max(first, self._plan_limit) + 1):
+            intention = self._intention(history, diagnosis.explanation, length, ())
+            if intention is not None:
+                return intention
+        given_up = (fact("beyond_limit"),)
+        intention = self._intention(history, diagnosis.explanation, 1, given_up)
+        assert intention is not None, "(53): an agent always has an intention"
+        return intention
+
+    def _intention(
+        self, history: History, explanation: Explanation, length: int, more: tuple[Symbol, ...]
+    ) -> Intention | None:
+        """The intention where `length` more physical actions are considered, if there is one."""
+        constants = self._constants(history, history.step + 1 + length, length)
+        facts = [
+            *self._facts(history),
+            fact("explanation", len(explanation.unobserved), history.step),
+            *explanation.facts("explained"),
+            *more,
+        ]
+        model = first_model(ground([*self._base, theory("planning")], constants, facts))
+        return None if model is None else read_intention(model)
+
+    def _facts(self, history: History) -> Iterator[Symbol]:
+        yield from super()._facts(history)
+        yield from history.activity_facts()
+
+    def _constants(self, history: History, horizon: int, longest: int = 0, /) -> dict[str, int]:
+        longest = max(1, longest, history.longest)
+        return {"n": horizon, "max_name": len(history.activities) + 2, "max_len": longest}
+
+
+def read_intention(model: tuple[Symbol, ...]) -> Intention:
+    """What an answer set of the theory of planning says."""
+    (action, _), *_ = select(model, "intended_action", 2)
+    started = [symbol for symbol in model if action.match("start", 1) and symbol.match("plan", 3)]
+    plan = sorted((index.number, str(step)) for _, index, step in select(started, "plan", 3))
+    believed = frozenset(str(fluent) for (fluent,) in select(model, "believed", 1))
+    return Intention(str(action), tuple(step for _, step in plan), believed)
+
+
+FIRST_EVENT = 1
+"""The first step with events: nothing else happens while the goal is selected (16)."""
+
+
+@dataclass
+class _Active:
+    """The active activity, with the physical actions that took effect since it was started."""
+
+    name: int
+    executed: list[tuple[int, str]] = field(default_factory=list)
+
+
+class IncrementalReasoner(IncrementalDiagnoser[History]):
+    """Reasons about one goal in one domain, as the reference does, for one trial."""
+
+    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+        """`plan_limit` is the greatest number of actions in a plan."""
+        sessions = sessions_of(knowledge)
+        reference = ReferenceReasoner(knowledge, goal, plan_limit)
+        super().__init__(sessions.diagnosis, goal, FIRST_EVENT, reference)
+        self._plans = sessions.plans
+        self._actions, _ = knowledge.actions
+        self._plan_limit = plan_limit
+        self._active: _Active | None = None
+
+    def diagnose(self, history: History, adopted: Explanation, /) -> Diagnosis:
+        """Phase one. Raises InconsistentHistoryError."""
+        self._follow(history)
+        return replace(super().diagnose(history, adopted), indices=self._indices(history))
+
+    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
+        """Phase two."""
+        state = self.belief.state
+        holds = self.holds(state)
+        action, plan = ("finish", ()) if holds else self._decide(state, history, diagnosis)
+        return Intention(action, plan, state | {GOAL} if holds else state)
+
+    def _decide(
+        self, state: State, history: History, diagnosis: Diagnosis
+    ) -> tuple[str, tuple[str, ...]]:
+        """The intention where the goal does not hold."""
+        for name, index in diagnosis.indices.items():
+            left = history.activities[name - 1].plan[index:]
+            if left and self._plans.succeeds(state, self._goal, left):
+                return left[0], ()  # (38)
+            return f"stop({name})", ()  # (41)
+        plan = self._plans.shortest(state, self._goal, self._plan_limit)
+        if plan is None:
+            return "finish", ()  # (53)
+        earlier = (activity.name for activity in history.activities if activity.plan == plan)
+        return f"start({next(earlier, len(history.activities) + 1)})", plan  # (42), (52)
+
+    def _follow(self, history: History) -> None:
+        """Which activity is active after the last step (1), and what was done since it is."""
+        last = history.at(history.step - 1)
+        for action in last.attempted:
+            kind, _, name = action.rstrip(")").partition("(")
+            if kind == "start":
+                self._active = _Active(int(name))
+            elif kind == "stop":
+                self._active = None
+            elif self._active and action in self._actions and last.happened.get(action):
+                done = (history.step - 1, action)
+                if done not in self._active.executed:  # a step may be diagnosed twice
+                    self._active.executed.append(done)
+
+    def _indices(self, history: History) -> dict[int, int]:
+        """The index of the active activity (3), which stood still where the goal held (7)-(9)."""
+        if self._active is None:
+            return {}
+        plan, index = history.activities[self._active.name - 1].plan, 0
+        held = self.belief.held
+        for step, action in self._active.executed:
+            if step not in held and plan[index : index + 1] == (action,):
+                index += 1
+        return {self._active.name: index}

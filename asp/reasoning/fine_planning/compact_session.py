@@ -1,0 +1,201 @@
+"""A part of a compact description, and its sessions: plans of exactly so many steps.
+
+Constants are named by position, so that parts that differ in names only are equal.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
+from itertools import chain, product
+
+import clingo
+from clingo import Number, Symbol
+
+from asp.language import Literal, Signature, arguments, atom, is_positive, renamed, syntax
+from asp.solving import fact, ground, preparation, solving, theory
+from asp.translation import Part, Rule, compact
+
+
+class CompactDescription:
+    """A description whose laws are translated once. Raises NotCompactError."""
+
+    def __init__(self, source: syntax.Source, signature: Signature) -> None:
+        self.signature = signature
+        self.rules = compact(source, signature)
+        self._constants = tuple(dict.fromkeys(m for ms in signature.sorts.values() for m in ms))
+        # What laws name keeps its name.
+        self._fixed = frozenset(c for rule in self.rules for c in rule.constants)
+        self._facts: dict[str, list[tuple[str, tuple[str, ...]]]] = defaultdict(list)
+        for stated in source.each(syntax.Fact):
+            terms = tuple(term.name for term in stated.literal.atom.args)
+            self._facts[terms[0] if terms else ""].append((stated.literal.atom.name, terms))
+
+    def part(self, constants: frozenset[str]) -> CompactPart:
+        """The description with these constants only."""
+        kept = [c for c in self._constants if c in constants]
+        names = {c: c if c in self._fixed else f"x{number}" for number, c in enumerate(kept)}
+        sorts = tuple(
+            (sort, tuple(names[m] for m in members if m in names))
+            for sort, members in self.signature.sorts.items()
+        )
+        facts = frozenset(
+            Literal.of(static, (names[a] for a in terms))
+            for first in (*kept, "")
+            for static, terms in self._facts.get(first, ())
+            if all(a in names for a in terms)
+        )
+        return CompactPart(self, sorts, facts, names)
+
+
+class CompactPart:
+    """A part of a description in canonical names.
+
+    `sorts` are the members of each sort and `facts` the true statics that are stated; two parts
+    with equal ones have the same transitions. `names` leads from the old names to the canonical
+    ones.
+    """
+
+    def __init__(
+        self,
+        whole: CompactDescription,
+        sorts: tuple[tuple[str, tuple[str, ...]], ...],
+        facts: frozenset[str],
+        names: Mapping[str, str],
+    ) -> None:
+        self.names = names
+        self.sorts = dict(sorts)
+        self.key = sorts, facts
+        self._whole = whole
+        self._facts = facts
+        self._back = {new: old for old, new in names.items()}
+
+    def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
+        """Those of the literals that name nothing else, in canonical names."""
+        return tuple(
+            renamed(literal, self.names)
+            for literal in literals
+            if all(constant in self.names for constant in arguments(literal))
+        )
+
+    def back(self, actions: Iterable[str]) -> tuple[str, ...]:
+        """Actions in the names of the description."""
+        return tuple(renamed(action, self._back) for action in actions)
+
+    @cached_property
+    def rules(self) -> Sequence[Rule]:
+        """The rules that name nothing else."""
+        return [rule for rule in self._whole.rules if rule.constants <= self.names.keys()]
+
+    @cached_property
+    def actions(self) -> Sequence[str]:
+        """The agent actions in the order of declaration, in canonical names."""
+        return [
+            Literal.of(symbol.name, chosen)
+            for symbol in self._whole.signature.symbols.values()
+            if symbol.kind == "agent"
+            for chosen in product(*(self.sorts[sort.name] for sort in symbol.sorts))
+        ]
+
+    @cached_property
+    def program(self) -> str:
+        """The compact program."""
+        facts = [f"{sort}({member})." for sort, ms in self.sorts.items() for member in ms]
+        facts += (f"{static}." for static in sorted(self._facts))
+        return "\n".join([self.worded(Rule.plain), f"#program {Part.BASE}.", *facts])
+
+    def worded(self, wording: Callable[[Rule], Iterable[str]]) -> str:
+        """The rules of the program, without the facts about constants and statics."""
+        parts: dict[Part, list[str]] = {part: [] for part in Part}
+        for rule in self.rules:
+            parts[rule.part] += wording(rule)
+        parts[Part.BASE] += (f"#defined {sort}/1." for sort in self.sorts)
+        for symbol in self._whole.signature.symbols.values():
+            if symbol.kind == "static":
+                parts[Part.BASE].append(f"#defined {symbol.name}/{len(symbol.sorts)}.")
+        return "\n".join(f"#program {part}.\n" + "\n".join(lines) for part, lines in parts.items())
+
+
+MOST_LEVELS = 32_767  # of decisions, that clasp tells apart
+
+
+class Horizon:
+    """The transitions of so many steps; the start and the goal are assumed.
+
+    Of shortest plans the first in the order of declaration is found, as far as clasp tells levels
+    of decisions apart: actions beyond step 32,767 / (number of actions) come in any order.
+    """
+
+    def __init__(self, program: str, actions: Sequence[str], length: int) -> None:
+        """`actions` are the agent actions in the order of declaration."""
+        self._length = length
+        ranks = [fact("rank", a, n) for n, a in enumerate(actions)]
+        ranks.append(fact("ranks", len(actions)))
+        constants = {"n": length, "ordered": min(length, MOST_LEVELS // (len(actions) + 1))}
+        with preparation():
+            self.control = ground([program, theory("incremental_fine_planning")], constants, ranks)
+            self.control.ground([("open", [])])
+            self._initial = _literals(self.control, "holds", 2)
+            self._placed = _literals(self.control, "placed", 1)
+            self.control.ground(parts(length))
+            # The first call prepares the solver, whatever it is asked.
+            with solving(self.control):
+                pass
+        self._goals: dict[str, int | None] = {}
+
+    def start(self, true: frozenset[str], candidates: Mapping[str, Sequence[str]]) -> list[int]:
+        """Assumptions that make these fluents true at step 0 and leave the candidates open.
+
+        Of the candidates for the value of each function (`fine_loc(box)`) one is true; all other
+        fluents are false.
+        """
+        open_ = frozenset(chain(*candidates.values()))
+        assumed = [
+            number if fluent in true else -number
+            for fluent, number in self._initial.items()
+            if fluent not in open_
+        ]
+        return [*assumed, *(self._placed[function] for function in candidates)]
+
+    def plan(self, start: Sequence[int], goal: Iterable[str]) -> tuple[str, ...] | None:
+        """The first plan of exactly this length, or None. Raises LimitError."""
+        assumptions = [*start]
+        for literal in goal:
+            number = self._wanted(atom(literal))
+            if number is not None:
+                assumptions.append(number if is_positive(literal) else -number)
+            elif is_positive(literal):
+                return None
+        with solving(self.control, assumptions) as model:
+            return None if model is None else read(model)
+
+    def _wanted(self, fluent: str) -> int | None:
+        """The solver's literal of a fluent at the last step; None if it cannot hold."""
+        if fluent not in self._goals:
+            holds = fact("holds", fluent, self._length)
+            found = self.control.symbolic_atoms[holds]
+            self._goals[fluent] = None if found is None else found.literal
+        return self._goals[fluent]
+
+
+def _literals(control: clingo.Control, predicate: str, arity: int) -> dict[str, int]:
+    """The solver's literals of a predicate's atoms by their first argument."""
+    return {
+        str(found.symbol.arguments[0]): found.literal
+        for found in control.symbolic_atoms.by_signature(predicate, arity)
+    }
+
+
+def parts(length: int) -> list[tuple[str, list[Symbol]]]:
+    """The parts of the program that so many steps have, in order."""
+    parts: list[tuple[str, list[Symbol]]] = [("state", [Number(0)])]
+    for step in range(1, length + 1):
+        parts += [("step", [Number(step)]), ("state", [Number(step)])]
+    return parts
+
+
+def read(model: clingo.Model) -> tuple[str, ...]:
+    """The actions that occur in a model, in order."""
+    steps = sorted((s.arguments[1].number, str(s.arguments[0])) for s in model.symbols(shown=True))
+    return tuple(action for _, action in steps)
