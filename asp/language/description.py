@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 from asp.language.literals import Action, Fluent, Literal
+from asp.language.syntax import Node
 
 Literals = tuple[Literal, ...]
 
 
-@dataclass(frozen=True)
-class Causal:
+class Causal(Node):
     """`action causes head if body`."""
 
     action: Action
@@ -20,24 +19,21 @@ class Causal:
     body: Literals
 
 
-@dataclass(frozen=True)
-class Constraint:
+class Constraint(Node):
     """`head if body`."""
 
     head: Literal
     body: Literals
 
 
-@dataclass(frozen=True)
-class Executability:
+class Executability(Node):
     """`impossible actions if body`: all of the actions together."""
 
     actions: tuple[Action, ...]
     body: Literals
 
 
-@dataclass(frozen=True)
-class Sees:
+class Sees(Node):
     """The robot sees whether the fluent holds, in every state that satisfies the body."""
 
     robot: str
@@ -45,8 +41,7 @@ class Sees:
     body: Literals
 
 
-@dataclass(frozen=True)
-class Shows:
+class Shows(Node):
     """The outcome of the action shows the fluent, if the resulting state satisfies the body."""
 
     action: Action
@@ -54,8 +49,7 @@ class Shows:
     body: Literals
 
 
-@dataclass(frozen=True)
-class Default:
+class Default(Node):
     """`name: head if body`: in an initial state with the body the head usually holds.
 
     `exceptions` are conditions under which the default says nothing, one enough.
@@ -67,8 +61,7 @@ class Default:
     exceptions: tuple[Literals, ...]
 
 
-@dataclass(frozen=True)
-class Trigger:
+class Trigger(Node):
     """One way in which a scenario's exogenous action may fire.
 
     `upon` is the robot's action that it goes with (None: any), `drawn` the value of the drawn
@@ -85,8 +78,7 @@ class Trigger:
     probability: float
 
 
-@dataclass(frozen=True)
-class Description:
+class Description(Node):
     """A ground AL_d description. Statics are evaluated away; tuples are in source order.
 
     `scenarios` are the names of all scenarios, also of those in which nothing happens.

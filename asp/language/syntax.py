@@ -17,7 +17,7 @@ SymbolKind = Choice["static", "inertial", "defined", "agent", "exogenous"]
 
 @dataclass_transform(frozen_default=True)
 class Node:
-    """A part of a text; each kind of them is a frozen dataclass."""
+    """A part of a description, of its text or ground; each kind of them is a frozen dataclass."""
 
     def __init_subclass__(cls) -> None:
         dataclass(frozen=True)(cls)

@@ -103,18 +103,13 @@ def variable_domains(statement: syntax.Statement, signature: Signature) -> Domai
     for use in scope(statement):
         for term, members in zip(use.atom.args, places_of(use.atom, signature), strict=True):
             if term.is_variable:
-                domains[term.name] = _common(domains.get(term.name, members), members)
+                found = domains.setdefault(term.name, members)
+                if found is not members:
+                    common = set(members)
+                    domains[term.name] = tuple(each for each in found if each in common)
     if isinstance(statement, syntax.SeesStatement) and statement.robot.is_variable:
         domains.setdefault(statement.robot.name, ())
     return domains
-
-
-def _common(some: tuple[str, ...], others: tuple[str, ...]) -> tuple[str, ...]:
-    """The members of both, in the order of the first."""
-    if some is others:
-        return some
-    both = set(others)
-    return tuple(member for member in some if member in both)
 
 
 def places_of(atom: syntax.Atom, signature: Signature) -> list[tuple[str, ...]]:
