@@ -33,7 +33,7 @@ G = TypeVar("G", Causal, Constraint, Executability, Sees, Shows)
 
 def ground_description(source: syntax.Source, signature: Signature, name: str) -> Description:
     """Instantiates every statement over the members of its variables' sorts."""
-    instances = instances_of(source, signature)
+    instances = Instances(source, signature, static_truth(source, signature)[0])
     on_fluents = (
         law for law in source.each(syntax.StateConstraint) if not instances.is_static(law.head)
     )
@@ -114,11 +114,6 @@ class Instances:
 
     def is_static(self, literal: syntax.Literal) -> bool:
         return self.signature.symbols[literal.atom.name].kind == "static"
-
-
-def instances_of(source: syntax.Source, signature: Signature) -> Instances:
-    """The instances in the closed world of the description's statics."""
-    return Instances(source, signature, static_truth(source, signature)[0])
 
 
 def static_truth(
