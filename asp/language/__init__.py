@@ -35,7 +35,7 @@ from asp.language.loading import (
     packaged_domains,
     parse_description,
     read_domain,
-    read_text,
+    read_packaged,
 )
 from asp.language.matching import NOTHING, Facts, Pattern, Row, Truth
 from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
@@ -96,7 +96,7 @@ __all__ = [
     "pattern_of",
     "reachable",
     "read_domain",
-    "read_text",
+    "read_packaged",
     "renamed",
     "restrict",
     "scenario_notes",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from importlib.resources import files
 from math import prod
@@ -59,15 +59,21 @@ def load_description(name_or_path: str) -> Description:
 
 def read_domain(name_or_path: str) -> tuple[str, str]:
     """The file name, for errors, and the text of a domain. Raises FileNotFoundError."""
-    packaged = files("asp").joinpath("domains", f"{name_or_path}.al")
-    if "/" not in name_or_path and packaged.is_file():
-        return f"{name_or_path}.al", packaged.read_text(encoding="utf-8")
-    path = Path(name_or_path)
-    if not path.is_file():
-        raise FileNotFoundError(
-            f"{name_or_path}: no such domain; give the path of an .al file or one of "
-            f"{', '.join(packaged_domains())}"
-        )
+    wanted = "domain; give the path of an .al file"
+    return read_packaged(name_or_path, f"{name_or_path}.al", wanted, packaged_domains())
+
+
+def read_packaged(given: str, packaged: str, wanted: str, known: Iterable[str]) -> tuple[str, str]:
+    """The name and the text of a file in `asp/domains`, or of another by its path.
+
+    Raises FileNotFoundError, whose text says what is wanted and which packaged ones are known.
+    """
+    entry = files("asp").joinpath("domains", packaged)
+    if "/" not in given and entry.is_file():
+        return packaged, entry.read_text(encoding="utf-8")
+    path = Path(given)
+    if not path.is_file():  # nor can it be where the name has a character that none of a file has
+        raise FileNotFoundError(f"{given}: no such {wanted} or one of {', '.join(known)}")
     return str(path), read_text(path)
 
 
@@ -82,10 +88,10 @@ def read_text(path: Path) -> str:
         raise SourceError(str(path), line, column, message) from None
 
 
-def packaged_domains() -> tuple[str, ...]:
-    """The bare names of the domains that come with this package."""
-    entries = files("asp").joinpath("domains").iterdir()
-    return tuple(sorted(e.name.removesuffix(".al") for e in entries if e.name.endswith(".al")))
+def packaged_domains(ending: str = ".al") -> tuple[str, ...]:
+    """The names, without their ending, of the domains that come with this package."""
+    names = (entry.name for entry in files("asp").joinpath("domains").iterdir())
+    return tuple(sorted(n.removesuffix(ending) for n in names if n.endswith(ending)))
 
 
 MOST_SYMBOLS = 500_000

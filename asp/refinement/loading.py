@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from functools import lru_cache
-from importlib.resources import files
 from pathlib import Path
 
 from asp.language import (
@@ -17,9 +15,10 @@ from asp.language import (
     check,
     check_cycles,
     functions,
+    packaged_domains,
     parse,
     read_domain,
-    read_text,
+    read_packaged,
     signature_of,
     static_truth,
     syntax,
@@ -46,7 +45,8 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     in_coarse.raise_first()
     weak = parse(text, f"{fine_file} (refined)")
     weak_signature = _signature(weak, fine)
-    _check_own(fine, weak_signature)
+    check(fine, weak_signature, problems)
+    problems.raise_first()
     _check_cycles(weak, weak_signature, fine)
     statics, _ = static_truth(weak, weak_signature)
     check_maps(fine, coarse, vocabulary, statics, problems)
@@ -88,13 +88,6 @@ def _with(weak: syntax.Source, observation: str) -> syntax.Source:
     )
 
 
-def _check_own(fine: syntax.Source, weak: Signature) -> None:
-    """Checks the facts, laws and tests of a refinement's text, at their places in it."""
-    problems = Problems(fine.file)
-    check(fine, weak, problems)
-    problems.raise_first()
-
-
 def _check_cycles(weak: syntax.Source, signature: Signature, fine: syntax.Source) -> None:
     """Raises SourceError where the refined laws define something through its own negation.
 
@@ -105,9 +98,6 @@ def _check_cycles(weak: syntax.Source, signature: Signature, fine: syntax.Source
     for problem in problems:
         law = weak.text.split("\n")[problem.line - 1].strip()
         raise SourceError(fine.file, 1, 1, f"{problem.message}: {law}")
-
-
-SUFFIX = ".fine"
 
 
 def load_refinement(name_or_path: str) -> Refinement:
@@ -123,22 +113,9 @@ def load_refinement(name_or_path: str) -> Refinement:
 
 def read_refinement(name_or_path: str) -> tuple[str, str]:
     """The file name, for errors, and the text of a refinement. Raises FileNotFoundError."""
-    packaged = files("asp").joinpath("domains", name_or_path)
-    if "/" not in name_or_path and packaged.is_file():
-        return name_or_path, packaged.read_text(encoding="utf-8")
-    path = Path(name_or_path)
-    if not path.is_file():  # nor can it be where the name has a character that none of a file has
-        raise FileNotFoundError(
-            f"{name_or_path}: no such refinement; give the path of a {SUFFIX} file or one of "
-            f"{', '.join(packaged_refinements())}"
-        )
-    return str(path), read_text(path)
-
-
-def packaged_refinements() -> tuple[str, ...]:
-    """The names of the refinements that come with this package."""
-    entries = files("asp").joinpath("domains").iterdir()
-    return tuple(sorted(e.name for e in entries if e.name.endswith(SUFFIX)))
+    wanted = "refinement; give the path of a .fine file"
+    known = (f"{name}.fine" for name in packaged_domains(".fine"))
+    return read_packaged(name_or_path, name_or_path, wanted, known)
 
 
 def refined_name(name_or_path: str) -> str | None:
@@ -151,11 +128,10 @@ def refined_name(name_or_path: str) -> str | None:
 
 
 def _coarse(file: str, text: str) -> tuple[str, str]:
-    statements = list(parse_fine(text, file).each(Refines))
-    if not statements:
+    named = next(parse_fine(text, file).each(Refines), None)
+    if named is None:
         message = "it does not say which description it refines: begin with 'refines NAME.'"
         raise SourceError(file, 1, 1, message)
-    named = statements[0]
     beside = Path(file).parent / named.name
     try:
         return read_domain(str(beside) if beside.is_file() else named.name)
@@ -192,24 +168,18 @@ def _check_parts(
     fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary, problems: Problems
 ) -> None:
     said = {law.head.atom.name for law in fine.each(syntax.StateConstraint) if law.head.positive}
-    reported: set[str] = set()
-    for name, whole in _of_one_value(coarse, vocabulary):
-        counterpart = vocabulary.counterparts[name]
-        if len(vocabulary.components[whole]) > 1 and counterpart not in said | reported:
-            reported.add(counterpart)
-            place = next(s.place for s in fine.each(Components) if s.whole.name == whole)
+    listed = {statement.whole.name: statement.place for statement in fine.each(Components)}
+    for name, function in functions(coarse, vocabulary.coarse).items():
+        counterpart = vocabulary.counterparts.get(name)
+        if counterpart is None or counterpart in said:
+            continue
+        sorts = vocabulary.coarse.symbols[name].sorts
+        others = (sort.name for place, sort in enumerate(sorts) if place != function.place)
+        members = (member for sort in others for member in vocabulary.coarse.sorts[sort])
+        whole = next((one for one in members if len(vocabulary.components[one]) > 1), None)
+        if whole is not None:
             problems.report(
-                place,
+                listed[whole],
                 f"'{whole}' has one value of '{name}' at most, and its components could have "
                 f"several; add a law by which they share '{counterpart}'",
             )
-
-
-def _of_one_value(coarse: syntax.Source, vocabulary: Vocabulary) -> Iterator[tuple[str, str]]:
-    """The magnified constants that have at most one value of a fluent with a counterpart."""
-    for name, function in functions(coarse, vocabulary.coarse).items():
-        if name in vocabulary.counterparts:
-            for place, sort in enumerate(vocabulary.coarse.symbols[name].sorts):
-                if place != function.place:
-                    members = vocabulary.coarse.sorts[sort.name]
-                    yield from ((name, one) for one in members if vocabulary.is_magnified(one))

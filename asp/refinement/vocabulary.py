@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from asp.language import Problems, Signature, suggestion, syntax
@@ -105,7 +105,9 @@ def _components(
     for statement in fine.each(Components):
         whole = statement.whole.name
         if whole not in magnifiable:
-            _report_whole(statement.whole, coarse, magnifiable, problems)
+            unknown = f"unknown constant '{whole}'; {suggestion(whole, magnifiable)}"
+            none = f"'{whole}' is of no magnified sort, so that it has no components"
+            problems.report(statement.whole.place, none if whole in coarse.constants else unknown)
         elif whole in listed:
             line = listed[whole].place.line
             problems.report(
@@ -121,16 +123,6 @@ def _components(
         for members in coarse.sorts.values()
         for constant in members
     }
-
-
-def _report_whole(
-    whole: syntax.Term, coarse: Signature, magnifiable: Iterable[str], problems: Problems
-) -> None:
-    if whole.name in coarse.constants:
-        message = f"'{whole.name}' is of no magnified sort, so that it has no components"
-    else:
-        message = f"unknown constant '{whole.name}'; {suggestion(whole.name, magnifiable)}"
-    problems.report(whole.place, message)
 
 
 def _claim(

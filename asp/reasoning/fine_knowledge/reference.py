@@ -13,7 +13,6 @@ from asp.language import (
     Signature,
     arguments,
     atom,
-    is_positive,
     narrowed,
     restrict,
     syntax,
@@ -90,7 +89,7 @@ class ReferenceFineKnowledge:
         whole = frozenset([*about, *named])
         program = self._programs.get(whole, lambda: self._make_program(whole))
         texts = [program, theory("fine_inference")]
-        facts = [*_known(known), *_seen(seen)]
+        facts = list(_facts(known, seen))
         for most in range(len(literals) + 1):
             control = ground(texts, {"now": len(seen), "most": most}, facts)
             model = first_model(control)
@@ -124,16 +123,12 @@ class ReferenceFineKnowledge:
         return inference_program(source, narrowed(refinement.weak_signature, gone), statics)
 
 
-def _known(known: Known) -> Iterator[Symbol]:
+def _facts(known: Known, seen: Iterable[Collection[str]]) -> Iterator[Symbol]:
     for fluents, truth in ((known.true, "true"), (known.false, "false")):
         yield from (fact("known", fluent, truth) for fluent in sorted(fluents))
-
-
-def _seen(seen: Iterable[Collection[str]]) -> Iterator[Symbol]:
     for step, literals in enumerate(seen, start=1):
-        for literal in sorted(literals):
-            truth = "true" if is_positive(literal) else "false"
-            yield fact("seen", atom(literal), truth, step)
+        for literal in map(Literal.parse, sorted(literals)):
+            yield fact("seen", literal.atom, "true" if literal.is_positive else "false", step)
 
 
 def _read(model: Iterable[Symbol]) -> Inferred:
@@ -163,11 +158,20 @@ def inference_program(
     """
     every = source.each(syntax.StateConstraint)
     laws = [law for law in every if _kind(law.head, signature) != "static"]
-    lines = [*_sort_facts(signature), *_static_rules(statics, laws, signature)]
-    lines += (line for law in laws for line in _derivations(law, signature))
-    lines += _bridges([law for law in laws if _kind(law.head, signature) == "defined"], signature)
-    lines += (_carried(d) for d in source.each(syntax.Declaration) if d.kind == "inertial")
-    return "\n".join(lines)
+    defining = [law for law in laws if _kind(law.head, signature) == "defined"]
+    inertial = [d for d in source.each(syntax.Declaration) if d.kind == "inertial"]
+    return "\n".join(
+        [
+            *(
+                f"{s}({'; '.join(m)})." if m else f"#defined {s}/1."
+                for s, m in signature.sorts.items()
+            ),
+            *_static_rules(statics, laws, signature),
+            *(line for law in laws for line in _derivations(law, signature)),
+            *_bridges(defining, signature),
+            *(f"carried({f},I) :- holds({f},I)." for f, *_ in map(schema, inertial)),
+        ]
+    )
 
 
 def _derivations(law: syntax.StateConstraint, signature: Signature) -> Iterator[str]:
@@ -197,16 +201,6 @@ def _bridges(laws: Laws, signature: Signature) -> Iterator[str]:
 
 def _is_bridge(law: syntax.StateConstraint, signature: Signature) -> bool:
     return law.head.positive and [f.positive for f in _fluents(law, signature)] == [True]
-
-
-def _carried(declaration: syntax.Declaration) -> str:
-    fluent = schema(declaration).term
-    return f"carried({fluent},I) :- holds({fluent},I)."
-
-
-def _sort_facts(signature: Signature) -> Iterator[str]:
-    for sort, members in signature.sorts.items():
-        yield f"{sort}({'; '.join(members)})." if members else f"#defined {sort}/1."
 
 
 def _static_rules(statics: Iterable[Literal], laws: Laws, signature: Signature) -> Iterator[str]:
