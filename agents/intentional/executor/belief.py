@@ -1,100 +1,16 @@
-"""What the robot knows and believes at the fine resolution: the history H_f and what follows."""
+"""What the robot knows and believes of both resolutions in the course of a trial."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
-from itertools import chain
 
-from agents.intentional.executor.model import fine_model
+from agents.intentional.executor.model import FineBelief, fine_model
 from agents.intentional.executor.trace import FineTraceBuilder
 from agents.shared.robot import limits_of
-from asp.language import Action, arguments, atom, complement, is_positive, name
-from asp.reasoning.fine_knowledge import Known
+from asp.language import Action, arguments, atom, is_positive, name
 from asp.refinement import Refinement
 from asp.solving import State
 from testbed.protocol import Percept, Task
-
-
-class FineBelief:
-    """What is known of a trial at the fine resolution."""
-
-    def __init__(self, refinement: Refinement, literals: Iterable[str]) -> None:
-        """`literals` are known to begin with."""
-        self._refinement = refinement
-        self._model = fine_model(refinement)
-        self._knowledge, self._carriers = self._model.knowledge, self._model.carriers
-        self._carrying: frozenset[str] = frozenset()
-        self.known = Known()
-        self.see(literals)
-
-    def see(self, literals: Iterable[str]) -> None:
-        """Takes literals for certain that were observed at one moment.
-
-        What was known gives way to them; where that does not suffice, the least is forgotten.
-        """
-        after = self._knowledge.after(self._with_carriers(), list(literals))
-        unmagnified = self._model.unmagnified
-        self.known = Known(after.true - unmagnified, after.false - unmagnified)
-
-    def suppose(self, unmagnified: Collection[str]) -> None:
-        """Goes by these fluents without counterparts: of those that matter here others are false.
-
-        Where a thing is that has no components may follow from what carries it.
-        """
-        carrying = self._carriers.intersection(unmagnified)
-        if carrying != self._carrying:
-            self._carrying = carrying
-            self.see(())
-
-    def _with_carriers(self) -> Known:
-        """What is known, of the fluents without counterparts that it depends on, too."""
-        known = self.known
-        if not self._carriers:
-            return known
-        idle = self._carriers - self._carrying
-        return Known(known.true | self._carrying, known.false | idle)
-
-    def is_open(self, fluent: str) -> bool:
-        """Whether it is not known if a fluent holds."""
-        return fluent not in self.known.true and not self.is_false(fluent)
-
-    def is_false(self, fluent: str) -> bool:
-        """Whether a fluent is known not to hold."""
-        return self._knowledge.is_false(self._with_carriers(), fluent)
-
-    def coarse(self, fluents: Collection[str]) -> frozenset[str]:
-        """The literals that follow of coarse fluents with counterparts (indirect observation)."""
-        return self._knowledge.coarse(self._with_carriers(), fluents)
-
-    def candidates(self, fluent: str) -> tuple[tuple[str, ...], ...]:
-        """Groups of fluents one of each of which is true, nobody knows which, if a coarse one is.
-
-        One group for each component that always has a value, as a thing is always somewhere; else
-        a single one. None where one is known.
-        """
-        groups = self._knowledge.groups(fluent)
-        if not self._model.is_value(groups[0][0]):
-            groups = (tuple(chain(*groups)),)
-        if any(not self.known.true.isdisjoint(group) for group in groups):
-            return ()
-        return tuple(tuple(f for f in group if not self.is_false(f)) for group in groups)
-
-    def adapt(
-        self, before: Collection[str], now: Collection[str], fluents: Collection[str]
-    ) -> None:
-        """Forgets what an explanation at the coarse resolution has made doubtful.
-
-        `before` and `now` are the fluents that were expected and that are believed. Of what is now
-        believed and was not expected, and of what is nowhere to be any more though it is believed,
-        observations to the contrary are old.
-        """
-        follows = self.coarse(fluents)
-        for fluent in fluents:
-            literal = fluent if fluent in now else complement(fluent)
-            changed = (fluent in before) != (fluent in now)
-            if complement(literal) in follows or (changed and literal not in follows):
-                groups = self._refinement.counterpart(literal)
-                self.known = self.known.without(complement(p) for group in groups for p in group)
 
 
 class FineTracker:
@@ -117,7 +33,7 @@ class FineTracker:
         self.model = fine_model(refinement)
         self._sensing = self.model.sensing
         self.effects = self.model.effects
-        self.belief = FineBelief(refinement, ())
+        self.belief = FineBelief(self.model, ())
         self.unmagnified: frozenset[str] = frozenset()
         self.shown: frozenset[str] = frozenset()
         self.noticed: set[str] = set()
@@ -131,7 +47,7 @@ class FineTracker:
         are is another matter: that is looked for.
         """
         magnified = frozenset(filter(self.is_magnified, coarse))
-        self.belief = FineBelief(self.refinement, literals)
+        self.belief = FineBelief(self.model, literals)
         fluents = [
             atom(part)
             for literal in magnified
@@ -192,9 +108,7 @@ class FineTracker:
     def certain(self) -> FineBelief:
         """What the robot knows of itself, with what follows: tests of that are always right."""
         changing = frozenset(map(atom, self.pending))
-        certain = FineBelief(
-            self.refinement, filter(self._is_own, self.belief.known.true - changing)
-        )
+        certain = FineBelief(self.model, filter(self._is_own, self.belief.known.true - changing))
         certain.suppose(frozenset(filter(self._is_own, self.unmagnified - changing)))
         return certain
 

@@ -9,6 +9,7 @@ from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.sensing import Asking, Sensing
 from agents.intentional.executor.zoomed_planning import ZoomedPlanner
 from asp.language import arguments, complement, is_positive
+from asp.refinement import Transition
 from asp.solving import LimitError, State, deciding
 
 _PATIENCE = 12
@@ -32,13 +33,14 @@ class Execution:
         self.action = action
         after = coarse.after(before, action, ())
         assert after is not None, "a robot attempts what it believes to be possible"
-        self._planner = ZoomedPlanner(fine, action, before, after, coarse.inertial)
+        transition = Transition(before, action, after)
+        self._planner = ZoomedPlanner(fine, transition, coarse.inertial)
         self.effects = self._planner.effects
         self.happened = False
         with fine.trace.timing("planning"):
             self._direct = fine.model.direct_effects.get(action, frozenset())
             things = fine.looked_for(self._planner.relevant)
-        self._sensing = Sensing(fine, before, after, things)
+        self._sensing = Sensing(fine, transition, things)
         every = fine.refinement.coarse_signature.constants
         zoomed = self._planner.relevant if fine.zooms else every
         fine.trace.note(abstract=action, begun=step, zoomed=sorted(zoomed))

@@ -1,4 +1,4 @@
-"""What is made once of a refinement: its planner, its inferences, and what its laws say.
+"""What is made once of a refinement, and what is known by it: the history H_f and what follows.
 
 Laws of D_f are read instance by instance, when asked for.
 """
@@ -6,7 +6,7 @@ Laws of D_f are read instance by instance, when asked for.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from itertools import chain
 
 from asp.language import (
@@ -14,16 +14,17 @@ from asp.language import (
     Literal,
     Pattern,
     closed_world,
+    complement,
     functions,
     pattern_of,
     subject,
     syntax,
 )
 from asp.language import variable_sorts as roles
-from asp.reasoning.fine_knowledge import IncrementalFineKnowledge
+from asp.reasoning.fine_knowledge import IncrementalFineKnowledge, Known
 from asp.reasoning.fine_planning import fine_planner
 from asp.refinement import Refinement, sensing_of, shared_places
-from asp.solving import Recent, preparation
+from asp.solving import Recent, State, preparation
 
 MOST_REFINEMENTS = 16
 """Of how many refinements this is kept: those that were used last."""
@@ -59,6 +60,7 @@ class FineModel:
     """
 
     def __init__(self, refinement: Refinement) -> None:
+        self.refinement = refinement
         weak, magnified = refinement.weak, refinement.counterparts
         self.planner = fine_planner(weak, refinement.weak_signature)
         self.knowledge = IncrementalFineKnowledge(refinement)
@@ -90,6 +92,85 @@ class FineModel:
     def is_value(self, fluent: str) -> bool:
         """Whether a fine fluent is one of several of which one always holds."""
         return subject(fluent, self._functions) is not None
+
+
+class FineBelief:
+    """What is known of a trial at the fine resolution."""
+
+    def __init__(self, model: FineModel, literals: Iterable[str]) -> None:
+        """`literals` are known to begin with."""
+        self._model = model
+        self._knowledge, self._carriers = model.knowledge, model.carriers
+        self._carrying: frozenset[str] = frozenset()
+        self.known = Known()
+        self.see(literals)
+
+    def see(self, literals: Iterable[str]) -> None:
+        """Takes literals for certain that were observed at one moment.
+
+        What was known gives way to them; where that does not suffice, the least is forgotten.
+        """
+        after = self._knowledge.after(self._with_carriers(), list(literals))
+        unmagnified = self._model.unmagnified
+        self.known = Known(after.true - unmagnified, after.false - unmagnified)
+
+    def suppose(self, unmagnified: Collection[str]) -> None:
+        """Goes by these fluents without counterparts: of those that matter here others are false.
+
+        Where a thing is that has no components may follow from what carries it.
+        """
+        carrying = self._carriers.intersection(unmagnified)
+        if carrying != self._carrying:
+            self._carrying = carrying
+            self.see(())
+
+    def _with_carriers(self) -> Known:
+        """What is known, of the fluents without counterparts that it depends on, too."""
+        known = self.known
+        if not self._carriers:
+            return known
+        idle = self._carriers - self._carrying
+        return Known(known.true | self._carrying, known.false | idle)
+
+    def is_open(self, fluent: str) -> bool:
+        """Whether it is not known if a fluent holds."""
+        return fluent not in self.known.true and not self.is_false(fluent)
+
+    def is_false(self, fluent: str) -> bool:
+        """Whether a fluent is known not to hold."""
+        return self._knowledge.is_false(self._with_carriers(), fluent)
+
+    def coarse(self, fluents: Collection[str]) -> frozenset[str]:
+        """The literals that follow of coarse fluents with counterparts (indirect observation)."""
+        return self._knowledge.coarse(self._with_carriers(), fluents)
+
+    def candidates(self, fluent: str) -> tuple[tuple[str, ...], ...]:
+        """Groups of fluents one of each of which is true, nobody knows which, if a coarse one is.
+
+        One group for each component that always has a value, as a thing is always somewhere; else
+        a single one. None where one is known.
+        """
+        groups = self._knowledge.groups(fluent)
+        if not self._model.is_value(groups[0][0]):
+            groups = (tuple(chain(*groups)),)
+        if any(not self.known.true.isdisjoint(group) for group in groups):
+            return ()
+        return tuple(tuple(f for f in group if not self.is_false(f)) for group in groups)
+
+    def adapt(self, before: State, now: State, fluents: Collection[str]) -> None:
+        """Forgets what an explanation at the coarse resolution has made doubtful.
+
+        `before` and `now` are the fluents that were expected and that are believed. Of what is now
+        believed and was not expected, and of what is nowhere to be any more though it is believed,
+        observations to the contrary are old.
+        """
+        follows = self.coarse(fluents)
+        for fluent in fluents:
+            literal = fluent if fluent in now else complement(fluent)
+            changed = (fluent in before) != (fluent in now)
+            if complement(literal) in follows or (changed and literal not in follows):
+                groups = self._model.refinement.counterpart(literal)
+                self.known = self.known.without(complement(p) for group in groups for p in group)
 
 
 _MODELS: Recent[Refinement, FineModel] = Recent(MOST_REFINEMENTS)

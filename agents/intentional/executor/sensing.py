@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from agents.intentional.executor.belief import FineTracker
 from asp.language import arguments, atom, complement, is_positive
-from asp.solving import State
+from asp.refinement import Transition
 from testbed.protocol import Percept
 
 T = TypeVar("T")
@@ -23,12 +23,10 @@ class Sensing:
     since they were last cleared; `looked_for` are the coarse constants that were tested for.
     """
 
-    def __init__(
-        self, fine: FineTracker, before: State, after: State, things: Collection[str]
-    ) -> None:
-        """`before` and `after` are the states of the coarse transition; `things` is tested for."""
+    def __init__(self, fine: FineTracker, transition: Transition, things: Collection[str]) -> None:
+        """`transition` is that of the abstract action; `things` are tested for."""
         self._fine = fine
-        self._before, self._after = before, after
+        self._before, self._after = transition.before, transition.after
         self._things = things
         self._disturbed: set[str] = set()
         self.looked_for: set[str] = set()

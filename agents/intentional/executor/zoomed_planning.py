@@ -20,18 +20,12 @@ class ZoomedPlanner:
     """
 
     def __init__(
-        self,
-        fine: FineTracker,
-        action: str,
-        before: frozenset[str],
-        after: frozenset[str],
-        inertial: Collection[str],
+        self, fine: FineTracker, transition: Transition, inertial: Collection[str]
     ) -> None:
-        """`before` and `after` are coarse states, `inertial` are the coarse inertial fluents."""
+        """`transition` is to be brought about, `inertial` are the coarse inertial fluents."""
         self._fine = fine
-        self._action = action
-        self._inertial = before.intersection(inertial)
-        transition = Transition(before, action, after)
+        self._action = transition.action
+        self._inertial = transition.before.intersection(inertial)
         with fine.trace.timing("planning"):
             self.relevant = relevant(fine.refinement, transition, fine.goal)
             goal = fine_goal(fine.refinement, transition, self.relevant)

@@ -12,7 +12,6 @@ from asp.reasoning.fine_planning.reference import (
     LiteralProblem,
     NoPlan,
     ReferenceFinePlanner,
-    physical,
 )
 
 __all__ = [
@@ -25,5 +24,4 @@ __all__ = [
     "NoPlan",
     "ReferenceFinePlanner",
     "fine_planner",
-    "physical",
 ]

@@ -96,7 +96,9 @@ class LiteralProblem:
         actions = _concrete_actions(signature)
         self._facts = [fact("ranks", len(actions))]
         self._facts += (fact("rank", action, number) for number, action in enumerate(actions))
-        self._facts += _start(start)
+        self._facts += (fact("certain", fluent) for fluent in sorted(start.true))
+        groups = enumerate(start.candidates)
+        self._facts += (fact("candidate", n, fluent) for n, group in groups for fluent in group)
         if any(symbol.startswith(_TEST) for symbol in signature.symbols):
             self._facts += _dealing(start, actions, functions(source, signature))
         self._facts += (
@@ -154,11 +156,6 @@ def _within(group: tuple[str, ...], constants: frozenset[str]) -> tuple[str, ...
     return tuple(f for f in group if constants.issuperset(literals.arguments(f)))
 
 
-def physical(plan: Iterable[str]) -> FinePlan:
-    """The plan without its tests."""
-    return tuple(action for action in plan if not literals.name(action).startswith(_TEST))
-
-
 def _tests(signature: Signature) -> Iterator[str]:
     """tests_fluent(A,F,O): by the names that refinement gives to tests and to what they tell."""
     for symbol in signature.symbols.values():
@@ -188,13 +185,6 @@ def _concrete_actions(signature: Signature) -> list[str]:
         if symbol.kind == "agent" and not symbol.name.startswith(_TEST)
         for members in product(*(signature.sorts[sort.name] for sort in symbol.sorts))
     ]
-
-
-def _start(start: FineStart) -> Iterator[Symbol]:
-    """What is certain, and the candidates."""
-    yield from (fact("certain", fluent) for fluent in sorted(start.true))
-    for number, group in enumerate(start.candidates):
-        yield from (fact("candidate", number, fluent) for fluent in group)
 
 
 def _dealing(

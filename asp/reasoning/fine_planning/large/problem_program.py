@@ -13,8 +13,7 @@ variables that occur elsewhere only are *loose*, and constants that they may sta
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import clingo
@@ -53,9 +52,7 @@ class ProblemPrograms:
         self._ranks = {action: rank for rank, action in enumerate(part.actions)}
         self._loose = loose(part.rules, part.sorts)
         self._known = Functions(relaxed, functions)
-        self._facts: dict[str, list[str]] = defaultdict(list)  # by their first constant
-        for fact in relaxed.facts:
-            self._facts[next(iter(arguments(fact)), "")].append(fact)
+        self._facts = [(f"{fact}.", frozenset(arguments(fact))) for fact in relaxed.facts]
 
     def plan(self, problem: Problem, reach: Reach, length: int) -> tuple[str, ...] | None:
         """The first plan of exactly so many steps, or None. Raises LimitError."""
@@ -67,7 +64,7 @@ class ProblemPrograms:
         )
         left = [dict(self._told(values)) for values in steps]
         playing = self._loose | in_play(reach, self._known, steps)
-        static = (f"{fact}." for fact in self._facts_about(playing))
+        static = (fact for fact, about in self._facts if about <= playing)
         program = "\n".join([self._rules, f"#program {Part.BASE}.", *static])
         given = (*_given(problem, left[0]), *_within(left))
         texts = [program, theory("incremental_fine_planning")]
@@ -77,13 +74,6 @@ class ProblemPrograms:
         _prefer(control, self._ranks)
         with solving(control) as model:
             return None if model is None else read(model)
-
-    def _facts_about(self, constants: Collection[str]) -> Iterator[str]:
-        """What is so at all times of these constants only."""
-        for constant in (*sorted(constants), ""):  # in one order in all processes
-            for fact in self._facts.get(constant, ()):
-                if all(other in constants for other in arguments(fact)):
-                    yield fact
 
     def _told(self, values: Values) -> Iterator[tuple[str, Sequence[str]]]:
         """The functions confined at a step, with the fluents left."""
