@@ -1,6 +1,7 @@
 """Adversaries of one's own: what they see, their options, and what becomes of their mistakes."""
 
 import json
+import os
 import re
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.registry import PATH_VARIABLE
-from tests.cli.test_own_robots import _own, _refused, _run  # noqa: F401
+from tests.cli.test_own_robots import ROOT, _distribution, _own, _refused, _run  # noqa: F401
 
 WIND = """\
 from dataclasses import dataclass
@@ -105,6 +106,34 @@ def test_it_plays_in_the_workers_with_the_options_that_it_is_given() -> None:
     assert [event.action for event in other.exogenous] == ["blow(rose,floor)"]
     assert other.trial != record["trial"], "options are a part of what a trial is"
     assert _run("report", "run").returncode == 0
+
+
+def test_one_of_an_installed_distribution_is_found_by_its_name(tmp_path: Path) -> None:
+    """Its module lies where it is installed, not beside the configuration."""
+    site = tmp_path / "site"
+    _distribution(site, "pot-winds", "windy = winds_of_pots:Wind", "adversaries")
+    module = WIND.format(answer="event", sees=BOTH)
+    (site / "winds_of_pots.py").write_text(module, encoding="utf-8")
+    path = os.pathsep.join([str(site), str(ROOT)])
+
+    def run(command: str, strategy: str, options: str, *more: str) -> tuple[int, str]:
+        given = [f"adversary.strategy={strategy}", f"adversary.options={options}", *more]
+        done = _run(command, *PLAY, *given, PYTHONPATH=path)
+        return done.returncode, done.stderr
+
+    code, told = run("run", "windy", "{times: 1, spot: bench}", "--out", "run", "--quiet")
+    assert code == 0, told
+    (record,) = map(json.loads, Path("run/trials.jsonl").read_text("utf-8").splitlines())
+    assert [event["action"] for event in record["exogenous"]] == ["blow(rose,bench)"]
+    assert record["scenario"] == "windy"
+    for strategy, options, parts in (
+        ("wndy", "{times: 1}", ["adversary.strategy", "'windy'"]),
+        ("windy", "{tims: 1}", ["adversary.options.tims", "'times'"]),
+    ):
+        code, told = run("check", strategy, options)
+        (line,) = told.splitlines()
+        assert code == 2
+        assert all(part in line for part in parts), line
 
 
 def test_it_plays_at_the_fine_resolution_too(monkeypatch: pytest.MonkeyPatch) -> None:

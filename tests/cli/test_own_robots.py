@@ -18,6 +18,7 @@ from tests.greenhouse import GREENHOUSE
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 600.0
+CARRIER = "carriers_of_pots:Carrier"
 CONFIG = """\
 name: pots
 domain: pots.al
@@ -171,19 +172,17 @@ def test_a_robot_is_asked_for_nothing_that_it_cannot(able: str, asked: str, key:
         assert f"{name}:Carrier" in line
 
 
-def _distribution(site: Path, name: str, robot: str) -> None:
+def _distribution(site: Path, name: str, point: str, group: str = "robots") -> None:
     """What an installed distribution says of itself."""
     about = site / f"{name}-1.0.dist-info"
     about.mkdir(parents=True)
     about.joinpath("METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
-    about.joinpath("entry_points.txt").write_text(
-        f"[intention_testbed.robots]\n{robot} = carriers_of_pots:Carrier\n"
-    )
+    about.joinpath("entry_points.txt").write_text(f"[intention_testbed.{group}]\n{point}\n")
 
 
 def test_a_robot_of_an_installed_distribution_is_found_by_its_name(tmp_path: Path) -> None:
     _module("carriers_of_pots")
-    _distribution(tmp_path / "site", "pot-carriers", "carrying")
+    _distribution(tmp_path / "site", "pot-carriers", f"carrying = {CARRIER}")
     path = os.pathsep.join([str(tmp_path / "site"), str(ROOT)])
     run = ["run", "beside/pots.yaml", "robots=[carrying]", "--out", "run", "--quiet"]
     done = _run(*run, PYTHONPATH=path)
@@ -198,8 +197,8 @@ def test_a_name_that_two_distributions_claim_is_refused(
     tmp_path: Path, first: str, second: str
 ) -> None:
     """Also one of ours: that it has another meaning now would go unnoticed."""
-    _distribution(tmp_path / "site", "pot-carriers", first)
-    _distribution(tmp_path / "site", "more-carriers", second)
+    _distribution(tmp_path / "site", "pot-carriers", f"{first} = {CARRIER}")
+    _distribution(tmp_path / "site", "more-carriers", f"{second} = {CARRIER}")
     path = os.pathsep.join([str(tmp_path / "site"), str(ROOT)])
     done = _run("check", "beside/pots.yaml", f"robots=[{second}]", PYTHONPATH=path)
     assert done.returncode == 2
