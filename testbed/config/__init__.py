@@ -17,7 +17,6 @@ from testbed.config.models import (
     ExperimentConfig,
     Limits,
     Observability,
-    Pace,
     ScenarioSettings,
     ScriptEntry,
 )
@@ -35,7 +34,6 @@ __all__ = [
     "Ground",
     "Limits",
     "Observability",
-    "Pace",
     "ScenarioSettings",
     "ScriptEntry",
     "config_names",

@@ -15,7 +15,6 @@ from testbed import environment
 from testbed.config.values import (
     LARGEST_SEED,
     MOST,
-    ByName,
     Count,
     Flag,
     Literals,
@@ -29,7 +28,6 @@ from testbed.config.values import (
 from testbed.protocol import Knowledge
 
 LinkKind = Literal["zenoh", "inprocess"]
-Pace = Literal["concrete", "abstract"]
 ScriptPolicy = Literal["error", "skip"]
 JUDGE_STATES = 5_000
 """States that are looked at for the least that achieves a goal, unless given."""
@@ -107,7 +105,7 @@ class AdversarySettings(Section):
     strategy: Name | None = None
     options: dict[str, Any] = Field(default_factory=dict)
     rate: Probability | None = None
-    pace: Pace = "concrete"
+    pace: environment.Pace = "concrete"
 
 
 class LevelSettings(Section):
@@ -167,9 +165,9 @@ class ExperimentConfig(Section):
     goal: Annotated[Literals, Field(examples=[GOAL])]
     initial: Literals | None = None
     scenarios: Scenarios = ()
-    scenario_settings: Annotated[dict[str, ScenarioSettings], ByName] = Field(default_factory=dict)
+    scenario_settings: dict[Name, ScenarioSettings] = Field(default_factory=dict)
     levels: tuple[Name, ...] = ()
-    level_sizes: Annotated[dict[str, LevelSettings], ByName] = Field(default_factory=dict)
+    level_sizes: dict[Name, LevelSettings] = Field(default_factory=dict)
     draw: Drawing = Drawing()
     robots: Annotated[tuple[Name, ...], Field(min_length=1)] = (TREATMENT, BASELINE)
     baseline: Name | None = None
@@ -242,6 +240,5 @@ class ExperimentConfig(Section):
         answer.
         """
         own = self.scenario_settings.get(scenario, ScenarioSettings())
-        common = {key: getattr(self, key) for key in ScenarioSettings.model_fields}
-        given = {key: getattr(own, key) for key in own.model_fields_set}
-        return ScenarioSettings(**common | {k: v for k, v in given.items() if v is not None})
+        chosen = {key: self if value is None else own for key, value in own}
+        return ScenarioSettings(**{key: getattr(owner, key) for key, owner in chosen.items()})

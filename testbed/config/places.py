@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -47,52 +47,42 @@ class Places:
         self.file = str(file)
         self.elsewhere = elsewhere
         self._text = text
-        self._overridden = tuple(overridden)
+        self._overridden = [tuple(map(str, parsed(key))) for key in overridden]
 
     def of(self, key: Key) -> str:
         """`FILE:LINE: KEY`, or as in `command line: KEY` for an overridden one."""
-        name = dotted(key)
         if self.is_overridden(key):
-            return f"{self.elsewhere}: {name}"
-        line = self._line(key)
-        where = self.file if line is None else f"{self.file}:{line}"
-        return f"{where}: {name}" if name else where
+            return f"{self.elsewhere}: {dotted(key)}"
+        parts = tuple(map(str, key))
+        known = (self._lines.get(parts[:number]) for number in range(len(parts), 0, -1))
+        line = next(filter(None, known), "")
+        return ": ".join(filter(None, [f"{self.file}:{line}".removesuffix(":"), dotted(key)]))
 
     def is_overridden(self, key: Key) -> bool:
         """Whether the value, or a part of it, does not come from the file."""
-        return any(_covers(given, key) for given in self._overridden)
+        parts = tuple(map(str, key))
+        given = filter(None, self._overridden if parts else ())
+        return any(own[: len(parts)] == parts[: len(own)] for own in given)
 
     @cached_property
-    def _root(self) -> yaml.Node | None:
+    def _lines(self) -> dict[tuple[str, ...], int]:
         # The two implementations of YAML differ about tabs; the fast one has read the text.
-        return yaml.compose(self._text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-
-    def _line(self, key: Key) -> int | None:
-        node, line = self._root, None
-        for part in key:
-            found = _child(node, part)
-            if found is None:
-                return line
-            node, line = found
-        return line
+        root = yaml.compose(self._text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        return dict(_lines_below(root, ()))
 
 
-def _covers(given: str, key: Key) -> bool:
-    """Whether one of the two keys leads to the other."""
-    parts = parsed(given)
-    shared = min(len(parts), len(key))
-    return shared > 0 and [*map(str, key[:shared])] == [*map(str, parts[:shared])]
-
-
-def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, int] | None:
+def _lines_below(
+    node: yaml.Node | None, key: tuple[str, ...]
+) -> Iterator[tuple[tuple[str, ...], int]]:
+    """The keys of a document, and the positions in its lists, with their lines."""
+    inner: list[tuple[str, yaml.Node, yaml.Node]] = []
     if isinstance(node, yaml.MappingNode):
-        for name, value in node.value:
-            if name.value == str(part):
-                return value, name.start_mark.line + 1
-    if isinstance(node, yaml.SequenceNode) and isinstance(part, int) and part < len(node.value):
-        item = node.value[part]
-        return item, item.start_mark.line + 1
-    return None
+        inner = [(name.value, name, value) for name, value in node.value]
+    if isinstance(node, yaml.SequenceNode):
+        inner = [(str(index), item, item) for index, item in enumerate(node.value)]
+    for name, place, value in inner:
+        yield (*key, name), place.start_mark.line + 1
+        yield from _lines_below(value, (*key, name))
 
 
 Finding = tuple[Key, str]

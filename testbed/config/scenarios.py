@@ -101,7 +101,15 @@ def early_script_findings(
     if config.script_policy == "skip" or not first_action_steps:
         return
     robot, first = max(first_action_steps.items(), key=lambda item: item[1])
-    for key, entries in dict(_closed_scripts(config)).items():
+    # Where neither scenarios nor settings are named, all scenarios have the same script.
+    named = ("",) if config.script is not None else tuple(config.scenario_settings)
+    scripts: dict[Key, tuple[ScriptEntry, ...]] = {}
+    for scenario in config.scenarios or named:
+        settings, own = config.settings(scenario), config.scenario_settings.get(scenario)
+        if not settings.exogenous_while_thinking:
+            place = () if own is None or own.script is None else ("scenario_settings", scenario)
+            scripts[*place, "script"] = settings.script or ()
+    for key, entries in scripts.items():
         for index, entry in enumerate(entries):
             if entry.step is not None and entry.step < first:
                 yield (
@@ -110,20 +118,3 @@ def early_script_findings(
                     "nothing exogenous happens; give a later step, or "
                     "exogenous_while_thinking: true",
                 )
-
-
-def _closed_scripts(config: ExperimentConfig) -> Iterator[tuple[Key, tuple[ScriptEntry, ...]]]:
-    """By their keys the scripts that are played where nothing happens while the robot waits."""
-    for scenario in _played(config):
-        settings = config.settings(scenario)
-        if settings.script and not settings.exogenous_while_thinking:
-            own = config.scenario_settings.get(scenario)
-            shared = own is None or own.script is None
-            yield (() if shared else ("scenario_settings", scenario)) + ("script",), settings.script
-
-
-def _played(config: ExperimentConfig) -> tuple[str, ...]:
-    """The scenarios that a script may be played in; without a name, where all have the same."""
-    if config.scenarios:
-        return config.scenarios
-    return ("",) if config.script is not None else tuple(config.scenario_settings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator, Field
@@ -47,12 +47,6 @@ def _listed(value: object) -> object:
     return () if value is None else (value,) if isinstance(value, str | int) else value
 
 
-def _named_keys(value: object) -> object:
-    return (
-        {_named(key): item for key, item in value.items()} if isinstance(value, Mapping) else value
-    )
-
-
 Text = Annotated[str, BeforeValidator(_tidy), Field(min_length=1)]
 Literals = Annotated[tuple[Text, ...], BeforeValidator(_whole)]
 Name = Annotated[str, BeforeValidator(_named), Field(min_length=1)]
@@ -62,5 +56,3 @@ Probability = Annotated[float, Field(strict=True, ge=0.0, le=1.0)]
 Flag = Annotated[bool, Field(strict=True)]
 Scenarios = Annotated[tuple[Name, ...], BeforeValidator(_scenarios)]
 Names = Annotated[tuple[Name, ...], BeforeValidator(_listed)]
-ByName = BeforeValidator(_named_keys)
-"""Of a mapping whose keys are names."""

@@ -12,8 +12,8 @@ from typing import Any
 import msgspec
 
 from asp.domains.levels import LevelSize
-from testbed.config import JUDGE_STATES, TRIGGERS, ExperimentConfig, Pace, ScriptEntry
-from testbed.environment import Observability
+from testbed.config import JUDGE_STATES, TRIGGERS, ExperimentConfig, ScriptEntry
+from testbed.environment import Observability, Pace
 from testbed.experiment.seeds import playing_order, short_hash, trial_seed
 from testbed.protocol import Knowledge
 
