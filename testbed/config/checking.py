@@ -74,7 +74,9 @@ def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> 
             file, text = read_domain(config.domain)
             check_one_robot(text, file)
         description, (_, signature) = parse_description(text, file), analyse(text, file)
-        lines = lines_of([*findings, *_coarse_alone(config)], places)
+        alone = "goes with levels, or with a refinement, and there are none"
+        fine = [key for key in ("level_sizes", "statistics") if getattr(config, key)]
+        lines = lines_of([*findings, *(((key,), alone) for key in fine)], places)
         findings = list(_domain_findings(config, description, signature))
         findings = without_left_out(findings, places)
         lines += lines_of_the_domain(config, findings, places, description.scenarios)
@@ -109,12 +111,6 @@ def _texts_read(places: Places, key: str) -> Iterator[None]:
         raise ConfigError([str(mistake) for mistake in error.all]) from None
     except OSError as error:
         raise ConfigError([f"{places.of((key,))}: {error.strerror or error}"]) from None
-
-
-def _coarse_alone(config: ExperimentConfig) -> Iterator[Finding]:
-    for key in ("level_sizes", "statistics"):
-        if getattr(config, key):
-            yield (key,), "goes with levels, or with a refinement, and there are none"
 
 
 def _domain_findings(

@@ -95,15 +95,11 @@ def map_findings(config: ExperimentConfig) -> Iterator[Finding]:
 
     One that is given takes the place of the named one. Raises OSError and SourceError.
     """
-    if config.refinement is None or "domain" in config.model_fields_set:
-        return
-    named = refined_name(config.refinement)
-    if named not in (None, config.domain):
-        yield (
-            ("refinement",),
-            f"{Path(config.refinement).name} refines {named}, and the domain is "
-            f"{config.domain} unless given; give domain: {named}",
-        )
+    if config.refinement is not None and "domain" not in config.model_fields_set:
+        file, named = Path(config.refinement).name, refined_name(config.refinement)
+        if named not in (None, config.domain):
+            unless = f"the domain is {config.domain} unless given; give domain: {named}"
+            yield ("refinement",), f"{file} refines {named}, and {unless}"
 
 
 def drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:

@@ -19,10 +19,9 @@ from testbed.environment.rules import (
 )
 from testbed.environment.view import View
 
-Observations: TypeAlias = dict[str, Observation]
+Shown: TypeAlias = tuple[dict[str, Observation], dict[str, dict[str, Any]]]
+"""Observations and infos, by agent."""
 Flags: TypeAlias = dict[str, bool]
-Infos: TypeAlias = dict[str, dict[str, Any]]
-Transition: TypeAlias = tuple[Observations, dict[str, float], Flags, Flags, Infos]
 
 
 class ParallelView(View, ParallelEnv[str, Observation, int]):
@@ -34,13 +33,13 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
     agent, raises IllegalActionError and changes nothing. Options of `reset` as for the AEC view.
     """
 
-    def reset(
-        self, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observations, Infos]:
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> Shown:
         self._begin(seed, options)
-        return self._observations(), self._infos(None)
+        return self._shown(None)
 
-    def step(self, actions: Mapping[str, int]) -> Transition:
+    def step(
+        self, actions: Mapping[str, int]
+    ) -> tuple[dict[str, Observation], dict[str, float], Flags, Flags, dict[str, dict[str, Any]]]:
         self._check_begun()
         if not self.agents:
             raise IllegalActionError("the game is over: reset the environment")
@@ -51,22 +50,20 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         ending = self.core.situation.ending
         if ending is not None:
             self.agents = []
-        return self._observations(), rewards(ending), *self._ends(), self._infos(dropped)
+        observations, information = self._shown(dropped)
+        return observations, rewards(ending), *self._ends(), information
 
-    def _observations(self) -> Observations:
-        return {agent: observe(self.core, agent, None) for agent in self.possible_agents}
-
-    def _infos(self, dropped: str | None) -> Infos:
+    def _shown(self, dropped: str | None) -> Shown:
         information = infos(self.core, None)
         information[ADVERSARY]["dropped"] = dropped
-        return information
+        return {agent: observe(self.core, agent, None) for agent in (ROBOT, ADVERSARY)}, information
 
     def snapshot(self) -> Snapshot:
         """All that the rest of the episode depends on."""
         return self.core.snapshot()
 
-    def restore(self, snapshot: Snapshot) -> tuple[Observations, Infos]:
+    def restore(self, snapshot: Snapshot) -> Shown:
         """Goes back to the snapshot, which may be used again; returns what `reset` would."""
         self.core.restore(snapshot)
         self.agents = list(self.possible_agents) if snapshot.situation.ending is None else []
-        return self._observations(), self._infos(None)
+        return self._shown(None)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from operator import index
-from typing import Any, Literal, SupportsIndex
+from typing import Any, Literal
 
 from testbed.protocol import Event
 
@@ -109,22 +109,18 @@ class Snapshot:
     generator: Any
 
 
-def name_of(agent: str, answer: object, actions: Sequence[str]) -> str:
-    """The action of an agent's answer, an index. Raises IllegalActionError naming the actions."""
-    number = _index(answer)
-    if number is not None and 0 <= number < len(actions):
+def name_of(agent: str, answer: Any, actions: Sequence[str]) -> str:
+    """The action of an agent's answer, an index: an integer of any type, also of NumPy's.
+
+    Raises IllegalActionError, which names the actions, also for an array of one.
+    """
+    try:
+        number = -1 if isinstance(answer, bool) else index(answer)
+    except TypeError:
+        number = -1
+    if 0 <= number < len(actions):
         return actions[number]
     raise IllegalActionError(f"{agent}: {answer!r} is not an action; there are {listed(actions)}")
-
-
-def _index(answer: object) -> int | None:
-    """An integer of any type, also of NumPy's; None for anything else, such as an array of one."""
-    if isinstance(answer, bool) or not isinstance(answer, SupportsIndex):
-        return None
-    try:
-        return index(answer)
-    except TypeError:
-        return None
 
 
 def check_agent(agent: str) -> None:
@@ -144,7 +140,5 @@ def rewards(ending: Ending | None) -> dict[str, float]:
 
     The robot gets 1 for the goal achieved, -1 for any other end, 0 while the game goes on.
     """
-    if ending is None:
-        return {ROBOT: 0.0, ADVERSARY: 0.0}
-    value = 1.0 if ending is Ending.ACHIEVED else -1.0
-    return {ROBOT: value, ADVERSARY: -value}
+    value = 0.0 if ending is None else 1.0 if ending is Ending.ACHIEVED else -1.0
+    return {ROBOT: value, ADVERSARY: 0.0 - value}

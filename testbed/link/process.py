@@ -53,11 +53,7 @@ class RobotProcess:
             stderr=self._errors,
             process_group=group,
         )
-
-    @property
-    def pid(self) -> int:
-        """The process id."""
-        return self._process.pid
+        self.pid = self._process.pid
 
     @property
     def errors(self) -> str:
@@ -151,7 +147,13 @@ class SpawnedRobot:
             self.process = self._belongings.enter_context(closing(process))
             remote = RemoteRobot(self._session, self._run, name, self._answer_s)
             self._belongings.enter_context(closing(remote))
-            _await_start(process, remote)
+            glances = round(START_S / _GLANCE_S)
+            while not remote.wait(_GLANCE_S):
+                glances -= 1
+                if process.ending() is not None:
+                    raise RobotGone("robot ended before it was there")
+                if glances == 0:
+                    raise RobotGone(f"robot did not start within {START_S:g} s")
             self._remote = remote
         return self._remote
 
@@ -168,15 +170,6 @@ class SpawnedRobot:
                 reason, details = how or reason, self.process.errors
             self.close()
             raise type(loss)(reason, details) from loss
-
-
-def _await_start(process: RobotProcess, remote: RemoteRobot) -> None:
-    for _ in range(round(START_S / _GLANCE_S)):
-        if remote.wait(_GLANCE_S):
-            return
-        if process.ending() is not None:
-            raise RobotGone("robot ended before it was there")
-    raise RobotGone(f"robot did not start within {START_S:g} s")
 
 
 @contextmanager

@@ -23,7 +23,6 @@ from testbed.environment.rules import Situation
 from testbed.world import World
 
 Pair: TypeAlias = tuple[str, str]
-Adjacency: TypeAlias = Mapping[str, frozenset[str]]
 
 
 @dataclass(frozen=True)
@@ -34,13 +33,9 @@ class Layout:
     component of.
     """
 
-    adjacent: Adjacency
+    adjacent: Mapping[str, frozenset[str]]
     cells: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     wholes: Mapping[str, str] = field(default_factory=dict)
-
-    def is_component(self, constant: str) -> bool:
-        """Whether the constant is of the fine resolution only."""
-        return self.wholes.get(constant, constant) != constant
 
     def walk(self) -> tuple[str, ...]:
         """The places in depth-first order, from a dead end if there is one."""
@@ -89,23 +84,27 @@ class Scene:
 
 def scene(world: World, now: Situation, robot: str) -> Scene:
     """The scene of a robot's situation in a world."""
-    description = world.description
-    true = world.true_atoms(now.state)
-    where = layout(description)
-    robots = dict.fromkeys([*description.robots, robot])
+    description, true = world.description, world.true_atoms(now.state)
+    where, robots = layout(description), dict.fromkeys([*description.robots, robot])
     places = tuple(_place(name, description, robots, true, where) for name in where.walk())
+    located = {name for place in places for name in (place.name, *place.cells)}
+    present = {robot for place in places for robot in place.robots}
+
+    def is_shown(fluent: str) -> bool:
+        arguments = text.arguments(fluent)
+        if len(arguments) == 2:
+            return arguments[1] in located or arguments[0] in present
+        return len(arguments) == 1 and arguments[0] in located
+
+    answer = now.answer or ""
     return Scene(
         step=now.step,
         places=places,
-        rest=tuple(fluent for fluent in true if not _shown(text.arguments(fluent), places)),
-        robot=_said(now.answer, now.happened),
+        rest=tuple(fluent for fluent in true if not is_shown(fluent)),
+        robot=f"{answer} failed" if now.happened is False else answer,
         adversary=now.event or "",
         outcome=now.ending or "",
     )
-
-
-def _said(answer: str | None, happened: bool | None) -> str:
-    return f"{answer} failed" if happened is False else answer or ""
 
 
 def _place(
@@ -115,12 +114,13 @@ def _place(
     true: tuple[str, ...],
     where: Layout,
 ) -> Place:
-    found = [pair for pair in pairs(true) if not any(map(where.is_component, pair))]
-    here = [thing for thing, place in found if place == name]
+    # What is said of components only says in which cell their wholes are.
+    found = [pair for pair in pairs(true) if all(where.wholes.get(c, c) == c for c in pair)]
     held = {
         robot: tuple(t for one, t in found if one == robot and t not in where.adjacent)
         for robot in robots
     }
+    here = [thing for thing, place in found if place == name]
     in_hand = {thing for things in held.values() for thing in things}
     marks = [fluent for fluent in description.fluents if text.arguments(fluent) == (name,)]
     cells = where.cells.get(name, ())
@@ -135,15 +135,6 @@ def _place(
     )
 
 
-def _shown(arguments: tuple[str, ...], places: tuple[Place, ...]) -> bool:
-    """Whether a true fluent of these arguments is among what the places show."""
-    names = {name for place in places for name in (place.name, *place.cells)}
-    robots = {robot for place in places for robot in place.robots}
-    if len(arguments) == 2:
-        return arguments[1] in names or arguments[0] in robots
-    return len(arguments) == 1 and arguments[0] in names
-
-
 def layout(description: Description) -> Layout:
     """The layout of a domain; no places at all where nothing is adjacent."""
     named: dict[str, list[Pair]] = {}
@@ -151,10 +142,14 @@ def layout(description: Description) -> Layout:
         named.setdefault(text.name(static), []).extend(pairs([static]))
     spaces = {name: _places(found, description) for name, found in named.items()}
     for fine, coarse in permutations((name for name in spaces if spaces[name]), 2):
-        for relation, related in named.items():
-            cells = _cells(dict(related), spaces[fine], spaces[coarse])
-            if cells and relation not in (fine, coarse):
-                return Layout(_neighbours(spaces[coarse], named[coarse]), cells, dict(related))
+        for relation in (name for name in named if name not in (fine, coarse)):
+            wholes = dict(named[relation])
+            if {wholes.get(cell, "") for cell in spaces[fine]} <= set(spaces[coarse]):
+                cells = {
+                    place: tuple(cell for cell in spaces[fine] if wholes[cell] == place)
+                    for place in spaces[coarse]
+                }
+                return Layout(_neighbours(spaces[coarse], named[coarse]), cells, wholes)
     widest = max(named, key=lambda name: len(named[name]) if spaces[name] else -1, default="")
     return Layout(_neighbours(spaces.get(widest, ()), named.get(widest, [])))
 
@@ -172,16 +167,7 @@ def _places(found: list[Pair], description: Description) -> tuple[str, ...]:
     return min(sorts, key=len) if joined and sorts else ()
 
 
-def _cells(
-    wholes: Mapping[str, str], fine: tuple[str, ...], coarse: tuple[str, ...]
-) -> dict[str, tuple[str, ...]]:
-    """The cells of each place; none if a cell has no place."""
-    if not set(coarse).issuperset(wholes.get(cell, "") for cell in fine):
-        return {}
-    return {place: tuple(cell for cell in fine if wholes[cell] == place) for place in coarse}
-
-
-def _neighbours(places: tuple[str, ...], found: list[Pair]) -> Adjacency:
+def _neighbours(places: tuple[str, ...], found: list[Pair]) -> dict[str, frozenset[str]]:
     return {
         place: frozenset({b for a, b in found if a == place} | {a for a, b in found if b == place})
         for place in places
