@@ -16,16 +16,11 @@ from dataclasses import dataclass
 
 import clingo
 
-OUT_OF_TIME = "the time for a decision ran out"
 OUT_OF_BUDGET = "the budget of a decision was used up"
 
 
 class LimitError(RuntimeError):
     """A decision has reached one of its limits; every control stays usable."""
-
-
-class TimeLimitError(LimitError):
-    """The time for a decision ran out."""
 
 
 class BudgetError(LimitError):
@@ -90,16 +85,16 @@ class Budget:
         self.check_time()
 
     def check_time(self) -> None:
-        """Raises TimeLimitError where the time has run out."""
+        """Raises LimitError where the time has run out."""
         if self.deadline is not None and time.monotonic() > self.deadline:
             raise self.out_of_time()
 
-    def out_of_time(self) -> TimeLimitError:
+    def out_of_time(self) -> LimitError:
         """What to raise where the time has run out."""
         budget: Budget | None = self
         while budget is not None:
             budget.late, budget = True, budget._outer
-        return TimeLimitError(OUT_OF_TIME)
+        return LimitError("the time for a decision ran out")
 
 
 _current: ContextVar[Budget | None] = ContextVar("budget", default=None)

@@ -181,7 +181,7 @@ def _best(control: clingo.Control, adopted: Explanation, step: int) -> Answer | 
     so the first explanation is found at once in most cases, and better ones follow. While
     conflicts are left, ever more of the history is explained anew; if all of it is and no
     explanation was found, the search goes on until there is one, or time runs out: raises
-    TimeLimitError.
+    LimitError.
     """
     best: Answer | None = None
     windows = list(_windows(step))

@@ -11,8 +11,7 @@ from agents.intentional.reasoners import History, IncrementalReasoner, Reference
 from agents.shared.thought import Reasoner
 from asp.reasoning.diagnosis import GOAL, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge
-from asp.solving import Limits, deciding
-from asp.solving.budget import TimeLimitError
+from asp.solving import LimitError, Limits, deciding
 
 SOURCE = (Path(__file__).parents[2] / "asp" / "reasoning" / "cart.al").read_text(encoding="utf-8")
 CART = knowledge("cart", SOURCE)
@@ -154,7 +153,7 @@ def test_late_news_is_not_forgotten_where_the_time_for_it_ran_out(reasoner: Make
     mind.next()
     mind.next(seen=["shut"])
     mind.next(seen=["at(right)"])
-    with pytest.raises(TimeLimitError), deciding(Limits(0)):
+    with pytest.raises(LimitError), deciding(Limits(0)):
         mind.next(news=[(1, "shut_gate")])
     mind.next()
     assert mind.assumed == ([(2, "push(right)")], [])

@@ -13,7 +13,7 @@ from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History
 from asp.reasoning.knowledge import Knowledge
-from asp.solving.budget import OUT_OF_TIME, TimeLimitError
+from asp.solving import LimitError
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
@@ -21,6 +21,8 @@ from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, live
+
+LATE = "the time ran out"
 
 START = WORLD.state(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
 
@@ -48,7 +50,7 @@ class Hurried(IncrementalReasoner):
         self._calls += 1
         if self._calls in self._hurried:
             self.out_of_time += 1
-            raise TimeLimitError(OUT_OF_TIME)
+            raise LimitError(LATE)
 
 
 class HurriedRobot(TraditionalRobot):
@@ -74,7 +76,7 @@ def test_it_does_what_it_would_have_done_only_later(calls: set[int]) -> None:
     assert [d.action for d in in_time] == [d.action for d in undisturbed.decisions]
     assert life.achieved
     assert len(late) == robot.planner.out_of_time
-    assert all(d.trace.reason == OUT_OF_TIME and not d.believes_goal for d in late)
+    assert all(d.trace.reason == LATE and not d.believes_goal for d in late)
     assert in_time[-1].trace.plans == 1
 
 

@@ -19,7 +19,6 @@ from asp.solving import (
     optimal_model,
     up_to,
 )
-from asp.solving.budget import TimeLimitError
 
 # The solver would need hours to see that more pigeons than holes are impossible.
 PIGEONS = """
@@ -99,7 +98,7 @@ def test_the_best_answer_set_found_is_given_where_no_better_one_is_ruled_out() -
 
 
 @pytest.mark.parametrize(
-    ("limits", "error"), [(Limits(ground_rules=5_000), BudgetError), (Limits(0.5), TimeLimitError)]
+    ("limits", "error"), [(Limits(ground_rules=5_000), BudgetError), (Limits(0.5), LimitError)]
 )
 def test_grounding_ends_at_a_limit(limits: Limits, error: type[LimitError]) -> None:
     with deciding(limits), pytest.raises(error):
@@ -118,7 +117,7 @@ def test_a_program_below_the_limit_is_ground() -> None:
 def test_inside_a_decision_the_time_began_with_it() -> None:
     control = ground(["a."], {}, ())
     with deciding() as whole:
-        with deciding(Limits(0.0)), pytest.raises(TimeLimitError):
+        with deciding(Limits(0.0)), pytest.raises(LimitError):
             is_satisfiable(control)
         assert is_satisfiable(control)
     assert whole.late

@@ -9,8 +9,7 @@ from asp.language import read_domain
 from asp.reasoning.planning import IncrementalPlanner, Operator
 from asp.reasoning.planning.large import search
 from asp.reasoning.planning.large.state_sets import Space
-from asp.solving import Limits, deciding, preparation, reasoning_clock
-from asp.solving.budget import TimeLimitError
+from asp.solving import LimitError, Limits, deciding, preparation, reasoning_clock
 
 SLOW_S = 3.0
 OFFICE = read_domain("office")[1]
@@ -81,7 +80,7 @@ def test_the_limit_of_a_decision_counts_it_and_it_is_made_once(slow_spaces: list
     plans = IncrementalPlanner(OFFICE, "office.al")
     goal = ("loc(book1,library)", "loc(book2,library)")
     assert plans.succeeds(STATE, goal, ("move(rob1,office2)",)) is False  # reads and encodes
-    with pytest.raises(TimeLimitError), deciding(Limits(SLOW_S / 2)):
+    with pytest.raises(LimitError), deciding(Limits(SLOW_S / 2)):
         plans.shortest(STATE, goal, 20)
     assert len(slow_spaces) == 1
     another = IncrementalPlanner(OFFICE, "office.al")

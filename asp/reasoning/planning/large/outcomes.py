@@ -79,7 +79,7 @@ class Laws:
     def cases(self, effects: Sequence[Law], hindrances: Sequence[Body]) -> Iterator[Case]:
         """The cases in which an action has a successor state.
 
-        Raises NotEncodableError where these are too many, and TimeLimitError.
+        Raises NotEncodableError where these are too many, and LimitError.
         """
         branches = [_Branch([UNDECIDED] * len(self._sizes), hindrances)]
         while branches:

@@ -15,9 +15,11 @@ from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
 from asp.language import read_domain
 from asp.refinement import Refinement, load
-from asp.solving.budget import OUT_OF_TIME, TimeLimitError
+from asp.solving import LimitError
 from testbed.protocol import Task
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
+
+LATE = "the time ran out"
 
 GOAL = ["loc(object1,room2)", "-in_hand(rob1,object1)"]
 
@@ -286,11 +288,11 @@ def test_where_the_time_runs_out_it_waits_and_goes_on(monkeypatch: pytest.Monkey
     def slow(*given: Any) -> tuple[str, ...] | None:
         calls.append(len(calls))
         if len(calls) == 2:
-            raise TimeLimitError(OUT_OF_TIME)
+            raise LimitError(LATE)
         return planned(*given)
 
     monkeypatch.setattr(zoomed_planning, "shortest_plan", slow)
     went = carried_out()
     assert went.achieved
     assert went.actions == FOUND
-    assert [trace.failed for trace in went.fine].count(OUT_OF_TIME) == 1
+    assert [trace.failed for trace in went.fine].count(LATE) == 1

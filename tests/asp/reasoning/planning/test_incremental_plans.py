@@ -15,8 +15,7 @@ from asp.reasoning.planning.incremental import symmetric_pairs
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.search import StateSpace
 from asp.reasoning.relevance import Relevance
-from asp.solving import Limits, deciding
-from asp.solving.budget import TimeLimitError
+from asp.solving import LimitError, Limits, deciding
 from benchmarks.offices import office
 from testbed.world import World, world_of
 
@@ -208,7 +207,7 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
     plans = IncrementalPlanner(OFFICE, "office.al")
     state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
     goal = ("loc(book1,library)", "loc(book2,library)")
-    with pytest.raises(TimeLimitError), deciding(Limits(0)):
+    with pytest.raises(LimitError), deciding(Limits(0)):
         plans.shortest(state, goal, 20)
     plan = plans.shortest(state, goal, 20)
     assert plan is not None
@@ -227,13 +226,13 @@ def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPat
     def at_second_attempt(control: Control, start: Sequence[int]) -> object:
         if control not in interrupted:
             interrupted.add(control)
-            raise TimeLimitError
+            raise LimitError
         return solving(control, start)
 
     monkeypatch.setattr(shortest, "solving", at_second_attempt)
     plans, found = _planner(OFFICE), None
     for _ in range(20):
-        with suppress(TimeLimitError):
+        with suppress(LimitError):
             found = plans.shortest(state, goal, 20)
             break
     assert len(interrupted) > 1
