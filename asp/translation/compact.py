@@ -61,7 +61,7 @@ class _Translation:
         for constraint in self._source.each(syntax.StateConstraint):
             yield from self._constraint(constraint)
         for law in self._source.each(syntax.CausalLaw):
-            yield self._effect(Part.STEP, law, BEFORE, [law.action])
+            yield self._effect(Part.STEP, law, [law.action])
         yield from self._actions()
 
     def _inertia(self, symbol: syntax.Declaration) -> Iterator[Rule]:
@@ -104,7 +104,7 @@ class _Translation:
     def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
         name = law.head.atom.name
         if self._signature.symbols[name].kind == "static":
-            yield self._rule(Part.BASE, law, law.head.atom, law.body, NOW)
+            yield self._rule(Part.BASE, law, str(law.head.atom), law.body)
             return
         for literal in roles.literals(law.body):
             symbol = self._signature.symbols.get(literal.atom.name)
@@ -112,21 +112,20 @@ class _Translation:
                 raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
         function = self._functions.get(name)
         if function is None or excluding_place(law) != function.place:
-            yield self._effect(Part.STATE, law, NOW)
+            yield self._effect(Part.STATE, law)
 
     def _effect(
         self,
         part: Part,
         law: syntax.CausalLaw | syntax.StateConstraint,
-        step: str,
         occurring: Sequence[syntax.Atom] = (),
     ) -> Rule:
         """The rule of a law with a fluent for its head."""
         atom = law.head.atom
         if not law.head.positive:
-            return self._rule(part, law, f"denied({atom},{NOW})", law.body, step, occurring)
+            return self._rule(part, law, f"denied({atom},{NOW})", law.body, occurring)
         gives = self._gives(atom.name, [term.name for term in atom.args])
-        return self._rule(part, law, f"holds({atom},{NOW})", law.body, step, occurring, gives)
+        return self._rule(part, law, f"holds({atom},{NOW})", law.body, occurring, gives)
 
     def _actions(self) -> Iterator[Rule]:
         """Which actions are enabled: by conditions that each allow them, and others that forbid."""
@@ -134,13 +133,13 @@ class _Translation:
         for number, law in enumerate(self._source.each(syntax.ExecutabilityCondition)):
             cases = _allowing(law, self._functions)
             if cases is None:
-                yield self._rule(Part.STEP, law, "", law.body, BEFORE, law.actions)
+                yield self._rule(Part.STEP, law, "", law.body, law.actions)
                 continue
             action = law.actions[0]
             numbers.setdefault(action.name, []).append(number)
             head = f"allowed({number},{action},{BEFORE})"
             for case in cases:
-                yield self._rule(Part.STEP, law, head, case, BEFORE)
+                yield self._rule(Part.STEP, law, head, case)
         for symbol in self._signature.symbols.values():
             if symbol.kind == "agent":
                 term, _, sorts = schema(symbol)
@@ -152,18 +151,18 @@ class _Translation:
         self,
         part: Part,
         law: Law,
-        head: object,
+        head: str,
         body: Sequence[syntax.Condition],
-        step: str,
         occurring: Sequence[syntax.Atom] = (),
         gives: tuple[str, str] | None = None,
     ) -> Rule:
         """The rule, with the sorts of the law's variables."""
+        step = BEFORE if part is Part.STEP else NOW
         texts = [f"occurs({action},{BEFORE})" for action in occurring]
-        texts += (condition(part, self._signature, step, "not ") for part in body)
+        texts += (condition(each, self._signature, step, "not ") for each in body)
         texts += sort_conditions(law, self._signature)
         loose = self._loose(law, body)
-        return Rule(part, str(head), tuple(texts), frozenset(named(law)), gives, loose)
+        return Rule(part, head, tuple(texts), frozenset(named(law)), gives, loose)
 
     def _loose(self, law: Law, body: Sequence[syntax.Condition]) -> frozenset[str]:
         """The sorts of variables in neither the law's head, nor its action, nor a true fluent."""
