@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from papers.table1.pairs import Pair
-from testbed.analysis.bootstrap import Estimate, exact, mean
+from testbed.analysis.bootstrap import Estimate, bootstrap, exact, means, sample_of
 from testbed.analysis.pairs import Ratio
 from testbed.studies.table1.measures import Row, Table
 from testbed.studies.table1.published import ALL, MEASURES, NO_FAILURES, SCENARIOS
@@ -102,4 +102,4 @@ def _ratio(own: Sequence[Weighed], measure: str) -> Ratio:
 
 def _mean(own: Sequence[Weighed], value: Callable[[Pair], float]) -> Estimate | None:
     values, weights = [value(pair) for pair, _ in own], [weight for _, weight in own]
-    return mean(values, weights, [pair.state for pair, _ in own])
+    return bootstrap(means, sample_of(values, weights, [pair.state for pair, _ in own]))

@@ -50,7 +50,7 @@ class Estimate:
 
 
 @dataclass(frozen=True)
-class Sample:
+class Observations:
     """Values in ascending order, their weights, and the number of the cluster of each."""
 
     values: Values
@@ -59,19 +59,19 @@ class Sample:
     clusters: int
 
 
-Statistic: TypeAlias = Callable[[Sample, Counts], Values]
+Statistic: TypeAlias = Callable[[Observations, Counts], Values]
 """Of a sample, and of how often each cluster is in each resample (one row each): its values."""
 
 
 def sample_of(
     values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
-) -> Sample:
+) -> Observations:
     """The sample of values with these weights and labels of clusters, one each per value."""
     known = np.asarray(values, dtype=np.float64)
     weighed = np.ones(len(known)) if weights is None else np.asarray(weights, dtype=np.float64)
     cluster = np.arange(len(known)) if clusters is None else numbered(clusters)
     order = np.argsort(known, kind="stable")
-    return Sample(known[order], weighed[order], cluster[order], len(np.unique(cluster)))
+    return Observations(known[order], weighed[order], cluster[order], len(np.unique(cluster)))
 
 
 def numbered(labels: Labels) -> Counts:
@@ -80,7 +80,7 @@ def numbered(labels: Labels) -> Counts:
     return np.array([numbers.setdefault(label, len(numbers)) for label in labels], dtype=np.int64)
 
 
-def means(sample: Sample, drawn: Counts) -> Values:
+def means(sample: Observations, drawn: Counts) -> Values:
     """The weighted mean of each resample."""
     counts = np.bincount(sample.cluster, sample.weights, sample.clusters)
     sums = np.bincount(sample.cluster, sample.weights * sample.values, sample.clusters)
@@ -88,7 +88,7 @@ def means(sample: Sample, drawn: Counts) -> Values:
     return found
 
 
-def medians(sample: Sample, drawn: Counts) -> Values:
+def medians(sample: Observations, drawn: Counts) -> Values:
     """The value of each resample at which half of the weight is reached.
 
     Where a value ends just there, the mean of it and the next: as in the median of so many copies.
@@ -101,42 +101,15 @@ def medians(sample: Sample, drawn: Counts) -> Values:
     return found
 
 
-def mean(
-    values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
-) -> Estimate | None:
-    """The weighted mean with its interval; None of nothing."""
-    return bootstrap(means, sample_of(values, weights, clusters))
-
-
-def median(
-    values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
-) -> Estimate | None:
-    """The weighted median with its interval; None of nothing."""
-    return bootstrap(medians, sample_of(values, weights, clusters))
-
-
-def proportion(
-    values: ArrayLike, weights: ArrayLike | None = None, clusters: Labels | None = None
-) -> Estimate | None:
+def proportion(sample: Observations) -> Estimate | None:
     """The share of ones among zeros and ones; where no resample differs, the exact interval.
 
     Its number of trials is that of the clusters: what a cluster repeats says nothing new there.
     """
-    sample = sample_of(values, weights, clusters)
     estimate = bootstrap(means, sample)
     if estimate is None or estimate.single or estimate.low < estimate.high:
         return estimate
     return exact(estimate.value, sample.clusters)
-
-
-def ratio_of_means(above: ArrayLike, below: ArrayLike) -> Estimate | None:
-    """The mean of one sample divided by that of another; None where one of them is empty."""
-    return bootstrap(means, sample_of(above), sample_of(below))
-
-
-def ratio_of_medians(above: ArrayLike, below: ArrayLike) -> Estimate | None:
-    """The median of one sample divided by that of another; None where one of them is empty."""
-    return bootstrap(medians, sample_of(above), sample_of(below))
 
 
 def exact(share: float, trials: float) -> Estimate:
@@ -150,7 +123,7 @@ def exact(share: float, trials: float) -> Estimate:
     return Estimate(share, low, high)
 
 
-def bootstrap(statistic: Statistic, *samples: Sample) -> Estimate | None:
+def bootstrap(statistic: Statistic, *samples: Observations) -> Estimate | None:
     """The statistic of a sample, or its ratio of the first of two to the second; None of nothing.
 
     The interval has the percentiles over resamples, each sample being resampled by itself.
@@ -182,12 +155,12 @@ def bootstrap(statistic: Statistic, *samples: Sample) -> Estimate | None:
     return Estimate(value, float(interval.low), float(interval.high))
 
 
-def _of_all(statistic: Statistic, samples: tuple[Sample, ...], drawn: list[Counts]) -> Values:
+def _of_all(statistic: Statistic, samples: tuple[Observations, ...], drawn: list[Counts]) -> Values:
     own = [statistic(sample, counts) for sample, counts in zip(samples, drawn, strict=True)]
     return own[0] if len(own) == 1 else own[0] / own[1]
 
 
-def _once(sample: Sample) -> Counts:
+def _once(sample: Observations) -> Counts:
     return np.ones((1, sample.clusters), dtype=np.int64)
 
 

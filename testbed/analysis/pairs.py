@@ -9,8 +9,16 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import polars as pl
 
-from testbed.analysis import bootstrap
-from testbed.analysis.bootstrap import Estimate, Values
+from testbed.analysis.bootstrap import (
+    Estimate,
+    Observations,
+    Values,
+    bootstrap,
+    means,
+    medians,
+    proportion,
+    sample_of,
+)
 from testbed.analysis.statistics import Test, holm, mcnemar, signed_rank
 
 Found = TypeVar("Found")
@@ -81,23 +89,23 @@ class Sample:
 
     def mean(self, value: Condition) -> Estimate | None:
         """The mean of a value of pairs; None of none."""
-        return bootstrap.mean(self._values(value), **self._labels)
+        return bootstrap(means, self._sample(value))
 
     def share(self, holds: Condition) -> Estimate | None:
         """The share of the pairs for which this holds; None of none."""
-        return bootstrap.proportion(self._values(holds), **self._labels)
+        return proportion(self._sample(holds))
 
     def ratio(self, name: str) -> Ratio:
         """A measure of the baseline divided by the treatment's."""
         above, below = pl.col(name), pl.col(name + OTHER)
         known = self.where(below != 0)
-        quotients = known._values(above / below)
+        quotients = known._sample(above / below)
         weight = pl.lit(1.0) if self.weight is None else pl.col(self.weight)
         sums = self.pairs.select(a=(weight * above).sum(), b=(weight * below).sum()).row(0)
         return Ratio(
             pairs=len(known.pairs),
-            mean=bootstrap.mean(quotients, **known._labels),
-            median=bootstrap.median(quotients, **known._labels),
+            mean=bootstrap(means, quotients),
+            median=bootstrap(medians, quotients),
             test=self.signed_rank(name),
             of_sums=sums[0] / sums[1] if sums[1] else None,
         )
@@ -114,6 +122,9 @@ class Sample:
     def _values(self, value: Condition) -> Values:
         own = pl.col(value) if isinstance(value, str) else value
         return self.pairs.select(value=own.cast(pl.Float64))["value"].to_numpy()
+
+    def _sample(self, value: Condition) -> Observations:
+        return sample_of(self._values(value), **self._labels)
 
     @property
     def _labels(self) -> dict[str, Any]:

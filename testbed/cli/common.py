@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Annotated, NoReturn
 
 import typer
@@ -21,6 +22,8 @@ Overrides = Annotated[
     list[str] | None,
     typer.Argument(metavar="KEY=VALUE", help="Keys to override, dotted where nested."),
 ]
+Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")]
+Folders = Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")]
 
 
 def examples(*lines: str) -> str:

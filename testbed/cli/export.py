@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
-from testbed.cli.common import examples, input_errors, say
+from testbed.cli.common import Folders, examples, input_errors, say
 
 EPILOG = examples("testbed export runs/quickstart")
 
 
-def command(
-    folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
-) -> None:
+def command(folders: Folders) -> None:
     """Write the stored trials of a run as trials.parquet and trials.csv into its folder."""
     from testbed.experiment.run_folder import read_config
 

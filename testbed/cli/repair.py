@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
-from testbed.cli.common import examples, input_errors, say
+from testbed.cli.common import Folder, examples, input_errors, say
 
 EPILOG = examples("testbed repair runs/quickstart")
 
 
-def command(folder: Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")]) -> None:
+def command(folder: Folder) -> None:
     """Keep what is whole of a damaged run, and say what is dropped.
 
     Lines of trials.jsonl that are torn, no records, repeated, or of no trial of the run are

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from testbed.cli.common import DONE, FAILED, examples, input_errors, say
+from testbed.cli.common import DONE, FAILED, Folder, examples, input_errors, say
 
 EPILOG = examples(
     "testbed replay runs/quickstart", "testbed replay runs/quickstart --trial TRIAL_ID"
@@ -15,7 +14,7 @@ EPILOG = examples(
 
 
 def command(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")],
+    folder: Folder,
     trial: Annotated[
         str | None,
         typer.Option(metavar="ID", help="Id of the trial, or its beginning; without it: a list."),

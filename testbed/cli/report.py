@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
-import typer
-
-from testbed.cli.common import examples, input_errors
+from testbed.cli.common import Folders, examples, input_errors
 
 EPILOG = examples("testbed report runs/quickstart")
 
 
-def command(
-    folders: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")],
-) -> None:
+def command(folders: Folders) -> None:
     """Make tables, summary.json and report.html again from the stored trials."""
     from testbed.experiment.run_folder import read_config
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from textwrap import wrap
 
@@ -16,7 +17,6 @@ from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_r
 from testbed.experiment.runner import run_in
 from testbed.protocol import shortened
 from testbed.report import Tables, grid, write_report
-from testbed.text.grid import Grid
 from testbed.text.terminal import Printer, Say, columns
 from testbed.text.wording import counted
 
@@ -49,7 +49,7 @@ def run_session(
         try:
             _conclude(folder, config, run, say)
         except KeyboardInterrupt:  # the trials are on record, the report is not made
-            say(f"interrupted; for the report: testbed report {_quoted(folder)}")
+            say(f"interrupted; for the report: testbed report {shlex.quote(str(folder))}")
             return INTERRUPTED
     return run.exit_code
 
@@ -58,14 +58,16 @@ def report_again(folder: Path, config: ExperimentConfig) -> None:
     """Table, summary and report of a run, made again. Raises StoreError."""
     say = Printer()
     specs = None if config.is_fine else plan_trials(config)  # to draw levels again takes long
-    _show(say, write_report(folder, config, specs))
+    for line in _told(write_report(folder, config, specs)):
+        say(line)
     say(f"report: {folder / REPORT}")
 
 
 def _conclude(folder: Path, config: ExperimentConfig, run: RunStatus, say: Say) -> None:
     tables = write_report(folder, config)
     if tables.rows:
-        _show(say, tables)
+        for line in _told(tables):
+            say(line)
     if run.interrupted:
         kept = f"{run.done} of {counted(run.planned, 'trial')}"
         say(f"interrupted: {kept} kept in {folder}")
@@ -80,45 +82,24 @@ def _conclude(folder: Path, config: ExperimentConfig, run: RunStatus, say: Say) 
     say(f"report: {folder / REPORT}")
 
 
-def _show(say: Say, tables: Tables) -> None:
+def _told(tables: Tables) -> Iterator[str]:
+    """The tables of a run; the digest is of the trials that the clock had no part in."""
     if tables.rows:
-        _show_tables(say, tables)
+        yield from grid(tables.rows).lines(columns())
+        for own in tables.grids:
+            yield from ("", *own.lines(columns()))
+        yield from (note for row in tables.rows for note in row.notes())
+        if tables.left_out is not None:
+            yield tables.left_out
+        yield from wrap(f"condition: {tables.condition}", columns(), subsequent_indent="    ")
     if tables.notice is not None:
-        say(f"incomplete: {tables.notice}")
+        yield f"incomplete: {tables.notice}"
     if tables.rows:
-        say(f"digest of {_digested(tables)}: {tables.digest}")
-
-
-def _digested(tables: Tables) -> str:
-    """Of how many trials the digest is: of those that the clock had no part in."""
-    played = sum(row.trials + row.lost for row in tables.rows)
-    results = counted(played - tables.late, "trial")
-    return f"{results}, without {tables.late} with a deadline" if tables.late else results
-
-
-def _show_tables(say: Say, tables: Tables) -> None:
-    _show_grid(say, grid(tables.rows))
-    for own in tables.grids:
-        say("")
-        _show_grid(say, own)
-    for row in tables.rows:
-        for note in row.notes():
-            say(note)
-    if tables.left_out is not None:
-        say(tables.left_out)
-    for line in wrap(f"condition: {tables.condition}", columns(), subsequent_indent="    "):
-        say(line)
-
-
-def _show_grid(say: Say, shown: Grid) -> None:
-    for line in shown.lines(columns()):
-        say(line)
+        played = sum(row.trials + row.lost for row in tables.rows)
+        late = f", without {tables.late} with a deadline" if tables.late else ""
+        yield f"digest of {counted(played - tables.late, 'trial')}{late}: {tables.digest}"
 
 
 def _to_go_on(folder: Path) -> str:
-    where = _quoted(folder)
-    return f"to go on: testbed run {_quoted(folder / CONFIG)} --out {where} --resume"
-
-
-def _quoted(path: Path) -> str:
-    return shlex.quote(str(path))
+    run = ["testbed", "run", str(folder / CONFIG), "--out", str(folder), "--resume"]
+    return f"to go on: {shlex.join(run)}"

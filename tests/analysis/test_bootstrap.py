@@ -1,6 +1,7 @@
 """Means, medians, shares and ratios with their intervals against known values."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,16 +9,31 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from testbed.analysis import bootstrap
-from testbed.analysis.bootstrap import (
-    Estimate,
-    mean,
-    median,
-    proportion,
-    ratio_of_means,
-    ratio_of_medians,
-)
+from testbed.analysis.bootstrap import Estimate, means, medians, sample_of
 
 pytestmark = pytest.mark.versions
+
+
+def mean(*sample: Any, **labels: Any) -> Estimate | None:
+    """Of values, their weights and the labels of their clusters."""
+    return bootstrap.bootstrap(means, sample_of(*sample, **labels))
+
+
+def median(*sample: Any, **labels: Any) -> Estimate | None:
+    return bootstrap.bootstrap(medians, sample_of(*sample, **labels))
+
+
+def proportion(*sample: Any, **labels: Any) -> Estimate | None:
+    return bootstrap.proportion(sample_of(*sample, **labels))
+
+
+def ratio_of_means(above: Any, below: Any) -> Estimate | None:
+    return bootstrap.bootstrap(means, sample_of(above), sample_of(below))
+
+
+def ratio_of_medians(above: Any, below: Any) -> Estimate | None:
+    return bootstrap.bootstrap(medians, sample_of(above), sample_of(below))
+
 
 ESTIMATES = (mean, median, proportion)
 

@@ -9,7 +9,7 @@ from statistics import fmean, median, stdev
 import polars as pl
 
 from testbed.analysis import Run
-from testbed.analysis.bootstrap import Estimate, ratio_of_means, ratio_of_medians
+from testbed.analysis.bootstrap import Estimate, bootstrap, means, medians, sample_of
 from testbed.analysis.comparison import measured
 from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, corrected, pairs_of
 from testbed.analysis.statistics import Test
@@ -195,5 +195,7 @@ def _growth(robots: Trials, first: Trials) -> dict[str, dict[str, Growth]]:
 
 
 def _times(trials: pl.DataFrame, first: pl.DataFrame, part: str) -> Growth:
-    above, below = (own.filter("ended")[part].drop_nulls().to_numpy() for own in (trials, first))
-    return Growth(ratio_of_means(above, below), ratio_of_medians(above, below))
+    above, below = (
+        sample_of(own.filter("ended")[part].drop_nulls().to_numpy()) for own in (trials, first)
+    )
+    return Growth(bootstrap(means, above, below), bootstrap(medians, above, below))

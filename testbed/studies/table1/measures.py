@@ -40,6 +40,7 @@ from testbed.studies.table1.published import (
 from testbed.world import load_world
 
 RANDOM = "random"
+EACH = dict.fromkeys(("triggered", "random"), PUBLISHED)
 LEFT_OUT = {"failed": LOST, "deadline": DEADLINE, "unsolvable": UNSOLVABLE}
 """Why pairs of a scenario do not count, by the keys of a summary."""
 Optimum: TypeAlias = Mapping[str, float | None]
@@ -116,24 +117,15 @@ def measures(run: Run, as_published: bool) -> list[Analysis]:
     world, sure = load_world(run.config.domain), eventful(run.config)
     whole = set(SCENARIOS) <= set(run.config.scenarios)
     parts = {name: row for name, row in PUBLISHED.items() if whole or not name.startswith(ALL)}
+    paper = {"triggered": parts, "random": PUBLISHED}
     return [
-        _beside(
-            analyse(pairs_in(run.trials, world, robots, sure), robots),
-            {"triggered": parts, "random": PUBLISHED}
-            if as_published and robots.treatment == INTENTIONAL
-            else {},
+        analyse(
+            pairs_in(run.trials, world, robots, sure),
+            robots,
+            paper if as_published and robots.treatment == INTENTIONAL else {},
         )
         for robots in comparisons_of(run.config)
     ]
-
-
-def _beside(own: Analysis, published: Mapping[str, Mapping[str, Published]]) -> Analysis:
-    """The same beside these published rows."""
-    tables = {
-        way: dataclasses.replace(table, published=published.get(way, {}))
-        for way, table in own.tables.items()
-    }
-    return dataclasses.replace(own, tables=tables)
 
 
 def comparisons_of(config: ExperimentConfig) -> list[Compared]:
@@ -143,8 +135,12 @@ def comparisons_of(config: ExperimentConfig) -> list[Compared]:
     return [Compared(BASELINE, name) for name in config.robots if name.startswith(INTENTIONAL)]
 
 
-def analyse(pairs: pl.DataFrame, robots: Compared) -> Analysis:
-    """Both tables of `pairs_in`."""
+def analyse(
+    pairs: pl.DataFrame,
+    robots: Compared,
+    published: Mapping[str, Mapping[str, Published]] = EACH,
+) -> Analysis:
+    """Both tables of `pairs_in`, beside these published rows."""
     # Failures and goals that nothing achieves are told in the row of their scenario.
     apart = pl.col("apart").is_in([NOTHING_TO_DO, NO_EVENT])
     ways = {
@@ -154,16 +150,16 @@ def analyse(pairs: pl.DataFrame, robots: Compared) -> Analysis:
         "random": pairs.filter(pl.col("scenario") == RANDOM).with_columns(row="happened"),
     }
     became = {
-        str(name): dict(sorted(Counter(own["happened"]).items()))
-        for (name,), own in pairs.partition_by(
-            "scenario", as_dict=True, maintain_order=True
-        ).items()
+        own["scenario"][0]: dict(sorted(Counter(own["happened"]).items()))
+        for own in pairs.partition_by("scenario")
     }
-    tables = {way: _table(own, robots) for way, own in ways.items() if len(own)}
+    tables = {
+        way: _table(own, robots, published.get(way, {})) for way, own in ways.items() if len(own)
+    }
     return Analysis(robots, tables, became)
 
 
-def _table(pairs: pl.DataFrame, robots: Compared) -> Table:
+def _table(pairs: pl.DataFrame, robots: Compared, published: Mapping[str, Published]) -> Table:
     groups = dict(sorted(Counter(pairs["row"]).items()))
     scenarios = [name for name in groups if name.isdigit()]
     played = Counter(pairs["scenario"])
@@ -175,7 +171,7 @@ def _table(pairs: pl.DataFrame, robots: Compared) -> Table:
     sample = Sample(weighed.sort("row", maintain_order=True), weight="weight")
     rows = [_row(name, sample.where(holds), robots) for name, holds in _rows(scenarios)]
     apart = {name: count for name, count in groups.items() if not name.isdigit()}
-    return Table(tuple(corrected(rows)), apart)
+    return Table(tuple(corrected(rows)), apart, published)
 
 
 def _rows(scenarios: list[str]) -> Iterator[tuple[str, pl.Expr]]:
