@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from collections.abc import Collection, Mapping
+from typing import Literal, TypeAlias
 
 import polars as pl
 
-from testbed.analysis import pairs
-from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
-from testbed.analysis.statistics import Test
+from testbed.analysis.pairs import Compared
 from testbed.config import ExperimentConfig
 from testbed.experiment.record import FAILURES
 from testbed.world import load_world
@@ -143,85 +138,3 @@ def with_apart(trials: pl.DataFrame, robots: Compared, sure: Collection[str]) ->
     told = [pl.when(holds).then(pl.lit(reason)) for reason, holds in reasons.items()]
     pairs = trials.group_by("pair").agg(apart=pl.coalesce(*told, pl.lit(None, pl.String)))
     return trials.join(pairs, on="pair", maintain_order="left")
-
-
-@dataclass(frozen=True)
-class Group:
-    """What the trials of a scenario or level come to.
-
-    `pairs` are the ids of the pairs that count, `values` the keys of a summary but those of the
-    tests. Tests are by measure, of the baseline's less the treatment's; of `accuracy` the other way
-    round.
-    """
-
-    robots: Compared
-    pairs: frozenset[str]
-    values: Mapping[str, object]
-    tests: Mapping[str, Test | None]
-
-    def summary(self) -> dict[str, Any]:
-        """As in a summary."""
-        keys = {"p_values": "p", "holm": "holm", "effects": "effect"}
-        of_tests = {
-            key: {name: getattr(test, own, None) for name, test in self.tests.items()}
-            for key, own in keys.items()
-        }
-        return {**self.values, **of_tests}
-
-
-def group(trials: pl.DataFrame, robots: Compared, names: Iterable[str]) -> Group:
-    """Of the trials of a scenario or level, `with_apart`; `names` are the run's robots in order."""
-    reasons = Counter(trials.unique("pair")["apart"].drop_nulls().to_list())
-    counted = trials.filter(pl.col("apart").is_null())
-    played = set(trials["robot"].unique())
-    own = {name: counted.filter(pl.col("robot") == name) for name in names if name in played}
-    both = Sample(pairs_of(counted, robots))
-    ended = both.ended
-    ratios = _ratios(ended.pairs)
-    tests = {name: ended.signed_rank(name) for name in MEASURES}
-    tests[ACCURACY] = both.decided.mcnemar("correct")
-    values = {
-        "pairs": counted["pair"].n_unique(),
-        **{key: reasons[reason] for reason, key in COUNTS.items()},
-        "robot_errors": {name: (~rows["ended"]).sum() for name, rows in own.items()},
-        "accuracy": {name: rows["correct"].mean() for name, rows in own.items()},
-        "undecided": {name: rows["correct"].null_count() for name, rows in own.items()},
-        "ratios": {name: ratios[name]["ratio"] for name in MEASURES},
-        "ratios_of_sums": {name: ratios[name]["of_sums"] for name in MEASURES},
-        "times": {name: ratios[name] for name in TIMES},
-        "optimum": {name: optimum(rows) for name, rows in own.items()},
-    }
-    return Group(robots, frozenset(counted["pair"]), values, tests)
-
-
-def _ratios(ended: pl.DataFrame) -> dict[str, dict[str, Any]]:
-    """The mean ratio of each measure, where the treatment's is not 0, and the ratio of the sums."""
-    found = {}
-    for name in DIVIDED:
-        own, other = pl.col(name), pl.col(name + OTHER)
-        mean = (own / other).filter(other != 0).mean()
-        of_sums = pl.when(other.sum() != 0).then(own.sum() / other.sum())
-        found[name] = ended.select(ratio=mean, of_sums=of_sums).row(0, named=True)
-    return found
-
-
-def optimum(trials: pl.DataFrame) -> dict[str, Any]:
-    """How far trials are from the least that achieves the goal: what was needed divided by it.
-
-    Means by measure, over `trials` that achieved the goal. The least is what a search with complete
-    knowledge finds from the initial state where nothing exogenous happens: below 1 is who was
-    helped on the way. Trials whose least is not known, or 0, are left out.
-    """
-    known = trials.filter("achieved", "ended", *(pl.col(least) > 0 for least in LEAST.values()))
-    means = {name: (pl.col(name) / pl.col(least)).mean() for name, least in LEAST.items()}
-    return known.select(trials=pl.len(), **means).row(0, named=True)
-
-
-def corrected(groups: Sequence[Group]) -> list[Group]:
-    """The groups with Holm's correction over all of their tests.
-
-    Groups of the same robots and pairs, as of the only scenario of a level, are one.
-    """
-    distinct = pairs.corrected({(own.robots, own.pairs): own for own in groups})
-    found = (distinct[own.robots, own.pairs].tests for own in groups)
-    return [dataclasses.replace(own, tests=tests) for own, tests in zip(groups, found, strict=True)]

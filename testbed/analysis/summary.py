@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
 
 import polars as pl
 
-from testbed.analysis.comparison import (
-    Group,
-    compared,
-    corrected,
-    eventful,
-    group,
-    measured,
-    with_apart,
-)
-from testbed.analysis.pairs import Compared
+from testbed.analysis import comparison
+from testbed.analysis.comparison import ACCURACY, COUNTS, DIVIDED, LEAST, MEASURES, TIMES
+from testbed.analysis.pairs import OTHER, Compared, Sample, corrected, pairs_of
+from testbed.analysis.statistics import Test
 from testbed.analysis.table import Run
 from testbed.experiment.digest import digest
 from testbed.experiment.run_folder import SUMMARY, replace_text
 
+Tests: TypeAlias = Mapping[str, Test | None]
 PLACES = {"scenarios": "scenario", "levels": "level"}
 
 
@@ -33,7 +29,7 @@ def write_summary(
     Beside what `summarise` says, `digest` is the one number for all of its results; `covered`, how
     much of the plan they are, is added as it is, and what is `added` key by key.
     """
-    found = summarise(run.trials, compared(run.config), eventful(run.config))
+    found = summarise(run.trials, comparison.compared(run.config), comparison.eventful(run.config))
     summary: dict[str, Any] = {"digest": digest(run.records()), **covered, **found}
     for own in added:
         summary = _joined(summary, own)
@@ -60,27 +56,26 @@ def summarise(
     these numbers. `sure` are the eventful scenarios: a pair of theirs without its event is counted
     apart, and so is every other that compares nothing (`with_apart`). A ratio is left out of the
     mean where the treatment's measure is 0; a measure without any ratio, and a test without any
-    difference, is null. A group is that of the main comparison; those of further ones are in its
-    `treatments`, by the name of the robot.
+    difference, is null. P-values are corrected over all groups; those of the same robots and pairs,
+    as of the only scenario of a level, are one. A group is that of the main comparison; those of
+    further ones are in its `treatments`, by the name of the robot.
     """
-    rows = measured(trials)
-    places = [
-        (key, name)
-        for key, column in PLACES.items()
-        for name in rows[column].unique(maintain_order=True)
-    ]
-    found = [
-        (place, robots, own)
+    rows = comparison.measured(trials)
+    names = rows["robot"].unique(maintain_order=True)
+    found = {
+        (key, own[column][0], robots): _group(own, robots, names)
         for robots in comparisons
-        for place, own in _groups(with_apart(rows, robots, sure), robots, places)
-    ]
+        for key, column in PLACES.items()
+        for own in comparison.with_apart(rows, robots, sure).partition_by(column)
+    }
+    tests = corrected({(robots, pairs): t for (*_, robots), (pairs, _, t) in found.items()})
     groups: dict[str, Any] = {key: {} for key in PLACES}
-    holm = corrected([own for _, _, own in found])
-    for ((key, name), robots, _), own in zip(found, holm, strict=True):
+    for (key, name, robots), (pairs, values, _) in found.items():
+        summary = {**values, **_of_tests(tests[robots, pairs])}
         if robots == comparisons[0]:
-            groups[key][name] = own.summary()
+            groups[key][name] = summary
         else:
-            groups[key][name].setdefault("treatments", {})[robots.treatment] = own.summary()
+            groups[key][name].setdefault("treatments", {})[robots.treatment] = summary
     return {
         "trials": len(rows),
         "deadline": int(rows["late"].sum()),
@@ -90,9 +85,62 @@ def summarise(
     }
 
 
-def _groups(
-    rows: pl.DataFrame, robots: Compared, places: Iterable[tuple[str, str]]
-) -> Iterator[tuple[tuple[str, str], Group]]:
-    names = rows["robot"].unique(maintain_order=True)
-    for key, name in places:
-        yield (key, name), group(rows.filter(pl.col(PLACES[key]) == name), robots, names)
+def _group(
+    trials: pl.DataFrame, robots: Compared, names: Iterable[str]
+) -> tuple[frozenset[str], dict[str, Any], Tests]:
+    """Of the trials of a scenario or level, `with_apart`: the pairs that count, values, and tests.
+
+    `names` are the run's robots in order. Tests are by measure, of the baseline's less the
+    treatment's; of `accuracy` the other way round.
+    """
+    reasons = Counter(trials.unique("pair")["apart"].drop_nulls().to_list())
+    counted = trials.filter(pl.col("apart").is_null())
+    played = set(trials["robot"].unique())
+    own = {name: counted.filter(pl.col("robot") == name) for name in names if name in played}
+    both = Sample(pairs_of(counted, robots))
+    ended = both.ended
+    ratios = _ratios(ended.pairs)
+    tests = {name: ended.signed_rank(name) for name in MEASURES}
+    values = {
+        "pairs": counted["pair"].n_unique(),
+        **{key: reasons[reason] for reason, key in COUNTS.items()},
+        "robot_errors": {name: (~rows["ended"]).sum() for name, rows in own.items()},
+        "accuracy": {name: rows["correct"].mean() for name, rows in own.items()},
+        "undecided": {name: rows["correct"].null_count() for name, rows in own.items()},
+        "ratios": {name: ratios[name]["ratio"] for name in MEASURES},
+        "ratios_of_sums": {name: ratios[name]["of_sums"] for name in MEASURES},
+        "times": {name: ratios[name] for name in TIMES},
+        "optimum": {name: _optimum(rows) for name, rows in own.items()},
+    }
+    return frozenset(counted["pair"]), values, tests | {ACCURACY: both.decided.mcnemar("correct")}
+
+
+def _of_tests(tests: Tests) -> dict[str, dict[str, float | None]]:
+    keys = {"p_values": "p", "holm": "holm", "effects": "effect"}
+    return {
+        key: {name: getattr(test, own, None) for name, test in tests.items()}
+        for key, own in keys.items()
+    }
+
+
+def _ratios(ended: pl.DataFrame) -> dict[str, dict[str, Any]]:
+    """The mean ratio of each measure, where the treatment's is not 0, and the ratio of the sums."""
+    found = {}
+    for name in DIVIDED:
+        own, other = pl.col(name), pl.col(name + OTHER)
+        mean = (own / other).filter(other != 0).mean()
+        of_sums = pl.when(other.sum() != 0).then(own.sum() / other.sum())
+        found[name] = ended.select(ratio=mean, of_sums=of_sums).row(0, named=True)
+    return found
+
+
+def _optimum(trials: pl.DataFrame) -> dict[str, Any]:
+    """How far trials are from the least that achieves the goal: what was needed divided by it.
+
+    Means by measure, over `trials` that achieved the goal. The least is what a search with complete
+    knowledge finds from the initial state where nothing exogenous happens: below 1 is who was
+    helped on the way. Trials whose least is not known, or 0, are left out.
+    """
+    known = trials.filter("achieved", "ended", *(pl.col(least) > 0 for least in LEAST.values()))
+    means = {name: (pl.col(name) / pl.col(least)).mean() for name, least in LEAST.items()}
+    return known.select(trials=pl.len(), **means).row(0, named=True)

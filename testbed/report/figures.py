@@ -1,18 +1,19 @@
-"""Charts as figures of matplotlib: values with intervals by scenario, and times by level."""
+"""Charts as figures of matplotlib: SVG that stands in a page and takes its colours from there."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import io
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import matplotlib as mpl
-from markupsafe import Markup
+from markupsafe import Markup, escape
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
-from testbed.report.svg import CARD, COLOURS, LINE, SETTINGS, SOFT, blank, inline
 from testbed.studies import Chart, Point, Series
 from testbed.text.terminal import plain
 
@@ -22,6 +23,37 @@ APART, ASIDE = 0.24, 0.1
 LEVELS_HEIGHT = 2.6
 TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 ROOM = 1.15
+INK, SOFT, LINE, CARD = "#010101", "#010102", "#010103", "#010104"
+COLOURS = {"first": "#010105", "second": "#010106", "paper": "#010107"}
+"""Those of series, by name."""
+VARIABLES: Mapping[str, str] = {
+    INK: "--ink",
+    SOFT: "--soft",
+    LINE: "--line",
+    CARD: "--card",
+    **{colour: f"--{name}" for name, colour in COLOURS.items()},
+}
+"""Colours that stand for custom properties of the page, which has them in light and in dark."""
+
+SETTINGS: Any = {  # matplotlib names every setting that there is in its type
+    "svg.fonttype": "none",
+    "text.parse_math": False,  # a name with $ in it is no formula
+    "font.size": 8.5,
+    "axes.edgecolor": LINE,
+    "axes.labelcolor": SOFT,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.color": SOFT,
+    "ytick.color": SOFT,
+    "xtick.labelcolor": SOFT,
+    "ytick.labelcolor": INK,
+    "grid.color": LINE,
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 4.5,
+}
+_FAMILY = re.compile(r"font-family: [^;\"]+; ?")
+_IDS = re.compile(r' id="([^"]+)"')
 
 
 @dataclass(frozen=True)
@@ -37,13 +69,13 @@ def drawn(chart: Chart) -> Panel:
     """A chart as a figure; seconds over levels, anything else a line a row."""
     with mpl.rc_context(SETTINGS):
         own = _curves(chart) if chart.kind == "seconds" else _forest(chart)
-        return Panel(chart.name, chart.title, inline(own, chart.name, _told(chart)))
+        return Panel(chart.name, chart.title, _inline(own, chart.name, _told(chart)))
 
 
 def _forest(chart: Chart) -> Figure:
     """Values with intervals: ratios on a log scale around 1, or shares."""
     rows, series = chart.places, chart.series
-    figure, axes = blank(WIDTH, FRAME_HEIGHT + ROW_HEIGHT * len(rows))
+    figure, axes = _blank(WIDTH, FRAME_HEIGHT + ROW_HEIGHT * len(rows))
     for number, own in enumerate(series):
         shift = APART * (number - (len(series) - 1) / 2)
         _dots(axes, own, {row: index + shift for index, row in enumerate(rows)})
@@ -57,7 +89,7 @@ def _forest(chart: Chart) -> Figure:
 def _curves(chart: Chart) -> Figure:
     """Seconds on a log scale; published curves are dashed."""
     levels, series = chart.places, chart.series
-    figure, axes = blank(WIDTH, LEVELS_HEIGHT)
+    figure, axes = _blank(WIDTH, LEVELS_HEIGHT)
     places = {level: index for index, level in enumerate(levels)}
     for own in series:
         shift = -ASIDE if own.colour == series[0].colour else ASIDE
@@ -142,3 +174,47 @@ def _told(chart: Chart) -> str:
     """The figure for those who do not see it: the numbers are in the tables."""
     labels = ", ".join(own.label for own in chart.series)
     return plain(f"{chart.title}: {labels}. The table has the numbers.")
+
+
+def _blank(width: float, height: float) -> tuple[Figure, Axes]:
+    """An empty figure of so many inches, with axes; to be made and drawn within `SETTINGS`."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    figure.patch.set_alpha(0.0)
+    axes = figure.subplots()
+    axes.patch.set_alpha(0.0)
+    axes.tick_params(length=0)
+    return figure, axes
+
+
+def _inline(figure: Figure, name: str, label: str) -> Markup:
+    """The figure as an `svg` element; `name` sets its ids apart, `label` says what it shows.
+
+    Nothing is clipped, so that nothing refers to a part of it by address.
+    """
+    for artist in figure.findobj():
+        artist.set_clip_on(False)
+    buffer = io.StringIO()
+    with mpl.rc_context({"svg.hashsalt": name}):
+        figure.savefig(buffer, format="svg", metadata={"Date": None})
+    return Markup(_tidied(buffer.getvalue(), name, label))
+
+
+def _tidied(text: str, name: str, label: str) -> str:
+    """Without what a file needs and a part of a page does not, and with the page's colours."""
+    head, _, rest = text[text.index("<svg") :].partition(">")
+    box = re.search(r'viewBox="[^"]+"', head)
+    assert box is not None
+    body = re.sub(r"<(metadata|style)\b.*?</\1>", "", rest, flags=re.DOTALL)
+    body = re.sub(r"<!--.*?-->|<\?.*?\?>", "", body, flags=re.DOTALL)
+    body = body.replace("xlink:href", "href")
+    for colour, variable in VARIABLES.items():
+        body = body.replace(colour, f"var({variable})")
+    body = re.sub(r"\n\s*", "\n", _own_ids(_FAMILY.sub("", body), name))
+    return f'<svg {box.group()} role="img" aria-label="{escape(label)}">{body}'
+
+
+def _own_ids(body: str, name: str) -> str:
+    """Ids that something refers to are of this figure alone; the others are left out."""
+    used = set(re.findall(r'href="#([^"]+)"', body))
+    body = _IDS.sub(lambda m: f' id="{name}-{m[1]}"' if m[1] in used else "", body)
+    return re.sub(r'href="#', f'href="#{name}-', body)

@@ -3,8 +3,7 @@
 import re
 from xml.etree import ElementTree
 
-from testbed.report.figures import Panel, drawn
-from testbed.report.svg import VARIABLES
+from testbed.report.figures import VARIABLES, Panel, drawn
 from testbed.studies import Chart, Point, Series
 
 OURS = Series("ours", "first", (Point("a", 2.0, 1.5, 2.5), Point("b", 0.5, 0.4, 0.6)))
