@@ -2,78 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
 import polars as pl
 
 from testbed.analysis.bootstrap import Estimate
-from testbed.analysis.comparison import ACCURACY, COUNTS, MEASURES
 from testbed.analysis.comparison import LEAST as MINIMAL
+from testbed.analysis.comparison import MEASURES
 from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
 from testbed.experiment.record import COARSE
 from testbed.experiment.timeline import in_words
 from testbed.studies import Chart, Colour, Series, points
-from testbed.text.wording import chance, number
+from testbed.text.wording import number
 
 OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in MINIMAL))
 LEAST = 2
-"""Pairs from which on a test, or an interval, says something."""
+"""Pairs from which on an interval says something."""
 
 
-@dataclass(frozen=True)
-class Cell:
-    """A value; below it how large the difference is, and how likely by chance, if anything differs.
-
-    Below the number of pairs: how many are counted apart, and why.
-    """
-
-    label: str
-    value: str
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """The cells of one scenario, "all" for all of them."""
-
-    scenario: str
-    cells: tuple[Cell, ...]
-
-
-def comparisons(summary: Mapping[str, Any]) -> list[Comparison]:
-    """One row per scenario, then one for all; none where not both robots played."""
+def groups_of(summary: Mapping[str, Any]) -> dict[str, Any]:
+    """The scenarios of a summary, then all of them; none where not both robots played."""
     groups = dict(summary["scenarios"])
     if len(groups) > 1:
         levels = summary["levels"]
         groups |= {"all" if len(levels) == 1 else f"all, {name}": levels[name] for name in levels}
-    robots = (summary["treatment"], summary["baseline"])
-    if not any(set(robots) <= set(group["accuracy"]) for group in groups.values()):
-        return []
-    return [Comparison(name, tuple(_cells(group, robots))) for name, group in groups.items()]
-
-
-def _cells(group: Mapping[str, Any], robots: tuple[str, str]) -> Iterator[Cell]:
-    """Of both robots, the one first whose effects are told."""
-    apart = [f"{group[key]} {reason}" for reason, key in COUNTS.items() if group[key]]
-    yield Cell("pairs", str(group["pairs"]), ", ".join(apart))
-    for robot in robots:
-        share = group["accuracy"].get(robot)
-        notes = [_test(group, ACCURACY)] if robot == robots[0] else []
-        undecided = group["undecided"].get(robot)  # of a robot that has played
-        notes += [f"{undecided} not decided"] * bool(undecided)
-        value = "-" if share is None else f"{100 * share:.1f} %"
-        yield Cell(f"{robot} correct", value, ", ".join(filter(None, notes)))
-    for measure in MEASURES:
-        yield Cell(in_words(measure), number(group["ratios"][measure]), _test(group, measure))
-
-
-def _test(group: Mapping[str, Any], name: str) -> str:
-    """Effect and corrected p-value; nothing of a single pair."""
-    p, effect = group["holm"][name], group["effects"][name]
-    return "" if p is None or group["pairs"] < LEAST else f"{effect:+.2f} ({chance(p)})"
+    robots = {summary["treatment"], summary["baseline"]}
+    return groups if any(robots <= set(own["accuracy"]) for own in groups.values()) else {}
 
 
 def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:

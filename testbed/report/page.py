@@ -11,14 +11,14 @@ import polars as pl
 
 from asp.language import read_domain, scenario_notes
 from testbed.analysis import Run, load_run
-from testbed.analysis.comparison import compared, eventful, measured, with_apart
+from testbed.analysis.comparison import COUNTS, MEASURES, compared, eventful, measured, with_apart
 from testbed.analysis.condition import condition
 from testbed.analysis.summary import write_summary
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import coverage_of
 from testbed.experiment.run_folder import REPORT, replace_text
 from testbed.experiment.specs import TrialSpec
-from testbed.report.comparison import OPTIMUM, charts, comparisons, optima
+from testbed.report.comparison import OPTIMUM, charts, groups_of, optima
 from testbed.report.rendering import environment, rendered
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
@@ -111,11 +111,15 @@ def _compared(
 ) -> dict[str, Any]:
     """How the robots compare, unless a study has that."""
     own = not any(finding.study.compares for finding in found)
-    rows = comparisons(summary) if own else []
+    groups = groups_of(summary) if own else {}
     several = any(group["pairs"] > 1 for group in summary["scenarios"].values())
     return {
-        "comparisons": rows,
-        "compared_charts": charts(trials, summary) if rows and several else [],
+        "compared": groups,
+        "compared_charts": charts(trials, summary) if groups and several else [],
+        "baseline": summary["baseline"],
+        "treatment": summary["treatment"],
+        "counts": COUNTS,
+        "measures": list(MEASURES),
         "optimum_columns": OPTIMUM,
         "optima": optima(summary) if own else [],
     }

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from testbed.experiment.timeline import in_words, of_place, timeline
 from testbed.studies import Chart, Section
 from testbed.text.terminal import plain
-from testbed.text.wording import counted
+from testbed.text.wording import chance, counted, number
 
 
 def rendered(section: Section) -> Markup:
@@ -30,10 +30,12 @@ def environment() -> Environment:
     made = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, finalize=_visible)
     made.filters |= {
         "atoms": _atoms,
+        "chance": chance,
         "counted": counted,
         "drawn": _drawn,
         "events": lambda own: ", ".join(f"{e.action} at step {e.step}" for e in own.exogenous),
         "in_words": in_words,
+        "number": number,
         "of_place": lambda own: of_place(own.scenario, own.level),
         "steps": lambda own: list(timeline(own)),
     }

@@ -38,12 +38,6 @@ LEAST = 0.1
 FEW = 20
 """Pairs of a level below which the start of a process is much of its times."""
 FEW_PAIRS = "few pairs: the first trials also prepare what later ones use"
-ABOUT_TESTS = (
-    "Of the pairs of a level: Wilcoxon's test of the times (effect: rank-biserial correlation, "
-    "above 0 where zooming saves time), McNemar's of the trials that achieved their goal, and of "
-    "the correct ones (effect: difference of the shares, above 0 where zooming has more), with "
-    "p-values after Holm's correction over the table. There is none where no pair differs."
-)
 
 
 @dataclass(frozen=True)
@@ -99,7 +93,6 @@ def growth(found: Levels) -> Iterator[Row]:
 def sections(found: Levels) -> list[Section]:
     """The section of the levels."""
     few = any(row.number < FEW for row in ratios(found))
-    about = "Means over the pairs in which both achieved the goal; above 1 zooming saved time."
     views = [
         View(
             "levels-seconds",
@@ -116,7 +109,7 @@ def sections(found: Levels) -> list[Section]:
             "No zoom / zoom" + f"; {FEW_PAIRS}" * few,
             RATIOS,
             [row.line for row in ratios(found)],
-            (about.rstrip("."),),
+            ("Means over the pairs in which both achieved the goal; above 1 zooming saved time",),
         ),
         View(
             "levels-growth",
@@ -126,7 +119,7 @@ def sections(found: Levels) -> list[Section]:
             (f"How many times the mean at {FIRST} in the same condition the mean at a level is",),
         ),
     ]
-    tests = Sheet("Effect sizes and tests", TESTS, list(effect_rows(found.levels)), 1, ABOUT_TESTS)
+    tests = Sheet("Effect sizes and tests", TESTS, list(effect_rows(found.levels)))
     paper = bool(found.paper.conditions)
     return [
         Section(
