@@ -124,7 +124,6 @@ class Sheet:
     columns: Cells
     rows: Sequence[Cells]
     names: int = 1
-    note: str = ""
 
 
 @dataclass(frozen=True)
