@@ -31,14 +31,20 @@ class Relevance:
 
     def __init__(self, source: syntax.Source, signature: Signature) -> None:
         """`source` has the laws that count: without those of exogenous actions, an agent's own."""
-        self._laws = _Laws(source, signature)
+        self._source = source
+        self._signature = signature
+        self._laws = [s for s in source.statements if isinstance(s, Law) and not self._is_static(s)]
+        derived = {law.head.atom.name for law in source.each(syntax.StateConstraint)}
+        self._stated = {n for n, s in signature.symbols.items() if s.kind == "static"} - derived
+        atoms = (fact.literal.atom for fact in source.each(syntax.Fact))
+        self._facts = [atom for atom in atoms if atom.name in self._stated]
         self.independent = self._greatest()
-        self._group = self._laws.groups(self.independent)
+        self._group = self._groups(self.independent)
         self.obstacles = frozenset(
             literal.atom.name
-            for law in self._laws.all
+            for law in self._laws
             if isinstance(law, syntax.ExecutabilityCondition)
-            for literal in self._laws.loose(law, self.independent)
+            for literal in self._loose(law, self.independent)
         )
 
     def spare(self, possible: Iterable[str], goal: Iterable[str]) -> frozenset[str]:
@@ -55,47 +61,25 @@ class Relevance:
         return self.independent.difference(*(self._group.get(c, nothing) for c in needed))
 
     def _greatest(self) -> frozenset[str]:
-        """Kinds of constants are taken out until nothing speaks against those that are left."""
-        kinds = self._laws.kinds()
-        while True:
-            left = frozenset().union(*kinds)
-            against = self._laws.against(left)
-            if not against:
-                return left
-            kinds = [kind for kind in kinds if kind.isdisjoint(against)]
+        """The constants that no law names, of sorts of which none is tied to something else."""
+        mentioned = {constant for law in self._laws for constant in named(law)}
+        left = self._signature.constants - mentioned
+        sorts = {constant: _sorts(constant, self._signature) for constant in left}
+        while against := self._against(left):
+            tied = {sorts[constant] for constant in against}
+            left = frozenset(constant for constant in left if sorts[constant] not in tied)
+        return left
 
-
-class _Laws:
-    """The laws of a description whose variables are looked at, not their instances."""
-
-    def __init__(self, source: syntax.Source, signature: Signature) -> None:
-        self._source = source
-        self._signature = signature
-        self.all = [s for s in source.statements if isinstance(s, Law) and not self._is_static(s)]
-        derived = {law.head.atom.name for law in source.each(syntax.StateConstraint)}
-        stated = {n for n, s in signature.symbols.items() if s.kind == "static"} - derived
-        atoms = (fact.literal.atom for fact in source.each(syntax.Fact))
-        self._stated = stated
-        self._facts = [atom for atom in atoms if atom.name in stated]
-
-    def kinds(self) -> list[Group]:
-        """The constants that no law names, those together that are of the same sorts."""
-        mentioned = {constant for law in self.all for constant in named(law)}
-        found: dict[frozenset[str], set[str]] = {}
-        for constant in self._signature.constants - mentioned:
-            found.setdefault(_sorts(constant, self._signature), set()).add(constant)
-        return [frozenset(kind) for kind in found.values()]
-
-    def against(self, group: Group) -> Group:
+    def _against(self, group: Group) -> Group:
         """Members of the group that the laws tie something else to; none if it is independent."""
-        for law in self.all:
-            for literal in self.loose(law, group):
+        for law in self._laws:
+            for literal in self._loose(law, group):
                 if not self._may_be_loose(law, literal):
                     loose = self._loose_variables(law, group).intersection(_variables(literal))
                     return group.intersection(*(self._domains(law)[v] for v in sorted(loose)[:1]))
         return frozenset()
 
-    def loose(self, law: Law, group: Group) -> Iterator[syntax.Literal]:
+    def _loose(self, law: Law, group: Group) -> Iterator[syntax.Literal]:
         """The conditions on members of the group that what the law is about is not tied to."""
         # A causal law is about its effect, so that its action is a condition like others.
         loose = self._loose_variables(law, group)
@@ -104,7 +88,7 @@ class _Laws:
             conditions.append(syntax.Literal(law.action, True))
         return (c for c in conditions if loose.intersection(_variables(c)))
 
-    def groups(self, members: Group) -> Mapping[str, Group]:
+    def _groups(self, members: Group) -> Mapping[str, Group]:
         """Of each member those that stated statics connect it with."""
         found: dict[str, Group] = {member: frozenset([member]) for member in members}
         for fact in self._facts:
@@ -212,38 +196,33 @@ def _is_guarded(
 
     That is, one without other conditions than that the head is false.
     """
-    made: Substitution = {}
-    if not _match(maker.head.atom, condition.atom, made):
+    made = _bound(maker.head.atom.args, _names(condition.atom))
+    if made is None:
         return False
-    action = [made.get(term.name, term.name) for term in maker.action.args]
+    action = [made.get(name, name) for name in _names(maker.action)]
     return any(
-        len(law.actions) == 1
-        and law.actions[0].name == maker.action.name
-        and _forbids(law, action, head)
-        for law in source.each(syntax.ExecutabilityCondition)
+        hindered.name == maker.action.name
+        and (literal.atom.name, literal.positive) == (head.atom.name, not head.positive)
+        and _bound((*hindered.args, *literal.atom.args), (*action, *_names(head.atom))) is not None
+        for hindered, literal in _simple_hindrances(source)
     )
 
 
-def _forbids(law: syntax.ExecutabilityCondition, action: list[str], head: syntax.Literal) -> bool:
-    if len(law.body) != 1 or not isinstance(law.body[0], syntax.Literal):
-        return False
+def _simple_hindrances(source: syntax.Source) -> Iterator[tuple[syntax.Atom, syntax.Literal]]:
+    """The actions that are impossible while one literal holds, whatever else does."""
+    for law in source.each(syntax.ExecutabilityCondition):
+        if len(law.actions) == len(law.body) == 1 and isinstance(law.body[0], syntax.Literal):
+            yield law.actions[0], law.body[0]
+
+
+def _names(atom: syntax.Atom) -> list[str]:
+    return [term.name for term in atom.args]
+
+
+def _bound(pattern: Iterable[syntax.Term], given: Iterable[str]) -> Substitution | None:
+    """What the variables of a pattern stand for where it becomes the given terms, if it does."""
     found: Substitution = {}
-    literal = law.body[0]
-    return (
-        literal.positive != head.positive
-        and literal.atom.name == head.atom.name
-        and _bind(law.actions[0], action, found)
-        and _match(literal.atom, head.atom, found)
-    )
-
-
-def _match(pattern: syntax.Atom, atom: syntax.Atom, found: Substitution) -> bool:
-    """Extends a substitution of the pattern's variables so that it becomes the atom."""
-    return _bind(pattern, [term.name for term in atom.args], found)
-
-
-def _bind(pattern: syntax.Atom, names: list[str], found: Substitution) -> bool:
-    return len(pattern.args) == len(names) and all(
-        found.setdefault(term.name, given) == given if term.is_variable else term.name == given
-        for term, given in zip(pattern.args, names, strict=True)
-    )
+    for term, value in zip(pattern, given, strict=True):
+        if value != (found.setdefault(term.name, value) if term.is_variable else term.name):
+            return None
+    return found
