@@ -5,10 +5,8 @@ What only large problems need is switched here.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from itertools import pairwise
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Protocol
 
 from asp.language import (
     Description,
@@ -38,21 +36,8 @@ MOST_PARTS = 16
 """Of how many parts of a domain planners are kept: those that were used last."""
 
 
-class Planner(Protocol):
-    """Shortest plans of a domain from complete states, and what becomes of given plans."""
-
-    def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
-        """The first of the shortest plans of at most `limit` actions, or None.
-
-        Earlier actions count before later ones, at one step the action declared first.
-        """
-
-    def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
-        """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
-
-
 class IncrementalPlanner:
-    """A `Planner` that prepares each part of a domain once.
+    """Shortest plans of a domain from complete states; each part of it is prepared once.
 
     Constants that a goal can do without are left out (`asp.reasoning.relevance`); those that are
     left are renamed to the first of their class, so that problems that differ in names alone share
@@ -71,12 +56,11 @@ class IncrementalPlanner:
     def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
-        Raises LimitError; asked the same again, it goes on where it was.
+        Earlier actions count before later ones, at one step the action declared first. Raises
+        LimitError; asked the same again, it goes on where it was.
         """
         view = _View(self._relevance, self._classes, state, goal)
-        part = self._part(view.dropped)
-        pairs = symmetric_pairs(part.classes, view.state, view.goal)
-        plan = part.shortest(view.state, view.goal, limit, pairs)
+        plan = self._part(view.dropped).shortest(view.state, view.goal, limit)
         return None if plan is None else view.back(plan)
 
     def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
@@ -103,7 +87,6 @@ class IncrementalPlanner:
             return ShortestPlans(
                 description,
                 translate_source(source, signature),
-                [[c for c in members if c not in dropped] for members in self._classes],
                 _state_space(description) if STATE_SET_SEARCH else None,
             )
 
@@ -151,29 +134,3 @@ class _View:
         """The plan in the names of the problem."""
         back = {new: old for old, new in self._names.items()}
         return tuple(renamed(action, back) for action in plan)
-
-
-def symmetric_pairs(
-    classes: Iterable[tuple[str, ...]], state: Collection[str], goal: Collection[str]
-) -> tuple[tuple[str, str], ...]:
-    """Neighbouring constants of a class of which the state and the goal say the same."""
-    true, wanted = _profiles(state), _profiles(goal)
-    nothing: frozenset[str] = frozenset()
-    return tuple(
-        (first, second)
-        for members in classes
-        for first, second in pairwise(members)
-        if true.get(first, nothing) == true.get(second, nothing)
-        and wanted.get(first, nothing) == wanted.get(second, nothing)
-    )
-
-
-def _profiles(literals: Collection[str]) -> Mapping[str, frozenset[str]]:
-    """What is said of each constant, with a blank in its place."""
-    said: dict[str, set[str]] = {}
-    for literal in literals:
-        constants = arguments(literal)
-        for constant in constants:
-            blanked = ",".join("_" if c == constant else c for c in constants)
-            said.setdefault(constant, set()).add(f"{literal.partition('(')[0]}({blanked})")
-    return {constant: frozenset(texts) for constant, texts in said.items()}

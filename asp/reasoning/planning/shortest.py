@@ -6,14 +6,14 @@ clingo finds it, in a program for each length that is grounded once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain, pairwise, product, repeat
+from itertools import chain, product, repeat
 
 import clingo
 from clingo import Symbol
 
-from asp.language import Description, Literal
+from asp.language import Description
 from asp.reasoning.planning.large.search import Search, StateSpace
 from asp.solving import (
     LimitError,
@@ -39,8 +39,6 @@ MOST_LEVELS = 32_767
 
 _LEAST_HORIZON = 8
 
-Pairs = tuple[tuple[str, str], ...]
-
 
 @dataclass
 class _Question:
@@ -58,37 +56,27 @@ class ShortestPlans:
         self,
         description: Description,
         program: str,
-        classes: Iterable[Sequence[str]],
         space: StateSpace | None,
     ) -> None:
-        """`program` is the description's translation, `space` what it is searched in, if it is.
-
-        `classes` are the interchangeable constants, each class in order of declaration.
-        """
-        self.classes = tuple(map(tuple, classes))
+        """`program` is the description's translation, `space` what it is searched in, if it is."""
         self._fluents = description.fluents
         self._actions = description.agent_actions
         self._program = program
-        self._facts = tuple(_facts(description, self.classes))
         self._space = space
         self._planning: Recent[int, Session] = Recent(MOST_LENGTHS)
         self._following: Recent[int, Session] = Recent(MOST_LENGTHS)
         self._open: _Question | None = None
 
-    def shortest(
-        self, state: State, goal: tuple[str, ...], limit: int, symmetric: Pairs = ()
-    ) -> tuple[str, ...] | None:
+    def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
-        Of each symmetric pair the first constant is used first: a plan that does otherwise comes
-        later in the order than the one with the two exchanged. Raises LimitError; asked again,
-        it goes on where it was.
+        Raises LimitError; asked again, it goes on where it was.
         """
         question, self._open = self._open, None
         if question is None or question.asked != (state, goal):
             question = _Question((state, goal), self._search(state, goal))
         try:
-            return self._answer(question, limit, symmetric)
+            return self._answer(question, limit)
         except LimitError:
             self._open = question
             raise
@@ -118,24 +106,23 @@ class ShortestPlans:
     def _search(self, state: State, goal: tuple[str, ...]) -> Search | None:
         return None if self._space is None else self._space.search(state, goal)
 
-    def _answer(self, question: _Question, limit: int, pairs: Pairs) -> tuple[str, ...] | None:
+    def _answer(self, question: _Question, limit: int) -> tuple[str, ...] | None:
         if question.search is not None:
             spend = current().take_expansions
             least = question.search.distance(limit, spend)
             return None if least is None else question.search.first_plan(spend)
         while question.length <= limit:
-            plan = self._of_length(question, pairs)
+            plan = self._of_length(question)
             if plan is not None:
                 return plan
             question.length += 1
         return None
 
-    def _of_length(self, question: _Question, pairs: Pairs) -> tuple[str, ...] | None:
+    def _of_length(self, question: _Question) -> tuple[str, ...] | None:
         """The first plan of the question's length in the order of declaration, or None."""
         (state, goal), length = question.asked, question.length
         session = self._planning.get(length, lambda: self._session("plan", length))
-        ordered = (fact("symmetric", *pair) for pair in pairs)
-        session.switch_on(*goal_externals(goal), *ordered)
+        session.switch_on(*goal_externals(goal))
         start = session.assume_state(state, 0)
         if start is None:
             return None
@@ -143,7 +130,7 @@ class ShortestPlans:
             return None if model is None else self._read(session, model, length)
 
     def _session(self, part: str, steps: int) -> Session:
-        facts = (*self._facts, *_candidates(self._actions, steps))
+        facts = _candidates(self._actions, steps)
         return Session(self._program, "incremental_planning", self._fluents, facts, [part], n=steps)
 
     def _read(self, session: Session, model: clingo.Model, length: int) -> tuple[str, ...]:
@@ -156,17 +143,6 @@ class ShortestPlans:
             )
             for step in range(length)
         )
-
-
-def _facts(description: Description, classes: Iterable[Sequence[str]]) -> Iterator[Symbol]:
-    """names(A,C) and neighbours(C1,C2) of interchangeable constants."""
-    for members in classes:
-        for action in description.agent_actions:
-            for constant in members:
-                if constant in Literal.parse(action).arguments:
-                    yield fact("names", action, constant)
-        for pair in pairwise(members):
-            yield fact("neighbours", *pair)
 
 
 def _candidates(actions: Iterable[str], steps: int) -> Iterator[Symbol]:

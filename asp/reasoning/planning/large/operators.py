@@ -12,10 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from asp.language import Description, atom, complement, is_positive
-from asp.reasoning.planning.large.outcomes import Laws, NotEncodableError
-from asp.reasoning.planning.large.variables import Law
-
-NONE, FALSE, TRUE = "none", "false", "true"
+from asp.reasoning.planning.large.outcomes import Law, Laws, NotEncodableError
 
 Values = tuple[tuple[int, int], ...]
 """Variables, each with a value, both by number."""
@@ -33,24 +30,23 @@ class Operator:
 class Encoding:
     """The variables of a description and its operators. Raises NotEncodableError.
 
-    `domains` are the values of each variable: fluents, of which this one is true, and NONE where
-    none of them may be; or TRUE and FALSE of a fluent of its own, told by `names`.
+    `domains` are the values of each variable: fluents, of which this one is true, and None where
+    none of them may be.
     """
 
     def __init__(self, description: Description) -> None:
         if description.defined:
             raise NotEncodableError("defined fluents are not encoded")
-        groups = list(_groups(description))
-        self.names = tuple(group[0] for group in groups)
-        self.domains = tuple(_domain(description, group) for group in groups)
-        self._entries = dict(self._all_entries(groups))
+        self.domains = tuple(_domain(description, group) for group in _groups(description))
+        self._entries = {
+            fluent: (variable, value)
+            for variable, domain in enumerate(self.domains)
+            for value, fluent in enumerate(domain)
+            if fluent is not None
+        }
+        constraints = (self._law(law.head, law.body) for law in description.constraints)
         self._laws = Laws(
-            (
-                Law(self.assignment(law.head), tuple(map(self.assignment, law.body)))
-                for law in description.constraints
-                if not self._excludes(law.head, law.body)
-            ),
-            list(map(len, self.domains)),
+            (law for law in constraints if not _excludes_values(law)), list(map(len, self.domains))
         )
         self.operators = tuple(self._operators(description))
         self._by_action: dict[str, list[Operator]] = {}
@@ -59,16 +55,14 @@ class Encoding:
 
     def values(self, true: Collection[str]) -> tuple[int, ...] | None:
         """The state in which these fluents are true, a value of each variable; None: no state."""
-        state = [
-            values.index(FALSE) if FALSE in values else values.index(NONE) if NONE in values else -1
-            for values in self.domains
-        ]
+        state = [domain.index(None) if None in domain else -1 for domain in self.domains]
         for fluent in true:
             variable, value = self._entries[fluent]
             state[variable] = value
-        said = {self._fluent(*entry) for entry in enumerate(state)} - {None}
-        legal = -1 not in state and said == set(true) and self._laws.hold(state)
-        return tuple(state) if legal else None
+        if -1 in state:
+            return None
+        said = {domain[value] for domain, value in zip(self.domains, state, strict=True)}
+        return tuple(state) if said - {None} == set(true) and self._laws.hold(state) else None
 
     def after(self, state: tuple[int, ...], action: str) -> tuple[int, ...] | None:
         """The state that an agent action leads to; None where it is impossible."""
@@ -82,32 +76,13 @@ class Encoding:
         """The variable of a literal, the value it speaks of, and whether it claims or denies it."""
         return (*self._entries[atom(literal)], is_positive(literal))
 
-    def _fluent(self, variable: int, value: int) -> str | None:
-        text = self.domains[variable][value] if value >= 0 else NONE
-        return self.names[variable] if text == TRUE else None if text in (NONE, FALSE) else text
-
-    def _all_entries(self, groups: Iterable[list[str]]) -> Iterator[tuple[str, tuple[int, int]]]:
-        for variable, group in enumerate(groups):
-            for fluent in group:
-                value = TRUE if TRUE in self.domains[variable] else fluent
-                yield fluent, (variable, self.domains[variable].index(value))
-
-    def _excludes(self, head: str, body: Collection[str]) -> bool:
-        """Whether a constraint says that two values of one variable exclude each other."""
-        if is_positive(head) or len(body) != 1:
-            return False
-        (condition,) = body
-        return (
-            is_positive(condition)
-            and condition != atom(head)
-            and self._entries[condition][0] == self._entries[atom(head)][0]
-        )
+    def _law(self, head: str, body: Iterable[str]) -> Law:
+        return Law(self.assignment(head), tuple(map(self.assignment, body)))
 
     def _operators(self, description: Description) -> Iterator[Operator]:
         effects: dict[str, list[Law]] = {}
         for causal in description.causal:
-            law = Law(self.assignment(causal.head), tuple(map(self.assignment, causal.body)))
-            effects.setdefault(causal.action, []).append(law)
+            effects.setdefault(causal.action, []).append(self._law(causal.head, causal.body))
         hindrances: dict[str, list[tuple[tuple[int, int, bool], ...]]] = {}
         for condition in description.executability:
             if len(set(condition.actions)) == 1:
@@ -119,6 +94,14 @@ class Encoding:
                 if after is None:
                     raise NotEncodableError(f"{action} may have several outcomes")
                 yield Operator(action, before, after)
+
+
+def _excludes_values(law: Law) -> bool:
+    """Whether a constraint says only that two values of one variable exclude each other."""
+    (variable, value, claims), body = law.head, law.body
+    return (
+        not claims and len(body) == 1 and body[0][::2] == (variable, True) and body[0][1] != value
+    )
 
 
 def _groups(description: Description) -> Iterator[list[str]]:
@@ -144,10 +127,9 @@ def _group(fluent: str, excluded: Mapping[str, set[str]], done: set[str]) -> lis
     return group
 
 
-def _domain(description: Description, group: list[str]) -> tuple[str, ...]:
-    if len(group) == 1:
-        return (TRUE, FALSE)
-    return (*group,) if _always_one(description, group) else (*group, NONE)
+def _domain(description: Description, group: list[str]) -> tuple[str | None, ...]:
+    always_one = len(group) > 1 and _always_one(description, group)
+    return (*group,) if always_one else (*group, None)
 
 
 def _always_one(description: Description, group: list[str]) -> bool:

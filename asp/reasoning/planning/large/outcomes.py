@@ -11,21 +11,30 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from asp.reasoning.planning.large.variables import (
-    UNDECIDED,
-    Body,
-    Law,
-    Literal,
-    by_value,
-    pairs,
-    says,
-    truth_of,
-    unknown_in,
-)
 from asp.solving import current
+
+Literal = tuple[int, int, bool]
+"""A variable, a value, and whether the variable has it."""
+
+Body = tuple[Literal, ...]
+
+UNDECIDED = -1
+"""Stands for the value of a variable of which nothing is known."""
+
+
+@dataclass(frozen=True)
+class Law:
+    """`head if body`."""
+
+    head: Literal
+    body: Body
+
 
 MOST_BRANCHES = 50_000
 """How many combinations of values are looked at, all actions of a description together."""
+
+_Branch = tuple[list[int], Sequence[Body]]
+"""Values, as far as they are decided, and what of the hindrances is still open there."""
 
 Case = tuple[tuple[tuple[int, int], ...], tuple[tuple[int, int], ...] | None]
 """What is true before and what is changed; None where there may be several outcomes."""
@@ -33,21 +42,6 @@ Case = tuple[tuple[tuple[int, int], ...], tuple[tuple[int, int], ...] | None]
 
 class NotEncodableError(ValueError):
     """A description with defined fluents, with several outcomes of an action, or too many cases."""
-
-
-@dataclass(frozen=True)
-class _Split:
-    """The outcome depends on a variable of which nothing is known."""
-
-    variable: int
-
-
-@dataclass(frozen=True)
-class _Branch:
-    """Values, as far as they are decided, and what of the hindrances is still open there."""
-
-    before: list[int]
-    hindrances: Sequence[Body]
 
 
 class Laws:
@@ -81,35 +75,33 @@ class Laws:
 
         Raises NotEncodableError where these are too many, and LimitError.
         """
-        branches = [_Branch([UNDECIDED] * len(self._sizes), hindrances)]
+        branches: list[_Branch] = [([UNDECIDED] * len(self._sizes), hindrances)]
         while branches:
             current().check_time()
             self._branches += 1
             if self._branches > MOST_BRANCHES:
                 raise NotEncodableError(f"actions have more than {MOST_BRANCHES} cases")
-            branch = branches.pop()
-            if () in branch.hindrances:
+            before, left = branches.pop()
+            if () in left:
                 continue
-            if branch.hindrances:
-                branches += self._decided(branch, branch.hindrances[0][0][0])
-                continue
-            found = self._outcome(effects, branch.before)
-            if isinstance(found, _Split):
-                branches += self._decided(branch, found.variable)
+            found = left[0][0][0] if left else self._outcome(effects, before)
+            if isinstance(found, int):
+                branches += self._decided(before, left, found)
             elif found is not None:
                 yield found
 
-    def _decided(self, branch: _Branch, variable: int) -> Iterator[_Branch]:
+    def _decided(
+        self, before: Sequence[int], hindrances: Sequence[Body], variable: int
+    ) -> Iterator[_Branch]:
         """The branch for each value of a variable."""
-        open_bodies = by_value(branch.hindrances, variable, self._sizes[variable])
-        for value, hindrances in enumerate(open_bodies):
-            before = branch.before.copy()
-            before[variable] = value
-            implied = self._imply(before, variable)
+        for value, left in enumerate(by_value(hindrances, variable, self._sizes[variable])):
+            values = [*before]
+            values[variable] = value
+            implied = self._imply(values, variable)
             if implied is not None:
                 for other in implied:
-                    hindrances = by_value(hindrances, other, self._sizes[other])[before[other]]
-                yield _Branch(before, hindrances)
+                    left = by_value(left, other, self._sizes[other])[values[other]]
+                yield values, left
 
     def _imply(self, before: list[int], variable: int) -> list[int] | None:
         """Adds the values that constraints imply, of which variables; None: no such state."""
@@ -130,20 +122,24 @@ class Laws:
         """The constraints with a condition that may have come true with a value."""
         return (*self._claiming.get((variable, value), ()), *self._denying.get(variable, ()))
 
-    def _outcome(self, effects: Sequence[Law], before: list[int]) -> Case | _Split | None:
+    def _outcome(self, effects: Sequence[Law], before: list[int]) -> Case | int | None:
+        """The outcome of an action; a variable that has to be decided first; or there is none."""
         known: dict[Literal, None] = {}
         for law in effects:
             unknown = unknown_in(law.body, before)
             if unknown is None:
                 known[law.head] = None
             elif unknown >= 0:
-                return _Split(unknown)
+                return unknown
         used: set[Literal] = set()
         unknown = self._close(known, used, before)
-        if unknown is None:
-            unknown = self._undecided_denial(known, before)
         if unknown is not None:
-            return _Split(unknown)
+            return unknown
+        claimed = {variable for variable, _, truth in known if truth}
+        for variable, _, truth in known:
+            # It loses a value which it may or may not have.
+            if not truth and variable not in claimed and before[variable] == UNDECIDED:
+                return variable
         return self._judged(known, used, before)
 
     def _close(
@@ -169,15 +165,9 @@ class Laws:
                     return unknown
         return None
 
-    def _undecided_denial(self, known: Iterable[Literal], before: list[int]) -> int | None:
-        """A variable that loses a value which it may or may not have."""
-        claimed = {variable for variable, _, truth in known if truth}
-        denied = (variable for variable, _, truth in known if not truth)
-        return next((v for v in denied if v not in claimed and before[v] == UNDECIDED), None)
-
     def _judged(
         self, known: Iterable[Literal], used: Iterable[Literal], before: list[int]
-    ) -> Case | _Split | None:
+    ) -> Case | int | None:
         """The outcome if it is one state, none, or several that cannot be told apart here."""
         if any(says(literal, (v, x, not truth)) for literal in known for v, x, truth in used):
             return pairs(before), None
@@ -198,5 +188,56 @@ class Laws:
                     if unknown is None:
                         return None
                     if unknown >= 0:
-                        return _Split(unknown)
+                        return unknown
         return pairs(before), after
+
+
+def by_value(bodies: Sequence[Body], variable: int, size: int) -> list[list[Body]]:
+    """Of each value of a variable, what is then left of the bodies that it does not make false."""
+    found: list[list[Body]] = [[] for _ in range(size)]
+    for body in bodies:
+        rest = tuple(literal for literal in body if literal[0] != variable)
+        values = set(range(size)) if len(rest) == len(body) else _values(body, variable, size)
+        for value in values:
+            found[value].append(rest)
+    return found
+
+
+def _values(body: Body, variable: int, size: int) -> set[int]:
+    """The values of a variable that satisfy what a body says of it."""
+    values = set(range(size))
+    for about, value, truth in body:
+        if about == variable:
+            values &= {value} if truth else values - {value}
+    return values
+
+
+def pairs(before: Sequence[int]) -> tuple[tuple[int, int], ...]:
+    """The variables that have a value, each with it."""
+    return tuple((v, x) for v, x in enumerate(before) if x != UNDECIDED)
+
+
+def truth_of(literal: Literal, state: Sequence[int]) -> bool | None:
+    """Whether a literal is true; None where its variable is undecided."""
+    variable, value, truth = literal
+    known = state[variable]
+    return None if known == UNDECIDED else (known == value) == truth
+
+
+def unknown_in(body: Body, state: Sequence[int]) -> int | None:
+    """None if the body is true; -1 if it is false; else a variable that decides it."""
+    first: int | None = None
+    for literal in body:
+        truth = truth_of(literal, state)
+        if truth is False:
+            return -1
+        if truth is None and first is None:
+            first = literal[0]
+    return first
+
+
+def says(known: Literal, condition: Literal) -> bool:
+    """Whether one literal makes the other true: also, that a variable has another value."""
+    if known[:2] == condition[:2]:
+        return known[2] == condition[2]
+    return known[0] == condition[0] and known[2] and not condition[2]

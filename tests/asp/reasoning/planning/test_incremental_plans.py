@@ -11,7 +11,6 @@ from clingo import Control
 
 from asp.language import Description, analyse, parse_description, read_domain
 from asp.reasoning.planning import Encoding, IncrementalPlanner, shortest
-from asp.reasoning.planning.incremental import symmetric_pairs
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.search import StateSpace
 from asp.reasoning.relevance import Relevance
@@ -261,10 +260,3 @@ def test_a_book_in_the_hand_stands_in_the_way() -> None:
     assert relevance.spare(state, ["loc(book1,library)"]) == {"book2"}
     held = state | {"in_hand(rob1,book2)"}
     assert relevance.spare(held, ["loc(book1,library)"]) == set()
-
-
-def test_neighbours_are_symmetric_where_state_and_goal_say_the_same_of_both() -> None:
-    classes = [("a", "b", "c")]
-    state = {"loc(a,x)", "loc(b,x)", "loc(c,y)", "loc(robot,x)"}
-    assert symmetric_pairs(classes, state, {"loc(a,z)", "loc(b,z)"}) == (("a", "b"),)
-    assert symmetric_pairs(classes, state, {"loc(a,z)"}) == ()
