@@ -76,7 +76,7 @@ class IntentionalReasons(Reasons):
         for later, action in enumerate(left, start=step):
             after = self._sessions.transitions.after(state, action, ())
             if after is None or not after[1]:
-                hindrance = self._sessions.reach.hindrance(state, action)
+                hindrance = self._sessions.transitions.hindrance(state, action)
                 because = (" with ", listed(hindrance)) if hindrance else ()
                 attempt, at = Literal.parse(action), Step(later)
                 said = ("futile: ", attempt, " is impossible at step ", at, *because)

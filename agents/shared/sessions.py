@@ -40,7 +40,8 @@ def sessions_of(knowledge: Knowledge) -> Sessions:
     def made() -> Sessions:
         description = knowledge.description
         plans = IncrementalPlanner(description.source, f"{description.name}.al")
-        reach = Reachability(description, knowledge.program, plans.reachable)
-        return Sessions(DiagnosisSessions(knowledge), plans, reach)
+        diagnosis = DiagnosisSessions(knowledge)
+        reach = Reachability(description, diagnosis.transitions, plans.reachable)
+        return Sessions(diagnosis, plans, reach)
 
     return _SESSIONS.get(knowledge.program, made)

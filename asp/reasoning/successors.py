@@ -8,12 +8,15 @@ from dataclasses import dataclass
 import clingo
 from clingo import Symbol
 
-from asp.solving import Session, State, answer_sets, fact, solving
+from asp.language import atom, is_positive
+from asp.solving import Session, State, answer_sets, core, fact, is_satisfiable, solving
 
 MOST_ASSUMED = 6
 """How many unobserved events and distrusted reports are assumed of one step at most."""
 
-_BRANCHING, _PAST, _FAILING = map(clingo.Function, ("branching", "past", "failing"))
+_BRANCHING, _CHOOSING, _PAST, _FAILING = map(
+    clingo.Function, ("branching", "choosing", "past", "failing")
+)
 
 
 @dataclass(frozen=True)
@@ -34,14 +37,9 @@ class Transitions:
     """The transition diagram of a domain, one transition at a time."""
 
     def __init__(self, program: str, fluents: Sequence[str], ranks: Iterable[Symbol]) -> None:
+        self._fluents = tuple(fluents)
         self._session = Session(
-            program,
-            "incremental_transitions",
-            fluents,
-            ranks,
-            ["reports"],
-            n=1,
-            most=MOST_ASSUMED + 1,
+            program, "incremental_transitions", fluents, ranks, n=1, most=MOST_ASSUMED + 1
         )
 
     def after(
@@ -89,6 +87,43 @@ class Transitions:
         limited = assumptions if more is None else [*assumptions, -more]
         found, left_off = answer_sets(session.control, limited, most)
         return None if left_off else [_branch(shown) for shown in found]
+
+    def successors(self, state: State) -> set[State]:
+        """The states that actions of the agent's own may lead to. Raises LimitError."""
+        self._session.switch_on(_CHOOSING)
+        assumptions = self._session.assume_state(state, 0)
+        if assumptions is None:
+            return set()
+        found, _ = answer_sets(self._session.control, assumptions)
+        return {_branch(shown).state for shown in found}
+
+    def hindrance(self, state: State, action: str) -> tuple[str, ...]:
+        """Literals of a state that make an action impossible, none of which can be left out.
+
+        Empty if it is possible there, or impossible everywhere. True fluents are preferred. Raises
+        LimitError.
+        """
+        self._session.switch_on(_CHOOSING)
+        occurs = self._session.literal("occurs", action, 0)
+        if occurs is None:
+            return ()
+        literals = {
+            number if fluent in state else -number: fluent if fluent in state else f"-{fluent}"
+            for fluent in self._fluents
+            if (number := self._session.holds(fluent, 0)) is not None
+        }
+        in_order = sorted(literals, key=lambda number: is_positive(literals[number]))
+        found = core(self._session.control, [occurs], in_order)
+        return tuple(sorted(literals[number] for number in found or ()))
+
+    def satisfiable(self, goal: Iterable[str]) -> bool:
+        """Whether some state satisfies a goal. Raises LimitError."""
+        self._session.switch_on()
+        wanted = [(self._session.holds(atom(each), 0), is_positive(each)) for each in goal]
+        if any(number is None and truth for number, truth in wanted):
+            return False
+        assumed = [number if truth else -number for number, truth in wanted if number is not None]
+        return is_satisfiable(self._session.control, assumed)
 
 
 def _actions(attempt: str | None, reported: tuple[str, ...]) -> list[Symbol]:

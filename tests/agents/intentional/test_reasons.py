@@ -202,9 +202,9 @@ def _reachable(world: World, start: int) -> set[int]:
     goal=st.lists(st.sampled_from(LITERALS), min_size=1, max_size=3),
 )
 def test_out_of_reach_is_what_no_search_finds(start: int, goal: list[str]) -> None:
-    expected = not any(WORLD.satisfies(state, goal) for state in _reachable(WORLD, start))
-    found = sessions_of(OFFICE).reach.out_of_reach(frozenset(WORLD.true_atoms(start)), tuple(goal))
-    assert found == expected
+    expected = any(WORLD.satisfies(state, goal) for state in _reachable(WORLD, start))
+    found = sessions_of(OFFICE).reach.reachable(frozenset(WORLD.true_atoms(start)), tuple(goal))
+    assert found is expected
 
 
 def test_nor_where_some_fluents_are_defined() -> None:
@@ -213,9 +213,9 @@ def test_nor_where_some_fluents_are_defined() -> None:
     for start in world.initial_states():
         reachable = _reachable(world, start)
         for goal in combinations(literals, 2):
-            expected = not any(world.satisfies(state, goal) for state in reachable)
-            found = reach.out_of_reach(frozenset(world.true_atoms(start)), goal)
-            assert found == expected, (world.true_atoms(start), goal)
+            expected = any(world.satisfies(state, goal) for state in reachable)
+            found = reach.reachable(frozenset(world.true_atoms(start)), goal)
+            assert found is expected, (world.true_atoms(start), goal)
 
 
 @pytest.mark.parametrize(
@@ -232,16 +232,16 @@ def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
 ) -> None:
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     plans = IncrementalPlanner(CART.description.source, "cart.al")
-    reach = Reachability(CART.description, CART.program, plans.reachable)
-    assert reach.out_of_reach(frozenset(["at(left)"]), goal) is provable
+    reach = Reachability(CART.description, sessions_of(CART).transitions, plans.reachable)
+    assert (reach.reachable(frozenset(["at(left)"]), goal) is False) is provable
 
 
 def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     moved = knowledge("cart", CART.description.source.replace("if lit, -shut", "if at(left)"))
     plans = IncrementalPlanner(moved.description.source, "cart.al")
-    reach = Reachability(moved.description, moved.program, plans.reachable)
-    assert not reach.out_of_reach(frozenset(["at(left)", "safe"]), ("-safe",))
+    reach = Reachability(moved.description, sessions_of(moved).transitions, plans.reachable)
+    assert reach.reachable(frozenset(["at(left)", "safe"]), ("-safe",)) is not False
 
 
 @pytest.mark.parametrize(
