@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from clingo import Symbol
 
@@ -20,12 +21,8 @@ def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...
     element is `obs(LITERAL) at STEP`, or `hpd(ACTION) at STEP` for the result of an attempt, with
     `-` before an action that did not take effect. Raises LimitError.
     """
-    control = ground([program, theory("conflict")], {"n": step}, facts)
-    atoms = control.symbolic_atoms.by_signature("stated", 1)
-    statements = {atom.literal: atom.symbol.arguments[0] for atom in atoms}
-    in_order = sorted(statements, key=lambda literal: _place(statements[literal]))
-    found = core(control, [], in_order)
-    return None if found is None else tuple(_text(statements[literal]) for literal in found)
+    found = _core(program, facts, step, _place)
+    return None if found is None else tuple(map(_text, found))
 
 
 def distrust_tests(knowledge: Knowledge, goal: Iterable[str], history: History) -> bool:
@@ -56,12 +53,8 @@ def never_together(program: str, literals: Iterable[str]) -> tuple[str, ...] | N
         fact("obs", atom(literal), "true" if is_positive(literal) else "false", 0): literal
         for literal in literals
     }
-    facts = [*wanted, fact("current_step", 0)]
-    control = ground([program, theory("conflict")], {"n": 0}, facts)
-    stated = {control.symbolic_atoms[fact("stated", obs)]: obs for obs in wanted}
-    numbers = {found.literal: wanted[obs] for found, obs in stated.items() if found is not None}
-    part = core(control, [], list(numbers))
-    return None if part is None else tuple(numbers[number] for number in part)
+    part = _core(program, [*wanted, fact("current_step", 0)], 0, list(wanted).index)
+    return None if part is None else tuple(wanted[statement] for statement in part)
 
 
 def cannot_hold(observations: tuple[str, ...]) -> str:
@@ -72,6 +65,17 @@ def cannot_hold(observations: tuple[str, ...]) -> str:
         return f"{observations[0]} cannot hold"
     together = "both" if len(observations) == 2 else "all"
     return f"{', '.join(observations[:-1])} and {observations[-1]} cannot {together} hold"
+
+
+def _core(
+    program: str, facts: Iterable[Symbol], step: int, place: Callable[[Symbol], Any]
+) -> list[Symbol] | None:
+    """A smallest part of what is stated that cannot be; those of later places first."""
+    control = ground([program, theory("conflict")], {"n": step}, facts)
+    atoms = control.symbolic_atoms.by_signature("stated", 1)
+    statements = {atom.literal: atom.symbol.arguments[0] for atom in atoms}
+    found = core(control, [], sorted(statements, key=lambda literal: place(statements[literal])))
+    return None if found is None else [statements[literal] for literal in found]
 
 
 def _place(statement: Symbol) -> tuple[int, str]:

@@ -220,9 +220,8 @@ class IncrementalDiagnoser(Generic[H_contra]):
 
     def _problem(self, step: int) -> Problem:
         """All that there is to explain up to a step."""
-        if step:
-            return Problem(self._goal, dict(self._records), step, self._since)
-        return Problem(self._goal, {0: self._records[0]}, 0, 0)
+        records = {time: record for time, record in self._records.items() if time <= step}
+        return Problem(self._goal, records, step, self._since)
 
     def _unknown(self, history: History) -> list[str]:
         """The inertial fluents of which nothing was observed at step 0."""

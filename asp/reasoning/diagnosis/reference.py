@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from math import inf
 from typing import ClassVar, Generic
 
 import clingo
@@ -36,11 +37,8 @@ SEARCH, BETTERING = 0.5, 0.75
 and then for the best it can find; what is left is for planning."""
 
 _KEEP, _KEEP_INITIAL = clingo.Function("keep"), clingo.Function("keep_initial")
-_FIRST_TRY, _ROOM, _FIRST_WINDOW = 4, 16, 4
+_FIRST_TRY, _ROOM, _FIRST_END = 4, 16, 4
 _EXPLAINING = ("defaults", "order", "diagnosis")
-
-Answer = Sequence[Symbol]
-"""The shown atoms of an answer set."""
 
 
 class ReferenceDiagnoser(Generic[H_contra]):
@@ -80,7 +78,7 @@ class ReferenceDiagnoser(Generic[H_contra]):
         def counting(most: int) -> clingo.Control:
             return ground(programs, {**constants, "max_unobserved": most}, given)
 
-        def smallest(most: int) -> Answer | None:
+        def smallest(most: int) -> Diagnosis | None:
             control = counting(most)
             return (_kept(control) if keeps else None) or _smallest(control)
 
@@ -90,14 +88,12 @@ class ReferenceDiagnoser(Generic[H_contra]):
                 if history.has_doubts:  # where some are wrong no number of events need be tried
                     _check(programs[0], given, step)
                 limits = event_limits(programs[0], given, step, size)
-                return diagnosis_of(next(filter(None, map(smallest, limits))))
+                return next(filter(None, map(smallest, limits)))
         except BudgetError:
             pass
-        for most in _room_for_events(given, step, size + _ROOM):
-            found = _best(counting(most), adopted, step)
-            if found is not None:
-                return diagnosis_of(found, proved=False)
-        raise _nothing_explains(step)
+        room = _room_for_events(given, step, size + _ROOM)
+        best = (_best(counting(most), adopted, step) for most in room)
+        return next(filter(None, best))
 
 
 def event_limits(program: str, facts: Sequence[Symbol], step: int, adopted: int) -> Iterator[int]:
@@ -111,26 +107,25 @@ def event_limits(program: str, facts: Sequence[Symbol], step: int, adopted: int)
     for most in _room_for_events(facts, step, max(_FIRST_TRY, adopted)):
         yield most
         _check(program, facts, step)
-    raise _nothing_explains(step)
 
 
-def diagnosis_of(model: Answer, proved: bool = True) -> Diagnosis:
+def diagnosis_of(model: Iterable[Symbol], proved: bool = True) -> Diagnosis:
     """What an answer set of the theory of diagnosis says, and whether nothing smaller does."""
     indices = {name.number: index.number for name, index in select(model, "index", 2)}
     return Diagnosis(explanation_of(model, proved), indices)
 
 
 def _room_for_events(facts: Iterable[Symbol], step: int, first: int) -> Iterator[int]:
-    """Ever larger numbers of events, up to all that can have occurred before the step."""
+    """Ever larger numbers of events, up to all that can have occurred before the step.
+
+    Raises InconsistentHistoryError instead of one more.
+    """
     possible = step * sum(symbol.match("rank", 2) for symbol in facts)
     while first < possible:
         yield first
         first *= 4
     yield possible
-
-
-def _nothing_explains(step: int) -> InconsistentHistoryError:
-    return InconsistentHistoryError(f"nothing explains the observations up to step {step}")
+    raise InconsistentHistoryError(f"nothing explains the observations up to step {step}")
 
 
 def _check(program: str, facts: Sequence[Symbol], step: int) -> None:
@@ -140,12 +135,12 @@ def _check(program: str, facts: Sequence[Symbol], step: int) -> None:
         raise InconsistentHistoryError(f"inconsistent history: {cannot_hold(found)}")
 
 
-def _kept(control: clingo.Control) -> Answer | None:
+def _kept(control: clingo.Control) -> Diagnosis | None:
     """The adopted explanation, with what was assumed of the initial state if that is possible."""
     for initial in (True, False):
         control.assign_external(_KEEP, True)
         control.assign_external(_KEEP_INITIAL, initial)
-        found = _preferred(control, ())
+        found = _preferred(control)
         control.assign_external(_KEEP, False)
         control.assign_external(_KEEP_INITIAL, False)
         if found is not None:
@@ -153,7 +148,7 @@ def _kept(control: clingo.Control) -> Answer | None:
     return None
 
 
-def _smallest(control: clingo.Control) -> Answer | None:
+def _smallest(control: clingo.Control) -> Diagnosis | None:
     """As few unobserved events as possible, and then as few exceptions to defaults."""
     for _, events in _numbered(control, "number_unobserved", 2):
         for _, exceptions in _numbered(control, "number_exceptions", 1):
@@ -169,12 +164,14 @@ def _numbered(control: clingo.Control, predicate: str, arity: int) -> list[tuple
     return sorted((atom.symbol.arguments[0].number, atom.literal) for atom in atoms)
 
 
-def _preferred(control: clingo.Control, assumptions: Sequence[int]) -> Answer | None:
+def _preferred(
+    control: clingo.Control, assumptions: Sequence[int] = (), proved: bool = True
+) -> Diagnosis | None:
     with preferring(control, assumptions) as model:
-        return None if model is None else model.symbols(shown=True)
+        return None if model is None else diagnosis_of(model.symbols(shown=True), proved)
 
 
-def _best(control: clingo.Control, adopted: Explanation, step: int) -> Answer | None:
+def _best(control: clingo.Control, adopted: Explanation, step: int) -> Diagnosis | None:
     """The best explanation found where there is no time for a smallest one; None: there is none.
 
     What was adopted is kept of all but the last steps, first of nearly all and then of ever less:
@@ -183,28 +180,20 @@ def _best(control: clingo.Control, adopted: Explanation, step: int) -> Answer | 
     explanation was found, the search goes on until there is one, or time runs out: raises
     LimitError.
     """
-    best: Answer | None = None
-    windows = list(_windows(step))
+    best: Diagnosis | None = None
+    ends = [_FIRST_END << doubled for doubled in range(step.bit_length())]
+    windows = [*(window for window in ends if window < step), step]
     for number, window in enumerate(windows, start=1):
         kept = list(_keeping(control, adopted, step - window))
         try:
             with up_to(SEARCH + (BETTERING - SEARCH) * number / len(windows)):
-                while (better := _preferred(control, [*kept, *_below(control, best)])) is not None:
+                while better := _preferred(control, [*kept, *_below(control, best)], proved=False):
                     best = better
         except BudgetError:
             continue
         if best is None and window == step:
             return None
-    return _any(control) if best is None else best
-
-
-def _windows(step: int) -> Iterator[int]:
-    """Numbers of steps at the end of the history, the last one being all of them."""
-    window = _FIRST_WINDOW
-    while window < step:
-        yield window
-        window *= 2
-    yield step
+    return best or _any(control)
 
 
 def _keeping(control: clingo.Control, adopted: Explanation, until: int) -> Iterator[int]:
@@ -219,18 +208,15 @@ def _keeping(control: clingo.Control, adopted: Explanation, until: int) -> Itera
                 yield atom.literal if (step.number, str(action)) in happenings else -atom.literal
 
 
-def _below(control: clingo.Control, best: Collection[Symbol] | None) -> list[int]:
+def _below(control: clingo.Control, best: Diagnosis | None) -> list[int]:
     """Assumptions for fewer events and distrusted reports than the best one has."""
-    if best is None:
-        return []
-    numbers = (symbol for symbol in best if symbol.match("number_unobserved", 2))
-    size = next(numbers).arguments[0].number
+    size = inf if best is None else best.explanation.size
     every = _numbered(control, "number_unobserved", 2)
     return [-literal for number, literal in every if number >= size]
 
 
-def _any(control: clingo.Control) -> Answer | None:
+def _any(control: clingo.Control) -> Diagnosis | None:
     """An explanation of any size, by a heuristic that is good at finding one."""
     control.configuration.solver.heuristic = "vsids"  # type: ignore[union-attr]
     with deciding(Limits(current().limits.seconds)), solving(control) as model:
-        return None if model is None else model.symbols(shown=True)
+        return None if model is None else diagnosis_of(model.symbols(shown=True), proved=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from asp.reasoning.diagnosis.encoding import (
@@ -24,22 +25,82 @@ from asp.solving import (
     theory,
 )
 
+FEW, MANY = 4, 16
+"""How many events and distrusted reports are counted: most explanations are of a few."""
+
 _FIRST_HORIZON = 16
-_FEW, _MANY = 4, 16
-_MOST_CONTROLS = 4
+_MOST_SESSIONS = 4
+
+
+@dataclass(frozen=True)
+class Question:
+    """A session switched to a problem, which counts events and distrusted reports up to `most`.
+
+    `given` are assumptions for everything observed; None where that cannot be.
+    """
+
+    session: Session
+    most: int
+    problem: Problem
+    given: list[int] | None
+
+    @property
+    def possible(self) -> bool:
+        """Whether any explanation has at most as many events as are counted."""
+        if self.most == FEW:
+            return self.given is not None  # found out while they are counted
+        return self.given is not None and is_satisfiable(self.session.control, self.given)
+
+    def assuming(self, more: Sequence[int] | None) -> Question:
+        """The question with more assumptions; None: with some that cannot be."""
+        given = None if self.given is None or more is None else [*self.given, *more]
+        return replace(self, given=given)
+
+    def first(self, events: int, exceptions: int | None = None) -> Interpretation | None:
+        """The preferred explanation with at most so many events and exactly so many exceptions."""
+        limited = self._at_most(events, exceptions)
+        if limited is None:
+            return None
+        with preferring(self.session.control, limited) as model:
+            return None if model is None else interpretation(self.session, model, self.problem)
+
+    def all(self, events: int, exceptions: int | None, most: int) -> tuple[list[Explanation], bool]:
+        """At most so many of these explanations, and whether there are more; True: cannot tell."""
+        limited = self._at_most(events, exceptions)
+        if limited is None or events > self.most:
+            return [], True
+        found, more = answer_sets(self.session.control, limited, most)
+        return [explanation_of(shown) for shown in found], more
+
+    def _at_most(self, events: int, exceptions: int | None) -> list[int] | None:
+        """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
+        if self.given is None:
+            return None
+        limited = list(self.given)
+        if events < self.most:
+            more = self.session.literal("count", self.problem.step, events + 1)
+            limited += [] if more is None else [-more]
+        if exceptions is not None:
+            number = self.session.literal("number_exceptions", exceptions)
+            if number is None:
+                return None
+            limited.append(number)
+        return limited
 
 
 class SmallestExplanations:
     """The smallest explanations in one domain; the horizon doubles where a history outgrows it.
 
-    A session counts events up to a number. Most explanations are of a few, for which a small
-    session suffices; one that counts further is grounded when it does not.
+    A session counts events up to a number; one that counts further is grounded when a small one
+    does not suffice.
     """
 
-    def __init__(self, knowledge: Knowledge) -> None:
+    def __init__(self, knowledge: Knowledge, begins: bool = True) -> None:
+        """`begins` says that histories begin with an initial state, of which there are defaults."""
         self._knowledge = knowledge
-        self._defaults = [default.name for default in knowledge.description.defaults]
-        self._controls: Recent[tuple[int, int], Session] = Recent(_MOST_CONTROLS)
+        self._theories = ("defaults", "order") if begins else ("order",)
+        self._facts = (*knowledge.ranks, *(knowledge.start if begins else ()))
+        self._sessions: Recent[tuple[int, int], Session] = Recent(_MOST_SESSIONS)
 
     def smallest(self, problem: Problem, fewest: tuple[int, int] = (0, 0)) -> Interpretation | None:
         """The first of the smallest explanations, with what follows from it.
@@ -49,13 +110,13 @@ class SmallestExplanations:
         explanation at all", which is left to the reference.
         """
         tried = fewest[0]
-        for most in (_FEW, _MANY):
-            question = self._question(problem, most)
+        for most in (FEW, MANY):
+            question = self.question(problem, most)
             if question.possible and tried <= most:
                 for events in range(tried, most + 1):
                     least = fewest[1] if events == fewest[0] else 0
-                    for exceptions in range(least, len(self._defaults) + 1):
-                        found = self._first(question, events, exceptions)
+                    for exceptions in range(least, len(self._knowledge.description.defaults) + 1):
+                        found = question.first(events, exceptions)
                         if found is not None:
                             return found
             tried = max(tried, most + 1)
@@ -66,16 +127,15 @@ class SmallestExplanations:
 
         None where there is none, or there are too many of them.
         """
-        question = self._question(problem, _FEW if adopted.size <= _FEW else _MANY)
-        session = question.session
-        assumed = [session.literal("unobserved", a, step) for step, a in adopted.unobserved]
-        assumed += [session.literal("distrusted", a, step) for step, a in adopted.distrusted]
-        exceptions = [session.literal("exception", name) for name in adopted.exceptions]
-        exactly = assumptions((literal, True) for literal in (*assumed, *exceptions))
-        if question.given is None or exactly is None or adopted.size > question.most:
+        question = self.question(problem, FEW if adopted.size <= FEW else MANY)
+        literal = question.session.literal
+        exactly = [literal("unobserved", event, step) for step, event in adopted.unobserved]
+        exactly += [literal("distrusted", action, step) for step, action in adopted.distrusted]
+        exactly += [literal("exception", default) for default in adopted.exceptions]
+        if adopted.size > question.most:
             return None
-        question = replace(question, given=question.given + exactly)
-        return self._first(question, adopted.size, len(exceptions))
+        question = question.assuming(assumptions((each, True) for each in exactly))
+        return question.first(adopted.size, len(adopted.exceptions))
 
     def alternatives(
         self, problem: Problem, adopted: Explanation, most: int
@@ -85,62 +145,20 @@ class SmallestExplanations:
         With them, whether there are more than `most`; True also where the session cannot tell. If
         the one is smallest, these are all smallest explanations.
         """
-        question = self._question(problem, _FEW if adopted.size <= _FEW else _MANY)
-        limited = question.at_most(adopted.size, len(adopted.exceptions))
-        if limited is None or adopted.size > question.most:
-            return [], True
-        found, more = answer_sets(question.session.control, limited, most)
-        return [explanation_of(shown) for shown in found], more
+        question = self.question(problem, FEW if adopted.size <= FEW else MANY)
+        return question.all(adopted.size, len(adopted.exceptions), most)
 
-    def _question(self, problem: Problem, most: int) -> _Question:
+    def question(self, problem: Problem, most: int) -> Question:
         """The session that counts so far, with the problem's externals and observations."""
         # It depends on the history alone, so that budgets do not depend on earlier histories.
         horizon = _FIRST_HORIZON
         while horizon < problem.step:
             horizon *= 2
-        session = self._controls.get((horizon, most), lambda: self._made(horizon, most))
+        session = self._sessions.get((horizon, most), lambda: self._made(horizon, most))
         session.switch_on(*goal_externals(problem.goal), *problem.externals)
-        return _Question(session, most, problem, observations(session, problem))
-
-    def _first(self, question: _Question, events: int, exceptions: int) -> Interpretation | None:
-        """The preferred explanation with at most so many events and exactly so many exceptions."""
-        limited = question.at_most(events, exceptions)
-        if limited is None:
-            return None
-        session = question.session
-        with preferring(session.control, limited) as model:
-            if model is None:
-                return None
-            return interpretation(session, model, question.problem)
+        return Question(session, most, problem, observations(session, problem))
 
     def _made(self, horizon: int, most: int) -> Session:
-        known = self._knowledge
-        program = "\n".join([known.program, theory("defaults"), theory("order")])
-        ranks, fluents = (*known.ranks, *known.start), known.description.fluents
-        return Session(program, "incremental_diagnosis", fluents, ranks, n=horizon, most=most)
-
-
-@dataclass(frozen=True)
-class _Question:
-    """A session switched to a problem, and assumptions for everything observed."""
-
-    session: Session
-    most: int
-    problem: Problem
-    given: list[int] | None
-
-    @property
-    def possible(self) -> bool:
-        """Whether any explanation has at most as many events as are counted."""
-        if self.most == _FEW:
-            return self.given is not None  # found out while they are counted
-        return self.given is not None and is_satisfiable(self.session.control, self.given)
-
-    def at_most(self, events: int, exceptions: int) -> list[int] | None:
-        """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
-        step = self.problem.step
-        more = self.session.literal("count", step, events + 1) if events < self.most else None
-        number = self.session.literal("number_exceptions", exceptions)
-        if self.given is None or number is None:
-            return None
-        return [*self.given, number] if more is None else [*self.given, number, -more]
+        program = "\n".join([self._knowledge.program, *map(theory, self._theories)])
+        fluents = self._knowledge.description.fluents
+        return Session(program, "incremental_diagnosis", fluents, self._facts, n=horizon, most=most)

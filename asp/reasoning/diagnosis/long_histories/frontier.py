@@ -10,8 +10,8 @@ say to which, and nothing is compressed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
 
 from asp.language import atom, is_positive
 from asp.reasoning.diagnosis.belief import BeliefTracker
@@ -22,9 +22,6 @@ from asp.solving import BudgetError, Recent, State
 
 REMEMBERED = 4_000
 """The greatest number of states and actions whose transitions are remembered."""
-
-MOST_ENTRIES = 64
-"""How many states a frontier may have."""
 
 _BRANCHES_OF_AN_ENTRY = 4
 _STEPS_OF_A_DECISION = 3
@@ -44,7 +41,7 @@ class Compression:
     after: int = 64
     lag: int = 12
     margin: int = 2
-    most: int = MOST_ENTRIES
+    most: int = 64
     kept: int = 3
     answers: int = 48
 
@@ -84,9 +81,9 @@ class Frontier:
         """How much it keeps: explanations, and transitions that it remembers."""
         return len(self._branches) + sum(map(len, self.entries.values()))
 
-    def told(self, entry: Sequence[Interpretation]) -> tuple[Sequence[Interpretation], bool]:
-        """Those of a state's explanations that are told, and whether there are more."""
-        return entry[: self._settings.kept], len(entry) > self._settings.kept
+    def told(self, entry: Sequence[Interpretation]) -> Sequence[Interpretation]:
+        """Those of a state's explanations that are told."""
+        return entry[: self._settings.kept]
 
     def order(self, explanation: Explanation) -> tuple[list[tuple[float, ...]], ...]:
         """Its place (`order.lp`): what is distrusted, the latest first; then events are late."""
@@ -202,15 +199,6 @@ class Frontier:
 
 def joined(prefix: Interpretation, suffix: Interpretation, first: int) -> Interpretation:
     """The interpretation of a history that is explained anew from step `first` on."""
-    before, after = prefix.explanation, suffix.explanation
-    explanation = replace(
-        before,
-        unobserved=before.unobserved + _later(after.unobserved, first),
-        distrusted=before.distrusted + _later(after.distrusted, first),
-    )
+    explanation = prefix.explanation.followed_by(suffix.explanation, first)
     held = prefix.held.union(first + step for step in suffix.held)
     return Interpretation(explanation, prefix.initial, suffix.state, held)
-
-
-def _later(happenings: Iterable[Happening], by: int) -> tuple[Happening, ...]:
-    return tuple(Happening(by + step, action) for step, action in happenings)
