@@ -43,7 +43,7 @@ from asp.language.restriction import named, narrowed, restrict, without_exogenou
 from asp.language.signature import Signature, signature_of
 from asp.language.stratification import check_cycles, reachable
 from asp.language.variable_sorts import variable_domains
-from asp.language.writer import atom_text, condition_text, text_of
+from asp.language.writer import text_of
 
 __all__ = [
     "MOST_TEXTS",
@@ -72,13 +72,11 @@ __all__ = [
     "analyse",
     "arguments",
     "atom",
-    "atom_text",
     "check",
     "check_cycles",
     "check_one_robot",
     "closed_world",
     "complement",
-    "condition_text",
     "excluding_place",
     "functions",
     "grammar",

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
 
-from asp.language import Problems, atom_text, condition_text, syntax, text_of
+from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
 from asp.refinement.renaming import Renaming, effects_of
 from asp.refinement.vocabulary import Vocabulary
@@ -146,7 +146,7 @@ def _refined_condition(
     """The condition about the counterparts of what it is about."""
     actions = tuple(map(renaming.atom, law.actions))
     effects = {
-        atom_text(head.atom)
+        text_of(head.atom)
         for action in law.actions
         for head, _ in effects_of(action, rewriting.coarse)
     }
@@ -154,7 +154,7 @@ def _refined_condition(
     body: list[syntax.Condition] = []
     for part in law.body:
         (condition,) = renaming.body((part,))
-        if isinstance(part, syntax.Literal) and atom_text(part.atom) not in effects:
+        if isinstance(part, syntax.Literal) and text_of(part.atom) not in effects:
             condition = _about_any_component(part, condition, acted, renaming, rewriting)
         body.append(condition)
     return replace(law, actions=actions, body=(*body, *renaming.links()))
@@ -189,14 +189,14 @@ def _about_any_component(
 def _lifted(law: syntax.ExecutabilityCondition, rewriting: Rewriting) -> Iterator[syntax.Statement]:
     """The condition as it is, for the fine actions that would bring about the coarse effects."""
     effects = [effects_of(a, rewriting.coarse) for a in law.actions if rewriting.has_counterpart(a)]
-    given = set(map(condition_text, law.body))
+    given = set(map(text_of, law.body))
     for brought in product(*filter(None, effects)):
-        if any(condition_text(head) in given for head, _ in brought):
+        if any(text_of(head) in given for head, _ in brought):
             continue
         changes: list[syntax.Condition] = []
         for head, conditions in brought:
             changes += (replace(head, positive=not head.positive), *conditions)
-        body = (*(c for c in changes if condition_text(c) not in given), *law.body)
+        body = (*(c for c in changes if text_of(c) not in given), *law.body)
         renaming = Renaming(law, rewriting.vocabulary)
         actions = tuple(
             renaming.atom(action) if rewriting.has_counterpart(action) else action

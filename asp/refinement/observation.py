@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 
-from asp.language import Problems, Signature, condition_text, syntax, variable_domains
+from asp.language import Problems, Signature, syntax, text_of, variable_domains
 from asp.refinement.language import TestsStatement
 from asp.refinement.refining import law_section, section, shared_places
 from asp.refinement.vocabulary import COMPONENT, Vocabulary
@@ -146,7 +146,7 @@ def _abilities(t: Tested) -> Iterator[str]:
     for statement in t.statements:
         others = t.others([term.name for term in statement.fluent.args])
         can = _atom(CAN_TEST + t.fluent, statement.robot.name, *others)
-        body = ", ".join(map(condition_text, statement.body))
+        body = text_of(statement.body)
         yield f"{can} if {body}." if body else f"{can}."
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
 
-from asp.language import Signature, ground, syntax
+from asp.language import Signature, ground, syntax, text_of
 from asp.language import variable_sorts as roles
 
 
@@ -27,7 +27,7 @@ def condition(
     `denied` stands before what has to be false: `-`, or `not `.
     """
     if isinstance(part, syntax.Comparison):
-        return f"{part.left.name} {'=' if part.equal else '!='} {part.right.name}"
+        return text_of(part)
     sign = "" if part.positive else denied
     name = part.atom.name
     if name in signature.sorts or signature.symbols[name].kind == "static":

@@ -8,12 +8,11 @@ from asp.language import (
     Literal,
     Signature,
     analyse,
-    atom_text,
-    condition_text,
     packaged_domains,
     parse_description,
     read_domain,
     syntax,
+    text_of,
 )
 from asp.language import variable_sorts as roles
 from asp.solving import first_model, ground
@@ -82,7 +81,7 @@ def by_clingo(source: syntax.Source, signature: Signature) -> frozenset[Literal]
 
 
 def _rule(head: syntax.Atom, body: list[str]) -> str:
-    return f"{atom_text(head)} :- {', '.join(body)}."
+    return f"{text_of(head)} :- {', '.join(body)}."
 
 
 def _ranges(atoms: list[syntax.Atom], signature: Signature) -> list[str]:
@@ -99,5 +98,5 @@ def _ranges(atoms: list[syntax.Atom], signature: Signature) -> list[str]:
 
 def _condition(part: syntax.Condition) -> str:
     if isinstance(part, syntax.Comparison):
-        return condition_text(part)
-    return ("" if part.positive else "not ") + atom_text(part.atom)
+        return text_of(part)
+    return ("" if part.positive else "not ") + text_of(part.atom)
