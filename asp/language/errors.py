@@ -98,7 +98,7 @@ def syntax_error(error: UnexpectedInput, text: str, file: str, grammar: Lark) ->
     if isinstance(error, UnexpectedCharacters):
         return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
     assert isinstance(error, UnexpectedToken)
-    if _at_end(error):
+    if error.token.type == "$END":
         lines = text.rstrip().split("\n")
         return SourceError(file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement")
     for token in _last(error):
@@ -127,17 +127,14 @@ def _at(token: Token, file: str, message: str) -> SourceError:
     return SourceError(file, place.line, place.column, message)
 
 
-def _at_end(error: UnexpectedInput) -> bool:
-    return isinstance(error, UnexpectedToken) and error.token.type == "$END"
-
-
 def _last(error: UnexpectedInput) -> list[Token]:
     """The unexpected token, if it is one, and the one before it, if there is one."""
-    unexpected = [error.token] if isinstance(error, UnexpectedToken) else []
-    history = getattr(error, "token_history", None) or ()
-    if _at_end(error):
-        assert isinstance(error, UnexpectedToken)
-        history = error.interactive_parser.parser_state.value_stack[-1:]
+    unexpected: list[Token] = []
+    history: Sequence[object] = getattr(error, "token_history", None) or ()
+    if isinstance(error, UnexpectedToken):
+        unexpected = [error.token]
+        if error.token.type == "$END":
+            history = error.interactive_parser.parser_state.value_stack[-1:]
     return [*unexpected, *(token for token in history if isinstance(token, Token))]
 
 

@@ -57,8 +57,7 @@ class Budget:
     @property
     def deadline(self) -> float | None:
         """When the time runs out, by `time.monotonic`."""
-        seconds = self.limits.seconds
-        return None if seconds is None else self._began + seconds
+        return None if self.limits.seconds is None else self._began + self.limits.seconds
 
     @property
     def conflicts(self) -> int | None:

@@ -19,6 +19,10 @@ _HEADER = """\
 % Steps 0 to n; `-c n=K` on clingo's command line sets another horizon.
 #const n = 1.
 step(0..n)."""
+_DEFINED = """\
+#defined inertial/1. #defined defined/1.
+#defined agent_action/1. #defined exogenous_action/1.
+#defined occurs/2. #defined impossible/2."""
 
 
 def translate(text: str, file: str = "<text>") -> str:
@@ -143,7 +147,4 @@ def _signature_rules(signature: Signature) -> str:
         if declaration.kind == "static":
             atom, _, sorts = schema(declaration)
             lines.append(rule(f"-{atom}", [*sorts, f"not {atom}"]))
-    defined = "#defined inertial/1. #defined defined/1.\n"
-    defined += "#defined agent_action/1. #defined exogenous_action/1.\n"
-    defined += "#defined occurs/2. #defined impossible/2."
-    return "\n".join(lines) + f"\n\n{defined}"
+    return "\n".join([*lines, "", _DEFINED])
