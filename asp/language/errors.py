@@ -150,8 +150,7 @@ def _meant_section(token: Token, text: str, sections: Set[str]) -> str | None:
 
 
 def _is_first_in_line(token: Token, text: str) -> bool:
-    place = place_of(token)
-    return not text.split("\n")[place.line - 1][: place.column - 1].strip()
+    return not text[: token.start_pos].rpartition("\n")[2].strip()
 
 
 def _alone(token: Token) -> str:
