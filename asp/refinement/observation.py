@@ -56,38 +56,29 @@ def check_tested(fine: syntax.Source, vocabulary: Vocabulary, problems: Problems
             )
 
 
-def tested_fluents(fine: syntax.Source, weak: Signature, problems: Problems) -> tuple[Tested, ...]:
+def tested_fluents(fine: syntax.Source, weak: Signature, problems: Problems) -> list[Tested]:
     """What the tests of a refinement's text say, fluent by fluent. Reports what does not fit."""
     groups: dict[str, list[TestsStatement]] = {}
     for statement in fine.each(TestsStatement):
         groups.setdefault(statement.fluent.name, []).append(statement)
-    return tuple(_tested(name, found, weak, problems) for name, found in groups.items())
-
-
-def _tested(
-    name: str, statements: list[TestsStatement], weak: Signature, problems: Problems
-) -> Tested:
-    sorts = tuple(sort.name for sort in weak.symbols[name].sorts)
-    first, *others = statements
-    robot = _robot_sort(first, weak)
-    own = frozenset.intersection(*map(_own, statements))
-    for statement in others:
-        if _robot_sort(statement, weak) != robot:
-            problems.report(
-                statement.place,
-                f"'{name}' is tested by another sort of robot than in line {first.place.line}, "
-                f"which is '{robot}'",
-            )
-    return Tested(name, sorts, robot, own, tuple(statements))
-
-
-def _own(statement: TestsStatement) -> frozenset[int]:
-    robot = statement.robot
-    return frozenset(
-        place
-        for place, term in enumerate(statement.fluent.args)
-        if robot.is_variable and term.name == robot.name
-    )
+    found = []
+    for name, statements in groups.items():
+        sorts = tuple(sort.name for sort in weak.symbols[name].sorts)
+        robot, line = _robot_sort(statements[0], weak), statements[0].place.line
+        own = frozenset(range(len(sorts)))
+        for statement in statements:
+            tester, terms = statement.robot, enumerate(statement.fluent.args)
+            own &= {
+                place for place, term in terms if tester.is_variable and term.name == tester.name
+            }
+            if _robot_sort(statement, weak) != robot:
+                problems.report(
+                    statement.place,
+                    f"'{name}' is tested by another sort of robot than in line {line}, which is "
+                    f"'{robot}'",
+                )
+        found.append(Tested(name, sorts, robot, own, tuple(statements)))
+    return found
 
 
 def _robot_sort(statement: TestsStatement, weak: Signature) -> str:

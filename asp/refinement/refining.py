@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
-from asp.refinement.laws import KEPT, LIFTED, REFINED, Rewriting, refine
+from asp.refinement.laws import KEPT, LIFTED, REFINED, Rewriting
 from asp.refinement.vocabulary import COARSE, COMPONENT, FINE, Vocabulary
 
 _HEADINGS = {
@@ -25,7 +25,7 @@ def weak_text(
     Reports, with the place in the coarse text, each law that cannot be refined.
     """
     rewriting = Rewriting(vocabulary, coarse, shared_places(fine), problems)
-    results = [result for s in coarse.statements for result in refine(s, rewriting)]
+    results = [result for s in coarse.statements for result in rewriting.refine(s)]
     laws = [result for result in results if isinstance(result.statement, _LAWS)]
     groups = {
         **{t: [law.text for law in laws if law.manner == m] for m, t in _HEADINGS.items()},

@@ -7,7 +7,7 @@ constraints on `can_test_...` say when it is possible.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property, lru_cache
 from itertools import product
 from typing import NamedTuple
@@ -48,7 +48,6 @@ class Sensing:
     def __init__(self, refinement: Refinement) -> None:
         self._refinement = refinement
         signature = refinement.strong_signature
-        statics = closed_world(refinement.statics, signature)
         constants = dict.fromkeys(m for members in signature.sorts.values() for m in members)
         self._rank = {constant: rank for rank, constant in enumerate(constants)}
         self._fluents: dict[str, Pattern] = {}
@@ -64,27 +63,37 @@ class Sensing:
         self.names = frozenset(self._fluents)
         self.fluent = lru_cache(4096)(self._fluent)
         self._abilities: dict[str, list[_Ability]] = defaultdict(list)
-        definitions: dict[str, list[Pattern]] = defaultdict(list)
+        self._definitions: list[Pattern] = []
+        self._read_constraints()
+
+    def _read_constraints(self) -> None:
+        """When fluents can be tested, and what defines fluents on which that depends."""
+        signature = self._refinement.strong_signature
+        statics = closed_world(self._refinement.statics, signature)
+        defining: dict[str, list[syntax.StateConstraint]] = defaultdict(list)
         needs: dict[str, set[str]] = defaultdict(set)
-        for constraint in refinement.strong.each(syntax.StateConstraint):
-            atom, body = constraint.head.atom, list(roles.literals(constraint.body))
-
-            def pattern(
-                given: Sequence[syntax.Term] = (), law: syntax.StateConstraint = constraint
-            ) -> Pattern:
-                return pattern_of(law, signature, statics, given, law.head)
-
-            if signature.symbols[atom.name].kind == "defined":
-                needs[atom.name].update(part.atom.name for part in body)
-                definitions[atom.name].append(pattern())
-            if atom.name.startswith(CAN_TEST):
+        for law in self._refinement.strong.each(syntax.StateConstraint):
+            name, args, body = (
+                law.head.atom.name,
+                law.head.atom.args,
+                list(roles.literals(law.body)),
+            )
+            if signature.symbols[name].kind == "defined":
+                needs[name].update(part.atom.name for part in body)
+                defining[name].append(law)
+            if name.startswith(CAN_TEST):
                 bound = {term.name for part in body if part.positive for term in part.atom.args}
-                free = {term.name for term in atom.args[1:]} - bound
-                ability = _Ability(atom, pattern(atom.args[:1]), pattern(atom.args), free)
-                self._abilities[atom.name.removeprefix(CAN_TEST)].append(ability)
+                free = {term.name for term in args[1:]} - bound
+                of_robot, of_test = (
+                    pattern_of(law, signature, statics, given, law.head)
+                    for given in (args[:1], args)
+                )
+                ability = _Ability(law.head.atom, of_robot, of_test, free)
+                self._abilities[name.removeprefix(CAN_TEST)].append(ability)
         tested = {CAN_TEST + fluent for fluent in self._abilities}
-        needed = {name for can_test in tested for name in reachable(can_test, needs)} - tested
-        self._definitions = [law for name in needed for law in definitions.get(name, ())]
+        for name in {needed for each in tested for needed in reachable(each, needs)} - tested:
+            for law in defining.get(name, ()):
+                self._definitions.append(pattern_of(law, signature, statics, head=law.head))
 
     def __reduce__(self) -> tuple[object, ...]:
         """A copy is compiled anew: compiled laws cannot be pickled."""

@@ -66,12 +66,11 @@ class Change:
     def __init__(
         self,
         laws: Laws,
-        defined: Collection[str],
         facts: Facts,
         literals: Iterable[Literal],
         seeds: Iterable[Literal] = (),
     ) -> None:
-        self._laws, self._defined, self._facts = laws, defined, facts
+        self._laws, self._facts = laws, facts
         self._given = tuple(literals)
         self._possible = Possibilities(facts)
         falling = (
@@ -118,7 +117,8 @@ class Change:
             return ({},)
         defaults = self._mask(
             atom
-            if atom.name not in self._defined and self._facts.may_hold(atom.name, atom.arguments)
+            if atom.name not in self._laws.defined
+            and self._facts.may_hold(atom.name, atom.arguments)
             else atom.complement
             for atom in self.touched
         )

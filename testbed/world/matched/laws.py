@@ -56,6 +56,8 @@ class Laws:
         for constraint in source.each(syntax.StateConstraint):
             if signature.symbols[constraint.head.atom.name].kind != "static":
                 self._add_constraint(constraint)
+        self.defined = frozenset(n for n, s in signature.symbols.items() if s.kind == "defined")
+        """The names of the defined fluents."""
         self.wavering = self._wavering()
         """The defined fluents that may fall by nothing but their own falling."""
 
@@ -87,9 +89,8 @@ class Laws:
         after = defaultdict(set, {sign: set(heads) for sign, heads in first.items()})
         for (name, positive), defining in self.grounds.items():
             after[name, not positive] |= {(pattern.head[0], False) for pattern in defining}
-        defined = (n for n, symbol in self._signature.symbols.items() if symbol.kind == "defined")
         return frozenset(
             name
-            for name in defined
+            for name in self.defined
             if any((name, False) in reachable(h, after) for h in first.get((name, False), ()))
         )

@@ -32,7 +32,6 @@ class MatchedWorld(World):
     def __init__(self, source: syntax.Source, signature: Signature) -> None:
         super().__init__(_declared(source, signature), remembered=_SUCCESSORS)
         self._arguments = (source, signature)
-        self._defined = frozenset(fluent.name for fluent in self.description.defined)
         self.signature = signature
         self.statics = closed_world(self.description.statics, signature)
         self._laws = Laws(source, signature, self.statics)
@@ -48,7 +47,7 @@ class MatchedWorld(World):
     def _founded(self, state: int) -> bool:
         """Whether each true defined fluent is derived, in the end from none of its kind."""
         facts = self.facts(state)
-        true = {atom for atom in self.true_atoms(state) if atom.name in self._defined}
+        true = {atom for atom in self.true_atoms(state) if atom.name in self._laws.defined}
         bodies = [
             (instance.head, true.intersection(instance.body))
             for atom in true
@@ -80,7 +79,7 @@ class MatchedWorld(World):
         """What the literals make of a state in which nothing is true."""
         nothing = self.facts(0)
         seeds = (head for law in self._laws.groundless for head in law.heads((), nothing))
-        return Change(self._laws, self._defined, nothing, self._read(literals), seeds)
+        return Change(self._laws, nothing, self._read(literals), seeds)
 
     def _transitions(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
         if self._forbidding(state, compound) is not None:
@@ -94,7 +93,7 @@ class MatchedWorld(World):
         return self._changed(state, dict.fromkeys(effects))
 
     def _changed(self, state: int, literals: Iterable[Literal]) -> tuple[int, ...]:
-        change = Change(self._laws, self._defined, self.facts(state), literals)
+        change = Change(self._laws, self.facts(state), literals)
         return self._outcomes(state, change)
 
     def _outcomes(self, state: int, change: Change) -> tuple[int, ...]:
