@@ -11,7 +11,6 @@ Ids are quoted, so that any text may name a run, a trial or a robot.
 from urllib.parse import quote
 
 ROOT = "testbed/v1"
-ANY = "*"
 ROBOT = "robot_0"
 ADDRESSEE = "robot"
 
@@ -28,9 +27,9 @@ def act(run: str, trial: str) -> str:
     return f"{ROOT}/{chunk(run)}/{chunk(trial)}/{ROBOT}/act"
 
 
-def acts(run: str | None) -> str:
-    """The key expression of every question to a robot in a run, or in any run (None)."""
-    return f"{ROOT}/{ANY if run is None else chunk(run)}/{ANY}/{ROBOT}/act"
+def acts() -> str:
+    """The key expression of every question to a robot, in any run."""
+    return f"{ROOT}/*/*/{ROBOT}/act"
 
 
 def question(run: str, trial: str, name: str) -> str:

@@ -127,7 +127,7 @@ def test_a_robot_that_leaves_holding_a_question_is_lost_before_the_limit() -> No
     with (
         open_driver() as session,
         open_robot(endpoint(session)) as leaver,
-        leaver.declare_queryable(keys.acts("run"), hold),
+        leaver.declare_queryable(keys.acts(), hold),
         closing(RemoteRobot(session, "run", "leaver", PATIENCE_S)) as robot,
     ):
         presence.enter_context(leaver.liveliness().declare_token(keys.robot("leaver")))
