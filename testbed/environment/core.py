@@ -164,8 +164,7 @@ class Core:
         state = self._draw(self.world.successors(now.state, compound))
         played = Played(
             execution=execution,
-            step=now.step,
-            before=now.state,
+            before=now,
             effective=effective,
             event=None if event == NONE else event,
             after=state,

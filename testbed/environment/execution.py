@@ -11,7 +11,7 @@ import numpy as np
 from asp.language import Action, Literal
 from asp.language import literals as text
 from asp.refinement import Sensing
-from testbed.environment.rules import Observability
+from testbed.environment.rules import Observability, Situation
 from testbed.protocol import Event
 from testbed.world import World
 
@@ -121,8 +121,7 @@ class Played:
     """
 
     execution: Execution
-    step: int
-    before: int
+    before: Situation
     effective: tuple[str, ...]
     event: str | None
     after: int
@@ -135,7 +134,8 @@ class Played:
         told = [self.event] if self.event and self._is_told(self.event, rules, random) else []
         for action in (*told, *self._false_reports(rules, random)):
             late = rules[text.name(action)].delay
-            yield self.step + 1 + late, Event(step=self.step, action=Literal.parse(action))
+            step = self.before.step
+            yield step + 1 + late, Event(step=step, action=Literal.parse(action))
 
     def _is_told(
         self, event: str, rules: Mapping[str, Observability], random: np.random.Generator
@@ -147,10 +147,10 @@ class Played:
 
     def _witnessed(self) -> bool:
         """Whether the robot can tell, before or after, what is as it is because of the event."""
-        world = self.execution.world
-        alone = world.successors(self.before, self.effective)
-        changed = frozenset(world.true_atoms(self.after ^ (*alone, self.before)[0]))
-        return any(self.execution.notices(s, changed) for s in (self.before, self.after))
+        world, before = self.execution.world, self.before.state
+        alone = world.successors(before, self.effective)
+        changed = frozenset(world.true_atoms(self.after ^ (*alone, before)[0]))
+        return any(self.execution.notices(state, changed) for state in (before, self.after))
 
     def _false_reports(
         self, rules: Mapping[str, Observability], random: np.random.Generator
