@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import islice
 
 import numpy as np
@@ -18,10 +18,9 @@ from testbed.world import World
 Statistics = Mapping[str, float]
 """By the name of an action: the probability with which it takes effect; by that of a test: the
 probability with which its answer is right. 1 where nothing is said."""
-CERTAIN: Statistics = {}
-"""A deterministic world with right tests."""
 
 
+@dataclass(eq=False)
 class Execution:
     """The robot's side of a game; `actions` are the robot's besides `wait` and `finish`.
 
@@ -31,33 +30,26 @@ class Execution:
     Raises ValueError for statistics that are none.
     """
 
-    def __init__(
-        self,
-        world: World,
-        robot: str,
-        sensing: Sensing | None = None,
-        statistics: Statistics = CERTAIN,
-        coarse: Collection[str] | None = None,
-    ) -> None:
-        self.world = world
-        self.robot = robot
-        self._sensing = sensing
-        self._statistics = statistics
-        self._tests = sensing.names if sensing else frozenset[str]()
-        self.actions: tuple[Action, ...] = world.agent_actions
-        if sensing:
-            self.actions += sensing.actions
-        _check(statistics, {*map(text.name, world.agent_actions), *self._tests})
-        if coarse is None:
-            self._coarse = None
-        else:
-            are_coarse = enumerate(text.name(fluent) in coarse for fluent in world.fluents)
-            self._coarse = sum(is_coarse << number for number, is_coarse in are_coarse)
+    world: World
+    robot: str
+    sensing: Sensing | None = None
+    statistics: Statistics = field(default_factory=dict)
+    coarse: Collection[str] | None = None
+
+    def __post_init__(self) -> None:
+        self._tests = self.sensing.names if self.sensing else frozenset[str]()
+        self.actions: tuple[Action, ...] = self.world.agent_actions
+        _check(self.statistics, {*map(text.name, self.actions), *self._tests})
+        if self.sensing:
+            self.actions += self.sensing.actions
+        names = self.coarse or ()
+        are_coarse = enumerate(text.name(fluent) in names for fluent in self.world.fluents)
+        self._coarse = sum(is_coarse << number for number, is_coarse in are_coarse)
 
     def possible(self, state: int, action: str) -> bool:
         """Whether an attempt can come to anything in the state."""
-        if self._sensing and not self.physical(action):
-            return self._sensing.can(action, self.world.facts(state))
+        if self.sensing and not self.physical(action):
+            return self.sensing.can(action, self.world.facts(state))
         return self.world.executable(state, (action,))
 
     def physical(self, action: str) -> tuple[str, ...]:
@@ -66,16 +58,16 @@ class Execution:
 
     def chance(self, action: str) -> float:
         """The probability with which a possible action takes effect."""
-        return self._statistics.get(text.name(action), 1.0) if self.physical(action) else 1.0
+        return self.statistics.get(text.name(action), 1.0) if self.physical(action) else 1.0
 
     def sensed(self, action: str, after: int, random: np.random.Generator) -> tuple[str, ...]:
         """What an action that took effect shows of the state after it, perhaps wrongly."""
-        if not self._sensing or self.physical(action):
+        if not self.sensing or self.physical(action):
             return ()
-        fluent = self._sensing.fluent(action)
+        fluent = self.sensing.fluent(action)
         right = 1.0
         if self.robot not in text.arguments(fluent):
-            right = self._statistics.get(text.name(action), 1.0)
+            right = self.statistics.get(text.name(action), 1.0)
         holds = self.world.holds(after, fluent)
         if right < 1 and random.random() >= right:
             holds = not holds
@@ -87,16 +79,16 @@ class Execution:
 
     def notices(self, state: int, fluents: frozenset[str]) -> bool:
         """Whether the robot is where it could tell whether one of the fluents holds."""
-        if self._sensing:
-            tests = (self._sensing.test_of(self.robot, fluent) for fluent in fluents)
+        if self.sensing:
+            tests = (self.sensing.test_of(self.robot, fluent) for fluent in fluents)
             facts = self.world.facts(state)
-            if any(test is not None and self._sensing.can(test, facts) for test in tests):
+            if any(test is not None and self.sensing.can(test, facts) for test in tests):
                 return True
         return not fluents.isdisjoint(map(text.atom, self.visible(state)))
 
     def closed_to_events(self, state: int, action: str) -> str | None:
         """Why nothing exogenous happens beside the action, if so."""
-        if self._coarse is None:
+        if self.coarse is None:
             return None
         after = self.world.successors(state, self.physical(action))
         if any((state ^ other) & self._coarse for other in after):

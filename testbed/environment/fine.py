@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
 from typing import Literal
 
@@ -11,7 +12,7 @@ import numpy as np
 from asp.language import literals as text
 from asp.refinement import Refinement, sensing_of
 from testbed.environment.core import Core, DrawGoal
-from testbed.environment.execution import CERTAIN, Execution, Statistics
+from testbed.environment.execution import Execution, Statistics
 from testbed.environment.rules import Rules
 from testbed.world import World, world_of
 
@@ -23,7 +24,7 @@ changes what holds at the coarse resolution."""
 def fine_core(
     refinement: Refinement,
     rules: Rules,
-    statistics: Statistics = CERTAIN,
+    statistics: Statistics | None = None,
     pace: Pace = "concrete",
     initial: Sequence[int] | None = None,
     draw_goal: DrawGoal | None = None,
@@ -38,11 +39,12 @@ def fine_core(
     world = world_of(refinement)
     robot = refinement.description.robots[0]
     coarse = refinement.coarse_signature.symbols if pace == "abstract" else None
-    execution = Execution(world, robot, sensing_of(refinement), statistics, coarse)
+    execution = Execution(world, robot, sensing_of(refinement), statistics or {}, coarse)
     starts = RandomStart(world, robot, holding) if initial is None else initial
     return Core(world, rules, starts, execution, draw_goal)
 
 
+@dataclass(eq=False)
 class RandomStart:
     """Draws an initial state: a value for each thing that must have one, as `initially` says.
 
@@ -50,31 +52,33 @@ class RandomStart:
     that must be somewhere. What follows from that is not drawn again.
     """
 
-    def __init__(self, world: World, robot: str, holding: float = 0.2) -> None:
-        self._world = world
-        self._holding = holding
-        self._groups = groups = world.description.initially
+    world: World
+    robot: str
+    holding: float = 0.2
+
+    def __post_init__(self) -> None:
+        groups = self.world.description.initially
         placed = {fluent for some in groups for fluent in some}
         things = {text.arguments(some[0])[0] for some in groups if text.arguments(some[0])}
         self._relations = [
             fluent
-            for fluent in world.description.inertial
-            if fluent not in placed and _relates(robot, fluent, things)
+            for fluent in self.world.description.inertial
+            if fluent not in placed and _relates(self.robot, fluent, things)
         ]
 
     def __call__(self, random: np.random.Generator) -> int:
         """The state. Everything drawn comes from the generator."""
-        state = self._world.bare()
-        if self._relations and random.random() < self._holding:
+        state = self.world.bare()
+        if self._relations and random.random() < self.holding:
             state = self._with(state, [self._relations[int(random.integers(len(self._relations)))]])
-        for some in self._groups:
-            if not any(self._world.holds(state, fluent) for fluent in some):
+        for some in self.world.description.initially:
+            if not any(self.world.holds(state, fluent) for fluent in some):
                 state = self._with(state, [some[int(n)] for n in random.permutation(len(some))])
         return state
 
     def _with(self, state: int, options: Sequence[str]) -> int:
         """A state in which the first of the options holds that can."""
-        found = (self._world.adjusted(state, (option,)) for option in options)
+        found = (self.world.adjusted(state, (option,)) for option in options)
         return next((states[0] for states in found if states), state)
 
 

@@ -9,6 +9,7 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
+from dataclasses import dataclass
 from itertools import count
 
 import zenoh
@@ -91,6 +92,7 @@ def spawned_robot(
         yield robot
 
 
+@dataclass(eq=False)
 class SpawnedRobot:
     """A RobotClient whose robot process serves trial after trial until it is lost.
 
@@ -100,19 +102,13 @@ class SpawnedRobot:
     a :class:`RobotProcess`.
     """
 
-    def __init__(
-        self,
-        session: zenoh.Session,
-        run: str,
-        answer_s: float,
-        command: Sequence[str] = COMMAND,
-        group: int = 0,
-    ) -> None:
-        self._session = session
-        self._run = run
-        self._answer_s = answer_s
-        self._command = command
-        self._group = group
+    session: zenoh.Session
+    run: str
+    answer_s: float
+    command: Sequence[str] = COMMAND
+    group: int = 0
+
+    def __post_init__(self) -> None:
         self._names = (f"spawned-{number}" for number in count(1))
         self._belongings = ExitStack()
         self._remote: RemoteRobot | None = None
@@ -143,9 +139,9 @@ class SpawnedRobot:
     def _present(self) -> RemoteRobot:
         if self._remote is None:
             name = next(self._names)
-            process = RobotProcess(endpoint(self._session), name, self._command, self._group)
+            process = RobotProcess(endpoint(self.session), name, self.command, self.group)
             self.process = self._belongings.enter_context(closing(process))
-            remote = RemoteRobot(self._session, self._run, name, self._answer_s)
+            remote = RemoteRobot(self.session, self.run, name, self.answer_s)
             self._belongings.enter_context(closing(remote))
             glances = round(START_S / _GLANCE_S)
             while not remote.wait(_GLANCE_S):

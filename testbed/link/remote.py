@@ -1,6 +1,7 @@
 """A robot behind zenoh, seen from its driver."""
 
 from contextlib import suppress
+from dataclasses import dataclass
 from math import ceil
 from queue import Empty, SimpleQueue
 from threading import Event
@@ -20,6 +21,7 @@ _LEFT = "robot is gone"
 _Inbox: TypeAlias = SimpleQueue[zenoh.Reply | RobotLost]
 
 
+@dataclass(eq=False)
 class RemoteRobot(Client):
     """A client of the robot that serves under ``name`` where ``session`` can reach it.
 
@@ -27,14 +29,15 @@ class RemoteRobot(Client):
     token, the end of the query without an answer (nobody there), or the answer limit in seconds.
     """
 
-    def __init__(self, session: zenoh.Session, run: str, name: str, answer_s: float) -> None:
-        self._session = session
-        self._run = run
-        self._name = name
-        self._answer_s = answer_s
+    session: zenoh.Session
+    run: str
+    name: str
+    answer_s: float
+
+    def __post_init__(self) -> None:
         self._present = Event()
         self._inbox: _Inbox = SimpleQueue()
-        liveliness, key = session.liveliness(), keys.robot(name)
+        liveliness, key = self.session.liveliness(), keys.robot(self.name)
         self._watch = liveliness.declare_subscriber(key, self._on_presence, history=True)
 
     def wait(self, seconds: float) -> bool:
@@ -56,8 +59,8 @@ class RemoteRobot(Client):
         if not self._present.is_set():
             raise RobotGone(_LEFT)
         unanswered = RobotGone("robot is unavailable: nobody answered")
-        self._session.get(
-            keys.question(self._run, trial, self._name),
+        self.session.get(
+            keys.question(self.run, trial, self.name),
             zenoh.handlers.Callback(inbox.put, lambda: inbox.put(unanswered)),
             # Every robot hears the question and one answers; the others may be busy meanwhile.
             target=zenoh.QueryTarget.ALL,
@@ -65,12 +68,12 @@ class RemoteRobot(Client):
             payload=question,
             # Later than our own limit: zenoh's timeout would look like an error of the robot's,
             # and it counts the time in which this process is paused.
-            timeout=self._answer_s + LEASE_S,
+            timeout=self.answer_s + LEASE_S,
         )
         try:
-            received = _next(inbox, self._answer_s)
+            received = _next(inbox, self.answer_s)
         except Empty:
-            raise RobotLost(f"no answer within {self._answer_s:g} s") from None
+            raise RobotLost(f"no answer within {self.answer_s:g} s") from None
         if isinstance(received, RobotLost):
             raise received
         if received.err is not None:

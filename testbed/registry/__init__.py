@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.metadata import entry_points
 from inspect import signature
@@ -29,6 +30,7 @@ class RegistryError(ValueError):
     """A name that leads to nothing, or to what cannot be used: one line that says why."""
 
 
+@dataclass(eq=False)
 class Registry(Generic[T]):
     """What configurations call by name: robots, adversaries, studies.
 
@@ -40,18 +42,11 @@ class Registry(Generic[T]):
     fault : what is wrong with something that was found; None if it can be used.
     """
 
-    def __init__(
-        self,
-        kind: str,
-        group: str,
-        built_in: Mapping[str, str],
-        fault: Callable[[Any], str | None],
-    ) -> None:
-        self.kind = kind
-        self._group = group
-        self._built_in = built_in
-        self._fault = fault
-        self._found: dict[str, T] = {}
+    kind: str
+    group: str
+    built_in: Mapping[str, str]
+    fault: Callable[[Any], str | None]
+    _found: dict[str, T] = field(default_factory=dict, init=False)
 
     def names(self) -> list[str]:
         """The registered names, sorted. Nothing is imported."""
@@ -66,7 +61,7 @@ class Registry(Generic[T]):
         """
         if name not in self._found:
             found = _attribute(name if ":" in name else self._place(name))
-            if fault := self._fault(found):
+            if fault := self.fault(found):
                 raise RegistryError(f"'{name}' is no {self.kind}: it {fault}")
             self._found[name] = found
         return self._found[name]
@@ -95,8 +90,8 @@ class Registry(Generic[T]):
 
     def _claims(self) -> dict[str, dict[str, str]]:
         """By name, and by the distribution that registers it, where it stands."""
-        claims = {name: {OURS: place} for name, place in self._built_in.items()}
-        for point in entry_points(group=self._group):
+        claims = {name: {OURS: place} for name, place in self.built_in.items()}
+        for point in entry_points(group=self.group):
             owner = point.dist.name if point.dist else "an unnamed distribution"
             claims.setdefault(point.name, {})[owner] = point.value
         return claims
