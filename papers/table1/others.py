@@ -13,7 +13,7 @@ from testbed.analysis.comparison import NO_EVENT, NOTHING_TO_DO
 from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS
-from testbed.studies.tables import written
+from testbed.studies.tables import Cell
 from testbed.text.wording import number
 from testbed.world import load_world
 
@@ -48,7 +48,7 @@ def _shares(shares: Mapping[str, float]) -> str:
 
 
 def _accuracy(row: Row) -> tuple[str, ...]:
-    ours = "-" if row.baseline is None else written(row.baseline, share=True)
+    ours = Cell(row.baseline, share=True).value.whole
     ratios = [row.ratios[name].mean for name in MEASURES]
     values = (number(None if ratio is None else ratio.value) for ratio in ratios)
     return (row.name, str(row.pairs), ours, percent(PUBLISHED[row.name].baseline), *values)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import polars as pl
 
@@ -138,3 +138,21 @@ def with_apart(trials: pl.DataFrame, robots: Compared, sure: Collection[str]) ->
     told = [pl.when(holds).then(pl.lit(reason)) for reason, holds in reasons.items()]
     pairs = trials.group_by("pair").agg(apart=pl.coalesce(*told, pl.lit(None, pl.String)))
     return trials.join(pairs, on="pair", maintain_order="left")
+
+
+def optimum(trials: pl.DataFrame, who: str = "", weight: str | None = None) -> dict[str, Any]:
+    """How far trials are from the least that achieves the goal: what was needed divided by it.
+
+    Means by measure, over `trials` that achieved the goal, of pairs those of one robot. The least
+    is what a search with complete knowledge finds from the initial state where nothing exogenous
+    happens: below 1 is who was helped on the way. Trials whose least is not known, or 0, are left
+    out.
+    """
+    achieved = trials.filter("achieved" + who, "ended" + who)
+    known = achieved.filter(pl.col(least) > 0 for least in LEAST.values())
+    weights = pl.ones(pl.len()) if weight is None else pl.col(weight)
+    means = {
+        name: (weights * pl.col(name + who) / pl.col(least)).sum() / weights.sum()
+        for name, least in LEAST.items()
+    }
+    return known.select(trials=pl.len(), **means).fill_nan(None).row(0, named=True)

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import polars as pl
 
 from testbed.analysis import comparison
-from testbed.analysis.comparison import ACCURACY, COUNTS, DIVIDED, LEAST, MEASURES, TIMES
+from testbed.analysis.comparison import ACCURACY, COUNTS, DIVIDED, MEASURES, TIMES
 from testbed.analysis.pairs import OTHER, Compared, Sample, corrected, pairs_of
 from testbed.analysis.statistics import Test
 from testbed.analysis.table import Run
@@ -110,7 +110,7 @@ def _group(
         "ratios": {name: ratios[name]["ratio"] for name in MEASURES},
         "ratios_of_sums": {name: ratios[name]["of_sums"] for name in MEASURES},
         "times": {name: ratios[name] for name in TIMES},
-        "optimum": {name: _optimum(rows) for name, rows in own.items()},
+        "optimum": {name: comparison.optimum(rows) for name, rows in own.items()},
     }
     return frozenset(counted["pair"]), values, tests | {ACCURACY: both.decided.mcnemar("correct")}
 
@@ -132,15 +132,3 @@ def _ratios(ended: pl.DataFrame) -> dict[str, dict[str, Any]]:
         of_sums = pl.when(other.sum() != 0).then(own.sum() / other.sum())
         found[name] = ended.select(ratio=mean, of_sums=of_sums).row(0, named=True)
     return found
-
-
-def _optimum(trials: pl.DataFrame) -> dict[str, Any]:
-    """How far trials are from the least that achieves the goal: what was needed divided by it.
-
-    Means by measure, over `trials` that achieved the goal. The least is what a search with complete
-    knowledge finds from the initial state where nothing exogenous happens: below 1 is who was
-    helped on the way. Trials whose least is not known, or 0, are left out.
-    """
-    known = trials.filter("achieved", "ended", *(pl.col(least) > 0 for least in LEAST.values()))
-    means = {name: (pl.col(name) / pl.col(least)).mean() for name, least in LEAST.items()}
-    return known.select(trials=pl.len(), **means).row(0, named=True)

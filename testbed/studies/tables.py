@@ -77,30 +77,22 @@ class Cell:
         """The cell as text."""
         form = "{:.0%}" if self.share else "{:.2f}"
         return Value(
-            ours=_number(self.ours, self.share),
-            ends=_ends(self.ours, self.share),
-            median=written(self.median) if self.median else "",
+            *_text(self.ours, self.share),
+            median="" if self.median is None else Value(*_text(self.median)).whole,
             of_sums="" if self.of_sums is None else f"{self.of_sums:.2f}",
             published="" if self.published is None else form.format(self.published.value),
             inside=self.inside,
         )
 
 
-def written(own: Estimate | None, share: bool = False) -> str:
-    """A ratio, or a share in percent, with its interval."""
-    return Value(_number(own, share), _ends(own, share)).whole
-
-
-def _number(own: Estimate | None, share: bool) -> str:
+def _text(own: Estimate | None, share: bool = False) -> tuple[str, Cells]:
+    """A ratio, or a share in percent, and the ends of its interval."""
     if own is None:
-        return "-"
-    return f"{own.value:.1%}" if share else f"{own.value:.2f}"
-
-
-def _ends(own: Estimate | None, share: bool) -> Cells:
-    if own is None or own.single:
-        return ()
-    return tuple(f"{100 * end:.1f}" if share else f"{end:.2f}" for end in (own.low, own.high))
+        return "-", ()
+    ends = () if own.single else (own.low, own.high)
+    if share:
+        return f"{own.value:.1%}", tuple(f"{100 * end:.1f}" for end in ends)
+    return f"{own.value:.2f}", tuple(f"{end:.2f}" for end in ends)
 
 
 def effect(test: Test | None) -> str:

@@ -15,13 +15,13 @@ from testbed.analysis import Run
 from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.comparison import (
     DEADLINE,
-    LEAST,
     LOST,
     NO_EVENT,
     NOTHING_TO_DO,
     TIMES,
     UNSOLVABLE,
     eventful,
+    optimum,
 )
 from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, corrected
 from testbed.analysis.statistics import Test
@@ -205,8 +205,8 @@ def _row(name: str, sample: Sample, robots: Compared) -> Row:
         advantage=decided.mean(own.cast(pl.Int8) - base.cast(pl.Int8)),
         ratios={measure: ended.ratio(measure) for measure in MEASURES},
         optimum={
-            robots.treatment: _optimum(ended, OTHER),
-            robots.baseline: _optimum(ended, ""),
+            robots.treatment: optimum(ended.pairs, OTHER, "weight"),
+            robots.baseline: optimum(ended.pairs, "", "weight"),
         },
         times={name: _seconds(ended, name) for name in TIMES},
     )
@@ -214,20 +214,7 @@ def _row(name: str, sample: Sample, robots: Compared) -> Row:
 
 def _seconds(sample: Sample, name: str) -> Seconds:
     """Beside the published measures: what is tested is one of these, or not."""
-    base, own = (_mean(sample.pairs, pl.col(name + who)) for who in ("", OTHER))
+    weight = pl.col("weight")
+    means = {who: (weight * pl.col(name + who)).sum() / weight.sum() for who in ("", OTHER)}
+    base, own = sample.pairs.select(**means).fill_nan(None).row(0)
     return Seconds(base, own, dataclasses.replace(sample.ratio(name), test=None))
-
-
-def _mean(pairs: pl.DataFrame, value: pl.Expr) -> float | None:
-    """The weighted mean; None of none."""
-    mean: float | None = pairs.select(
-        (value * pl.col("weight")).sum() / pl.col("weight").sum()
-    ).item()
-    return mean if len(pairs) else None
-
-
-def _optimum(sample: Sample, who: str) -> Optimum:
-    """How far a robot is from the least that achieves the goal, where it achieved it."""
-    known = sample.pairs.filter("achieved" + who, *(pl.col(own) > 0 for own in LEAST.values()))
-    means = {n: _mean(known, pl.col(n + who) / pl.col(own)) for n, own in LEAST.items()}
-    return {"trials": len(known), **means}
