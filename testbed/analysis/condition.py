@@ -111,13 +111,10 @@ def _strategy(config: ExperimentConfig, own: ScenarioSettings) -> str:
         return f"exogenous actions by triggers{at_rate}"
     if config.adversary.strategy in (None, "random"):
         by_default = 0.0 if config.is_fine else RANDOM_RATE
-        return _random(by_default if rate is None else rate)
+        drawn = by_default if rate is None else rate
+        return f"random exogenous actions at rate {drawn}" if drawn else "no exogenous actions"
     options = "".join(f", {name} {value}" for name, value in config.adversary.options.items())
     return f"exogenous actions by {config.adversary.strategy}{at_rate}{options}"
-
-
-def _random(rate: float) -> str:
-    return f"random exogenous actions at rate {rate}" if rate else "no exogenous actions"
 
 
 def _of_scenarios(config: ExperimentConfig, said: Callable[[ScenarioSettings], str]) -> str:

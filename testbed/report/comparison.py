@@ -61,10 +61,7 @@ def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
         return []
 
     def series(
-        label: str,
-        colour: Colour,
-        estimate: Callable[[Sample], Estimate | None],
-        marker: str = "o",
+        label: str, colour: Colour, estimate: Callable[[Sample], Estimate | None], marker: str = "o"
     ) -> Series:
         drawn = points((name, estimate(own)) for name, own in groups.items())
         return Series(label, colour, drawn, marker)

@@ -13,6 +13,7 @@ from asp.language import read_domain, scenario_notes
 from testbed.analysis import Run, load_run
 from testbed.analysis.comparison import COUNTS, MEASURES, compared, eventful, measured, with_apart
 from testbed.analysis.condition import condition
+from testbed.analysis.pairs import Compared
 from testbed.analysis.summary import write_summary
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import coverage_of
@@ -81,10 +82,7 @@ def _grids(sections: Sequence[Section]) -> Iterator[Grid]:
 
 
 def _write_page(
-    run: Run,
-    tables: Tables,
-    sections: Sequence[Section],
-    compared: Mapping[str, Any],
+    run: Run, tables: Tables, sections: Sequence[Section], compared: Mapping[str, Any]
 ) -> None:
     source = reversed(read_domain(run.config.domain))
     notes = scenario_notes(*source) if run.config.plays_triggers else {}
@@ -116,8 +114,7 @@ def _compared(
     return {
         "compared": groups,
         "compared_charts": charts(trials, summary) if groups and several else [],
-        "baseline": summary["baseline"],
-        "treatment": summary["treatment"],
+        **{role: summary[role] for role in Compared._fields},
         "counts": COUNTS,
         "measures": list(MEASURES),
         "optimum_columns": OPTIMUM,

@@ -25,15 +25,12 @@ def plain(text: str, keep: str = "") -> str:
     """
     if text.isprintable():
         return text
-    return "".join(_escape(own) if _steers(own, keep) else own for own in text)
+    return "".join(own if own in keep else _visible(own) for own in text)
 
 
-def _steers(character: str, keep: str) -> bool:
-    return character not in keep and unicodedata.category(character) in _HIDDEN
-
-
-def _escape(character: str) -> str:
-    return character.encode("unicode_escape").decode("ascii")
+def _visible(character: str) -> str:
+    steers = unicodedata.category(character) in _HIDDEN
+    return character.encode("unicode_escape").decode("ascii") if steers else character
 
 
 def tolerant() -> None:

@@ -136,9 +136,7 @@ def comparisons_of(config: ExperimentConfig) -> list[Compared]:
 
 
 def analyse(
-    pairs: pl.DataFrame,
-    robots: Compared,
-    published: Mapping[str, Mapping[str, Published]] = EACH,
+    pairs: pl.DataFrame, robots: Compared, published: Mapping[str, Mapping[str, Published]] = EACH
 ) -> Analysis:
     """Both tables of `pairs_in`, beside these published rows."""
     # Failures and goals that nothing achieves are told in the row of their scenario.

@@ -9,7 +9,7 @@ from testbed.analysis.pairs import Compared
 from testbed.experiment.timeline import in_words
 from testbed.studies.charts import Chart, Key, Series, points, published
 from testbed.studies.study import Section
-from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
+from testbed.studies.table1.measures import Analysis, Optimum, Row, Seconds, Table
 from testbed.studies.table1.pairs import MEETINGS
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
@@ -20,15 +20,8 @@ HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 ROBOTS = {"baseline": "TP correct", "treatment": "ATI correct"}
 COLUMNS = ("scenario", "pairs", *HEADINGS, *ROBOTS.values())
 TIMES = ("scenario", "time", "TP", "ATI", "mean of ratios", "ratio of sums", "published")
-OPTIMUM = (
-    "scenario",
-    "TP trials",
-    "TP units",
-    "TP actions",
-    "ATI trials",
-    "ATI units",
-    "ATI actions",
-)
+DISTANCES = ("trials", "units", "actions")
+OPTIMUM = ("scenario", *(f"{robot} {what}" for robot in ("TP", "ATI") for what in DISTANCES))
 READINGS = (PLANNING, "reasoning_time")
 """What the published planning time can mean: planning alone, or all reasoning."""
 WAYS = {"triggered": "triggered", "random": "drawn at random, classified"}
@@ -160,13 +153,12 @@ def optimum_rows(table: Table, robots: Compared) -> Iterator[Cells]:
     """Under OPTIMUM: for each row with pairs how far its robots are from the optimum."""
     for row in table.rows:
         if row.pairs and set(robots) <= set(row.optimum):
-            yield (row.name, *(text for who in robots for text in _optimum(row.optimum[who])))
+            both = [row.optimum[robot] for robot in robots]
+            yield (row.name, *(text for own in both for text in _optimum(own)))
 
 
-def _optimum(own: Mapping[str, float | None]) -> Iterator[str]:
-    yield str(own["trials"])
-    for name in ("execution_units", "actions"):
-        yield number(own[name])
+def _optimum(own: Optimum) -> tuple[str, ...]:
+    return str(own["trials"]), number(own["execution_units"]), number(own["actions"])
 
 
 def _notes(table: Table) -> Iterator[str]:
