@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from asp.domains.levels import LevelSize, level_text
+from asp.language import Action, Fluent, Literal
 from asp.reasoning.fine_planning import FineStart
 from asp.refinement import Refinement, Transition, fine_constants, fine_goal, load, relevant
 
@@ -25,7 +26,7 @@ class FineProblem:
     relevant: frozenset[str]
 
     @cached_property
-    def goal(self) -> tuple[str, ...]:
+    def goal(self) -> tuple[Literal, ...]:
         """What the transition brings about."""
         return fine_goal(self.refinement, self.transition, self.relevant).effects
 
@@ -60,18 +61,18 @@ def _problem(refinement: Refinement, draw: random.Random) -> FineProblem:
     item = draw.choice(sorts["object"])
     if held or kind == "pickup":
         where[item] = where[robot]
-    in_hand = frozenset({f"in_hand({robot},{item})"})
+    in_hand = frozenset({Fluent.of("in_hand", (robot, item))})
     before = _coarse(where) | (in_hand if held else frozenset())
     if kind == "move":
         target = draw.choice(_neighbours(sorts["room"], where[robot]))
         moved = {robot: target} | ({item: target} if held else {})
         after = _coarse({**where, **moved}) | (before & in_hand)
-        action = f"move({robot},{target})"
+        action = Action.of("move", (robot, target))
     else:
-        after, action = before ^ in_hand, f"{kind}({robot},{item})"
+        after, action = before ^ in_hand, Action.of(kind, (robot, item))
     transition = Transition(before, action, after)
     other = draw.choice([room for room in sorts["room"] if room != where[item]])
-    about = relevant(refinement, transition, (f"loc({item},{other})",))
+    about = relevant(refinement, transition, (Fluent.of("loc", (item, other)),))
     start = _start(refinement, where, robot, item if held else None, draw)
     return FineProblem(refinement, start, transition, about)
 
@@ -85,7 +86,7 @@ def _start(
 ) -> FineStart:
     components = refinement.components
     own = draw.choice(components[where[robot]])
-    true, candidates = {f"fine_loc({robot},{own})"}, []
+    true, candidates = {Fluent.of("fine_loc", (robot, own))}, []
     for thing, room in where.items():
         if thing == robot:
             continue
@@ -93,17 +94,17 @@ def _start(
         left = set(draw.sample(components[room], known_of))
         for part in components[thing]:
             if thing == held:
-                true.add(f"fine_loc({part},{own})")
+                true.add(Fluent.of("fine_loc", (part, own)))
             else:
-                group = (f"fine_loc({part},{c})" for c in components[room] if c in left)
+                group = (Fluent.of("fine_loc", (part, c)) for c in components[room] if c in left)
                 candidates.append(tuple(group))
     if held is not None:
-        true.add(f"fine_in_hand({robot},{draw.choice(components[held])})")
+        true.add(Fluent.of("fine_in_hand", (robot, draw.choice(components[held]))))
     return FineStart(frozenset(true), tuple(candidates))
 
 
-def _coarse(where: Mapping[str, str]) -> frozenset[str]:
-    return frozenset(f"loc({thing},{room})" for thing, room in where.items())
+def _coarse(where: Mapping[str, str]) -> frozenset[Fluent]:
+    return frozenset(Fluent.of("loc", place) for place in where.items())
 
 
 def _neighbours(rooms: tuple[str, ...], room: str) -> list[str]:

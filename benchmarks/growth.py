@@ -8,7 +8,8 @@ from math import inf
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Intention, Reasoner
-from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.language import Action, Fluent, Literal
+from asp.reasoning.diagnosis import SELECT, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.measuring import forget, median, no_collection, timed, within
 from benchmarks.offices import book_names, office, room_names
@@ -16,7 +17,7 @@ from benchmarks.problems import Problem, delivered, drawn, placed
 from benchmarks.sheets import DisagreementError, Row, Sheet, Value, gathered
 from benchmarks.sieges import Question, Siege, besiege
 
-Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner[History]]
+Make = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[History]]
 
 PLAN_LIMIT = 30
 LIMIT_S = {"small": inf, "full": 20.0}
@@ -89,7 +90,7 @@ class _Point:
 
     first_ms: float
     took_ms: list[float]
-    plans: list[tuple[str, ...]]
+    plans: list[tuple[Action, ...]]
 
 
 def _family(
@@ -139,13 +140,13 @@ def _fast(problems: Sequence[Problem]) -> _Point:
     return _Point(first, took, plans)
 
 
-def _moved(problem: Problem) -> tuple[str, ...]:
+def _moved(problem: Problem) -> tuple[Fluent, ...]:
     """Another problem of about the same length: the library's lock is the other way round."""
-    lock = "locked(library)"
+    lock = Fluent.of("locked", ("library",))
     return tuple({*problem.initial} ^ {lock})
 
 
-def _slow(problem: Problem) -> tuple[float, tuple[str, ...]]:
+def _slow(problem: Problem) -> tuple[float, tuple[Action, ...]]:
     took, intention = timed(lambda: first_decision(problem, ReferenceReasoner))
     return took, intention.plan
 
@@ -154,8 +155,8 @@ def first_decision(problem: Problem, make: Make) -> Intention:
     """What a robot intends at step 1, which has seen nothing that it did not know."""
     fluents = problem.description.fluents
     history = History(step=1)
-    history.observe([f if f in problem.state else f"-{f}" for f in fluents], 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.observe([f if f in problem.state else f.complement for f in fluents], 0)
+    history.happened(SELECT, True, 0)
     reasoner = make(problem.knowledge, problem.goal, problem.limit)
     return reasoner.intend(history, reasoner.diagnose(history, Explanation()))
 
@@ -193,7 +194,7 @@ def _lives(steps: Sequence[int], window: int, limit_s: float) -> Iterator[Row]:
 
 
 def _long_lives(
-    source: str, initial: Sequence[str], goal: Sequence[str], step: int, window: int
+    source: str, initial: Sequence[Literal], goal: Sequence[Literal], step: int, window: int
 ) -> list[Siege]:
     """Lives up to a contradiction after `step`, when all they need has been grounded before."""
     window_steps = range(max(1, step - window), step + LIVES + 25)
@@ -228,7 +229,7 @@ def _points(sieges: Sequence[Siege], step: int) -> Mapping[str, tuple[list[float
 
 
 def _asked_again(
-    source: str, goal: tuple[str, ...], question: Question, limit_s: float
+    source: str, goal: tuple[Literal, ...], question: Question, limit_s: float
 ) -> float | None:
     """How long the reference takes with a question (ms). Raises DisagreementError."""
 

@@ -17,6 +17,7 @@ from agents.intentional import joint, reasoners
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
+from asp.language import Literal
 from asp.reasoning.diagnosis import reference as diagnosis
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import ground
@@ -38,7 +39,7 @@ FIGURES = {
 }
 
 
-Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner[History]]
+Make = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[History]]
 SIDES: Mapping[str, tuple[str, Make]] = {
     "letter": ("TI to the letter: one call", JointReferenceReasoner),
     "ati_one_call": ("ATI, a call a phase", OneCallReasoner),

@@ -14,10 +14,11 @@ from typing import Any
 import clingo
 from clingo import ast
 
+from asp.language import Fluent, Literal
 from asp.reasoning.planning import Encoding
 from benchmarks.search import Search
 
-Planner = Callable[[Encoding, Sequence[str], Sequence[str]], int | None]
+Planner = Callable[[Encoding, Sequence[Fluent], Sequence[Literal]], int | None]
 
 FAST_DOWNWARD = "unified-planning, Fast Downward"
 TELINGO = "telingo"
@@ -53,12 +54,16 @@ def outsiders() -> dict[str, Planner | None]:
     }
 
 
-def breadth_first(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> int | None:
+def breadth_first(
+    encoding: Encoding, true: Sequence[Fluent], goal: Sequence[Literal]
+) -> int | None:
     """Search in this process."""
     return Search(encoding).shortest(true, goal)
 
 
-def fast_downward(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> int | None:
+def fast_downward(
+    encoding: Encoding, true: Sequence[Fluent], goal: Sequence[Literal]
+) -> int | None:
     """unified-planning with Fast Downward in its optimal configuration."""
     up = import_module("unified_planning.shortcuts")
 
@@ -69,7 +74,7 @@ def fast_downward(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) 
     return None if plan is None else len(plan.actions)
 
 
-def _problem(up: Any, encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> Any:
+def _problem(up: Any, encoding: Encoding, true: Sequence[Fluent], goal: Sequence[Literal]) -> Any:
     """One predicate, `is(variable,value)`: where each value has one of its own, the translator
     takes a hundred times as long to find out which exclude each other."""
     problem = up.Problem("domain")
@@ -101,7 +106,7 @@ def _problem(up: Any, encoding: Encoding, true: Sequence[str], goal: Sequence[st
     return problem
 
 
-def telingo(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> int | None:
+def telingo(encoding: Encoding, true: Sequence[Fluent], goal: Sequence[Literal]) -> int | None:
     """telingo in this process, its default configuration."""
     theirs = import_module("telingo")
     lengths: list[int] = []
@@ -113,7 +118,7 @@ def telingo(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> int
     return lengths[0] if lengths else None
 
 
-def _facts(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> list[str]:
+def _facts(encoding: Encoding, true: Sequence[Fluent], goal: Sequence[Literal]) -> list[str]:
     """The problem as ASP facts, variables and values by number."""
     lines = [f"initially({v},{x})." for v, x in enumerate(_state(encoding, true))]
     for number, operator in enumerate(encoding.operators):
@@ -126,7 +131,7 @@ def _facts(encoding: Encoding, true: Sequence[str], goal: Sequence[str]) -> list
     return lines
 
 
-def _state(encoding: Encoding, true: Sequence[str]) -> tuple[int, ...]:
+def _state(encoding: Encoding, true: Sequence[Fluent]) -> tuple[int, ...]:
     state = encoding.values(true)
     assert state is not None, "problems start in a state"
     return state

@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import inf
 
 from agents.shared.sessions import sessions_of
-from asp.language import analyse, parse_description
+from asp.language import Fluent, analyse, parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.reasoning.planning import Encoding
 from benchmarks.measuring import forget, median, timed, within
@@ -151,9 +151,10 @@ def _ours_again(problem: Problem) -> Outcome:
 
 def _others(problem: Problem) -> Sequence[Problem]:
     """The lock the other way round, and the robot where the first book is."""
-    lock = "locked(library)"
+    lock = Fluent.of("locked", ("library",))
     turned = replace(problem, initial=tuple({*problem.initial} ^ {lock}))
-    home = next(a for a in problem.initial if a.startswith("loc(book1,")).replace("book1", "rob1")
+    where = {a.arguments[0]: a.arguments[1] for a in problem.initial if a.name == "loc"}
+    home = Fluent.of("loc", ("rob1", where["book1"]))
     moved = [a for a in problem.initial if not a.startswith("loc(rob1,")]
     return (turned, replace(problem, initial=(*moved, home)))
 

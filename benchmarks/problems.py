@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from asp.language import Description
+from asp.language import Action, Description, Literal
 from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import State
 from benchmarks.offices import book_names, office, room_names
@@ -19,8 +19,8 @@ class Problem:
 
     name: str
     source: str
-    initial: tuple[str, ...]
-    goal: tuple[str, ...]
+    initial: tuple[Literal, ...]
+    goal: tuple[Literal, ...]
     limit: int = 60
 
     @cached_property
@@ -36,15 +36,21 @@ class Problem:
         return frozenset(self.initial)
 
 
-def delivered(books: Sequence[str], room: str = "library", robot: str = "rob1") -> tuple[str, ...]:
+def delivered(
+    books: Sequence[str], room: str = "library", robot: str = "rob1"
+) -> tuple[Action, ...]:
     """The goal that the books are in the room and not in the robot's hand."""
-    there = tuple(f"loc({book},{room})" for book in books)
-    return there + tuple(f"-in_hand({robot},{book})" for book in books)
+    there = tuple(Literal.of("loc", (book, room)) for book in books)
+    return there + tuple(Literal.of("in_hand", (robot, book), False) for book in books)
 
 
-def placed(where: dict[str, str], robot: str, *more: str) -> tuple[str, ...]:
+def placed(where: dict[str, str], robot: str, *more: Literal) -> tuple[Literal, ...]:
     """The state with each book in its room and the robot in `robot`."""
-    return (*(f"loc({book},{room})" for book, room in where.items()), f"loc(rob1,{robot})", *more)
+    places = {**where, "rob1": robot}
+    return (*(Literal.of("loc", place) for place in places.items()), *more)
+
+
+LOCKED = Literal.of("locked", ("library",))
 
 
 def prototypes() -> Iterator[Problem]:
@@ -52,16 +58,20 @@ def prototypes() -> Iterator[Problem]:
     yield Problem(
         "P1",
         office(2),
-        placed({"book1": "kitchen", "book2": "kitchen"}, "kitchen", "in_hand(rob1,book1)"),
+        placed(
+            {"book1": "kitchen", "book2": "kitchen"},
+            "kitchen",
+            Literal.of("in_hand", ("rob1", "book1")),
+        ),
         delivered(book_names(2)),
     )
-    for name, books, lock in (("P2", 2, ["locked(library)"]), ("P3", 4, [])):
+    for name, books, lock in (("P2", 2, [LOCKED]), ("P3", 4, [])):
         where = dict.fromkeys(book_names(books), "office1")
         initial = placed(where, "library", *lock)
         yield Problem(name, office(books), initial, delivered(book_names(books)))
     rooms = room_names(4)
     spread = {book: rooms[number % 4] for number, book in enumerate(book_names(8))}
-    initial = placed(spread, "library", "locked(library)")
+    initial = placed(spread, "library", LOCKED)
     yield Problem("P4", office(8), initial, delivered(["book1", "book2", "book3"]))
 
 
@@ -74,7 +84,7 @@ def drawn(
     outside = names[:-1]
     for index in range(number):
         where = {book: random_source.choice(outside) for book in book_names(books)}
-        lock = ["locked(library)"] if random_source.random() < 0.5 else []
+        lock = [LOCKED] if random_source.random() < 0.5 else []
         initial = placed(where, random_source.choice(outside), *lock)
         yield Problem(
             f"{books} books, {rooms} rooms in a {shape}, {wanted} wanted, {index + 1}",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
+from asp.language import Action, Fluent, Literal
 from asp.reasoning.planning import Encoding, Operator, Values
 
 State = tuple[int, ...]
@@ -14,19 +15,19 @@ class Search:
 
     def __init__(self, encoding: Encoding) -> None:
         self._encoding = encoding
-        self._index: dict[tuple[int, int] | None, list[tuple[str, Values, Values]]] = {}
+        self._index: dict[tuple[int, int] | None, list[tuple[Action, Values, Values]]] = {}
         for operator in encoding.operators:
             compiled = (operator.action, operator.before, operator.after)
             self._index.setdefault(self._key(operator), []).append(compiled)
 
-    def state(self, true: Collection[str]) -> State:
+    def state(self, true: Collection[Fluent]) -> State:
         """The state in which these fluents are true. Raises ValueError where it is none."""
         state = self._encoding.values(true)
         if state is None:
             raise ValueError(f"no state has just these fluents: {', '.join(sorted(true))}")
         return state
 
-    def successors(self, state: State) -> Iterator[tuple[str, State]]:
+    def successors(self, state: State) -> Iterator[tuple[Action, State]]:
         """Each action that can be executed, with the state that it leads to."""
         for entry in (None, *enumerate(state)):
             for action, before, after in self._index.get(entry, ()):
@@ -36,7 +37,7 @@ class Search:
                         following[variable] = value
                     yield action, tuple(following)
 
-    def shortest(self, true: Collection[str], goal: Sequence[str]) -> int | None:
+    def shortest(self, true: Collection[Fluent], goal: Sequence[Literal]) -> int | None:
         """The length of a shortest plan; None if there is none."""
         wanted = [self._encoding.assignment(literal) for literal in goal]
         start = self.state(true)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner
 from agents.shared.thought import Intention, Reasoner
-from asp.language import Literal, parse_description
+from asp.language import Action, Literal, parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation
 from benchmarks.measuring import forget, timed
 from testbed.environment import NONE, Core, Observability, Rules
@@ -69,8 +69,8 @@ class Recording:
 
 def besiege(
     source: str,
-    initial: Sequence[str],
-    goal: Sequence[str],
+    initial: Sequence[Literal],
+    goal: Sequence[Literal],
     steps: int,
     silent: Collection[int] = (),
     forgetful: Collection[int] = (),
@@ -113,7 +113,7 @@ def besiege(
     return siege
 
 
-def _undoing(world: World, core: Core, action: str, goal: Sequence[str]) -> str:
+def _undoing(world: World, core: Core, action: Action, goal: Sequence[Literal]) -> Action:
     """The first event that keeps the action from achieving the goal; none where it does not."""
     state = core.situation.state
     after = world.successors(state, () if action in ("wait", "finish") else (action,))
@@ -125,7 +125,7 @@ def _undoing(world: World, core: Core, action: str, goal: Sequence[str]) -> str:
     return NONE
 
 
-def _rules(goal: Sequence[str], steps: int, mode: str) -> Rules:
+def _rules(goal: Sequence[Literal], steps: int, mode: str) -> Rules:
     seen = Observability(mode, 1.0)  # type: ignore[arg-type]
     return Rules(
         goal=tuple(goal),
@@ -136,7 +136,7 @@ def _rules(goal: Sequence[str], steps: int, mode: str) -> Rules:
     )
 
 
-def _task(world: World, state: int, source: str, goal: Sequence[str]) -> Task:
+def _task(world: World, state: int, source: str, goal: Sequence[Literal]) -> Task:
     return Task(
         trial="siege",
         robot="intentional",

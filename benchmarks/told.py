@@ -65,7 +65,7 @@ class ToldRobot(TraditionalRobot):
     def _observe(self, percept: Percept) -> None:
         super()._observe(percept)
         if percept.goal_holds is False and self._explained_goal:
-            self._history.observe([f"-{GOAL}"], percept.step)
+            self._history.observe([GOAL.complement], percept.step)
             self._rest = None
 
 

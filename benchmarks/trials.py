@@ -36,7 +36,7 @@ class Played:
         return self.begin_ms + sum(self.decisions_ms)
 
     @property
-    def answers(self) -> list[tuple[str, ...]]:
+    def answers(self) -> list[tuple[object, ...]]:
         """Intention, plan and adopted explanation of each decision."""
         return [
             (d.trace.intention, *d.trace.plan, str(d.trace.explanation)) for d in self.decisions

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from agents.intentional.reasoners import History
 from agents.shared.thought import Reasoner
-from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.language import Action, Fluent, Literal
+from asp.reasoning.diagnosis import SELECT, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.problems import delivered, placed
@@ -33,7 +34,7 @@ class Vanished:
         return knowledge("office", office(self.books, self.rooms, "hub"))
 
     @property
-    def goal(self) -> tuple[str, ...]:
+    def goal(self) -> tuple[Literal, ...]:
         return delivered(book_names(self.books), room_names(self.rooms)[0])
 
     @property
@@ -57,12 +58,12 @@ class Vanished:
         true = placed(dict.fromkeys(books, hub), start)
         history = History()
         fluents = self.knowledge.description.fluents
-        history.observe([f if f in true else f"-{f}" for f in fluents], 0)
-        history.happened(f"select({GOAL})", True, 0)
+        history.observe([f if f in true else f.complement for f in fluents], 0)
+        history.happened(SELECT, True, 0)
         for step, room in enumerate(way, start=1):
-            history.attempt(f"move(rob1,{room})", step)
-            history.happened(f"move(rob1,{room})", True, step)
-            history.observe([f"loc(rob1,{room})"], step + 1)
-        history.observe([f"-loc({book},{hub})" for book in books], self.steps)
+            history.attempt(Action.of("move", ("rob1", room)), step)
+            history.happened(Action.of("move", ("rob1", room)), True, step)
+            history.observe([Fluent.of("loc", ("rob1", room))], step + 1)
+        history.observe([Literal.of("loc", (book, hub), False) for book in books], self.steps)
         history.step = self.steps
         return history

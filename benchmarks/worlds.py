@@ -9,7 +9,7 @@ import numpy as np
 
 from agents.adversary import AdversaryView, Game, Random
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language import name as name_of
+from asp.language import Action
 from asp.refinement import Refinement, load
 from benchmarks.measuring import median, no_collection, quantile, timed
 from benchmarks.sheets import Row, Sheet, gathered
@@ -82,7 +82,7 @@ def _steps(core: Core, twin: Core, steps: int) -> Iterator[float]:
     for _ in range(steps):
         action = _possible(twin, core.situation.state, choose)
 
-        def play(action: str = action) -> None:
+        def play(action: Action = action) -> None:
             legal = core.legal_events(action)
             event = adversary.act(AdversaryView(core.situation.step, frozenset(), action, legal))
             core.advance(action, event)
@@ -91,11 +91,11 @@ def _steps(core: Core, twin: Core, steps: int) -> Iterator[float]:
         yield timed(play)[0]
 
 
-def _possible(core: Core, state: int, choose: np.random.Generator) -> str:
+def _possible(core: Core, state: int, choose: np.random.Generator) -> Action:
     """An action that can come to something in the state: one of the kinds, then one of it."""
-    kinds: dict[str, list[str]] = {}
+    kinds: dict[str, list[Action]] = {}
     for action in core.execution.actions:
-        kinds.setdefault(name_of(action), []).append(action)
+        kinds.setdefault(action.name, []).append(action)
     for kind in choose.permutation(list(kinds)):
         drawn = (kinds[kind][int(number)] for number in choose.permutation(len(kinds[kind])))
         possible = [a for a in islice(drawn, 400) if core.execution.possible(state, a)]

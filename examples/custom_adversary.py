@@ -10,7 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from agents.adversary import AdversaryView, Game
-from asp.language import arguments, atom, is_positive
 
 
 class Spoiler:
@@ -37,12 +36,12 @@ class Spoiler:
         """An event that is legal beside the robot's action, or `none`."""
         if not (self._left and view.physical and view.step >= self._options.patience):
             return "none"
-        spoilt = {arguments(goal)[0] for goal in self._goal if self._holds(goal, view)}
-        events = [event for event in view.legal if spoilt.intersection(arguments(event)[:1])]
+        spoilt = {goal.arguments[0] for goal in self._goal if self._holds(goal, view)}
+        events = [event for event in view.legal if spoilt.intersection(event.arguments[:1])]
         if not events:
             return "none"
         self._left -= 1
         return events[int(self._random.integers(len(events)))]
 
     def _holds(self, literal: str, view: AdversaryView) -> bool:
-        return is_positive(literal) and atom(literal) in view.state
+        return literal.is_positive and literal.atom in view.state

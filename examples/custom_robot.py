@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from time import perf_counter, process_time
 
-from asp.language import atom, is_positive
+from asp.language import is_positive
 from asp.reasoning.planning import IncrementalPlanner
 from testbed.protocol import Capabilities, Decision, Percept, Task, Trace
 
@@ -31,10 +31,10 @@ class Replanner:
     def act(self, percept: Percept) -> Decision:
         """An action, or `finish` where nothing is left to do, or nothing can be done."""
         for literal in percept.visible:
-            if is_positive(literal):
+            if literal.is_positive:
                 self._believed.add(literal)
             else:
-                self._believed.discard(atom(literal))
+                self._believed.discard(literal.atom)
         wall, process = perf_counter(), process_time()
         plan = self._planner.shortest(frozenset(self._believed), self._goal, self._limit)
         wall, process = perf_counter() - wall, process_time() - process

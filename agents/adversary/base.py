@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal as Choice
+from typing import Protocol
 
 from asp import Description
+from asp.language import Action, Fluent, Literal
 
-Sight = Literal["state", "robot_action"]
+Sight = Choice["state", "robot_action"]
 """What a class of adversaries may declare to see, as its attribute `sees`."""
 
 
@@ -21,8 +23,8 @@ class Game:
     """
 
     scenario: str
-    goal: tuple[str, ...]
-    exogenous_actions: Sequence[str]
+    goal: tuple[Literal, ...]
+    exogenous_actions: Sequence[Action]
     description: Description
 
 
@@ -38,9 +40,9 @@ class AdversaryView:
     """
 
     step: int
-    state: frozenset[str]
-    robot_action: str
-    legal: Sequence[str]
+    state: frozenset[Fluent]
+    robot_action: Action | None
+    legal: Sequence[Action]
     physical: bool = True
 
 
@@ -59,5 +61,5 @@ class Adversary(Protocol):
     def reset(self, seed: int) -> None:
         """Begins a trial; everything drawn in it follows from the seed."""
 
-    def act(self, view: AdversaryView) -> str:
+    def act(self, view: AdversaryView) -> Action:
         """The answer at a step: `none` or a ground exogenous action that is legal."""

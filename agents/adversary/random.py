@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from agents.adversary.base import AdversaryView, Game, Sight
-from asp.language import literals as text
-from testbed.environment import NONE
+from asp.language import Action, Literal
+from testbed.protocol import NONE
 
 RANDOM_RATE = 0.1
 """Probability per step of a random event at the coarse resolution, unless given."""
@@ -36,21 +36,21 @@ class Random:
 
     def __init__(self, game: Game, options: Options) -> None:
         self._rate = options.rate
-        groups: dict[tuple[str, ...], list[str]] = {}
+        groups: dict[tuple[str, ...], list[Action]] = {}
         for event in game.exogenous_actions:
-            groups.setdefault(text.arguments(event)[:1], []).append(event)
+            groups.setdefault(event.arguments[:1], []).append(event)
         self._groups = list(groups.values())
         self.reset(0)
 
     def reset(self, seed: int) -> None:
         self._random = np.random.default_rng(seed)
 
-    def act(self, view: AdversaryView) -> str:
+    def act(self, view: AdversaryView) -> Action:
         if self._random.random() >= self._rate:
             return NONE
         return next((event for event in self._drawn() if event in view.legal), NONE)
 
-    def _drawn(self) -> Iterator[str]:
+    def _drawn(self) -> Iterator[Literal]:
         """The events in a random order, those of one thing after those of another."""
         for number in self._random.permutation(len(self._groups)):
             group = self._groups[int(number)]

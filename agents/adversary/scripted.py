@@ -9,9 +9,8 @@ from typing import TypeVar
 import numpy as np
 
 from agents.adversary.base import AdversaryView, Game, Sight
-from asp.language import Trigger
-from asp.language import literals as text
-from testbed.environment import NONE
+from asp.language import Action, Literal, Trigger
+from testbed.protocol import NONE
 
 T = TypeVar("T")
 
@@ -47,7 +46,7 @@ class Triggered:
         self._random = np.random.default_rng(seed)
         self._fired = False
 
-    def act(self, view: AdversaryView) -> str:
+    def act(self, view: AdversaryView) -> Action:
         if self._fired or tuple(view.legal) == (NONE,):
             return NONE
         triggers = [t for t in self._triggers if t.upon in (None, view.robot_action)]
@@ -64,7 +63,7 @@ class Triggered:
         probability = triggers[0].probability if self._rate is None else self._rate
         return probability >= 1 or bool(self._random.random() < probability)
 
-    def _choose(self, triggers: Sequence[Trigger], view: AdversaryView) -> str:
+    def _choose(self, triggers: Sequence[Trigger], view: AdversaryView) -> Action:
         if not any(trigger.drawn for trigger in triggers):
             return next((t.event for t in triggers if _possible(t, view)), NONE)
         pool = dict.fromkeys(_drawable(t) for t in triggers if _hold(t.pool, view))
@@ -89,8 +88,8 @@ class Script:
 
     def __init__(
         self,
-        entries: Iterable[tuple[int, str]],
-        at_actions: Iterable[tuple[int, str]] = (),
+        entries: Iterable[tuple[int, Action]],
+        at_actions: Iterable[tuple[int, Action]] = (),
         skips: bool = False,
     ) -> None:
         """`entries` are steps, `at_actions` numbers of physical actions, from 1 on, with an action.
@@ -105,9 +104,9 @@ class Script:
         """A script draws nothing."""
         del seed
         self._physical = 0
-        self.skipped: tuple[str, ...] = ()
+        self.skipped: tuple[Action, ...] = ()
 
-    def act(self, view: AdversaryView) -> str:
+    def act(self, view: AdversaryView) -> Action:
         """Raises ValueError where two entries are due at a step and none may be skipped."""
         due = self._due(view)
         if len(due) > 1 and not self._skips:
@@ -116,7 +115,7 @@ class Script:
         self.skipped = tuple(event for event in due if event not in played)
         return next(iter(played), NONE)
 
-    def _due(self, view: AdversaryView) -> list[str]:
+    def _due(self, view: AdversaryView) -> list[Action]:
         due = [self._at_steps.get(view.step)]
         if view.physical:
             self._physical += 1
@@ -130,8 +129,8 @@ class Script:
         return [f"step {n}" for n in steps] + [f"action {n} of the robot" for n in actions]
 
 
-def _by_number(entries: Iterable[tuple[int, str]]) -> dict[int, str]:
-    actions: dict[int, str] = {}
+def _by_number(entries: Iterable[tuple[int, Action]]) -> dict[int, Action]:
+    actions: dict[int, Action] = {}
     for number, action in entries:
         if number in actions:
             raise ValueError(f"script: step {number} has two actions: one per step is possible")
@@ -141,12 +140,12 @@ def _by_number(entries: Iterable[tuple[int, str]]) -> dict[int, str]:
 
 def _drawable(trigger: Trigger) -> tuple[str, str]:
     """What is drawn: a value, for this kind of event."""
-    return text.name(trigger.event), trigger.drawn
+    return trigger.event.name, trigger.drawn
 
 
 def _possible(trigger: Trigger, view: AdversaryView) -> bool:
     return trigger.event in view.legal and _hold((*trigger.pool, *trigger.body), view)
 
 
-def _hold(literals: Iterable[str], view: AdversaryView) -> bool:
-    return all(text.is_positive(lit) == (text.atom(lit) in view.state) for lit in literals)
+def _hold(literals: Iterable[Literal], view: AdversaryView) -> bool:
+    return all(lit.is_positive == (lit.atom in view.state) for lit in literals)

@@ -16,13 +16,11 @@ from msgspec import structs
 from agents.shared.narration import retold
 from agents.shared.sessions import sessions_of
 from asp.language import (
+    Action,
+    Literal,
     Signature,
     analyse,
-    arguments,
-    atom,
-    is_positive,
     parse_description,
-    renamed,
     restrict,
     syntax,
     text_of,
@@ -71,17 +69,17 @@ class AbstractTask:
             task, source=source, goal=self.seen(task.goal), initial=self.seen(task.initial)
         )
 
-    def seen(self, literals: Iterable[str]) -> list[str]:
+    def seen(self, literals: Iterable[Literal]) -> list[Literal]:
         """Literals or actions in the names of the task that is left; the others are left out."""
-        return [renamed(text, self._there) for text in literals if self.is_about(text)]
+        return [text.renamed(self._there) for text in literals if self.is_about(text)]
 
-    def back(self, literals: Iterable[str]) -> list[str]:
+    def back(self, literals: Iterable[Literal]) -> list[Literal]:
         """Literals or actions of the task that is left, in their own names."""
-        return [renamed(literal, self._back) for literal in literals]
+        return [literal.renamed(self._back) for literal in literals]
 
-    def is_about(self, literal: str) -> bool:
+    def is_about(self, literal: Literal) -> bool:
         """Whether a literal or action names nothing that is left out."""
-        return self._gone.isdisjoint(arguments(literal))
+        return self._gone.isdisjoint(literal.arguments)
 
     @cached_property
     def _known(self) -> Knowledge:
@@ -94,16 +92,16 @@ class AbstractTask:
         return self._back.get(robot, robot)
 
     @cached_property
-    def fluents(self) -> list[str]:
+    def fluents(self) -> list[Literal]:
         """The fluents about what is left."""
         return self.back(self._known.description.fluents)
 
     @cached_property
-    def inertial(self) -> list[str]:
+    def inertial(self) -> list[Literal]:
         """Those of the fluents that are inertial."""
         return self.back(self._known.description.inertial)
 
-    def after(self, state: State, action: str | None, events: Iterable[str]) -> State | None:
+    def after(self, state: State, action: Action | None, events: Iterable[Action]) -> State | None:
         """The next state, where the action and the events occur together; None: they cannot."""
         attempt = None if action is None else self.seen([action])[0]
         found = sessions_of(self._known).transitions.after(
@@ -113,12 +111,12 @@ class AbstractTask:
             return None
         return frozenset(self.back(found[0]))
 
-    def news(self, state: State, action: str | None, events: Iterable[str]) -> list[str]:
+    def news(self, state: State, action: Action | None, events: Iterable[Action]) -> list[Action]:
         """Those of the events, told in this order, that can have occurred with the action.
 
         An event that undoes an earlier one takes its place; one that changes nothing is no event.
         """
-        found: list[str] = []
+        found: list[Literal] = []
         for event in filter(self.is_about, events):
             if self.after(state, action, [event]) is not None:
                 found.append(event)
@@ -133,7 +131,7 @@ class AbstractTask:
             percept,
             visible=self.seen(percept.visible),
             doubtful=self.seen(percept.doubtful),
-            attempted=None if attempted is None else renamed(attempted, self._there),
+            attempted=None if attempted is None else attempted.renamed(self._there),
             events=[
                 retold(event, lambda action: action.renamed(self._there))
                 for event in percept.events
@@ -184,8 +182,8 @@ class _Domain:
         """The members of classes that a task needs, and one of each class at least."""
         if self._whole:
             return self._members
-        known = frozenset(map(atom, task.initial))
-        possible = {literal for literal in task.initial if is_positive(literal)}
+        known = frozenset(each.atom for each in task.initial)
+        possible = {literal for literal in task.initial if literal.is_positive}
         possible.update(fluent for fluent in self._inertial if fluent not in known)
         spare = self._relevance.spare(possible, task.goal)
         firsts = (each[0] for each in self.classes if spare.issuperset(each))
@@ -223,7 +221,7 @@ def _names(classes: Iterable[tuple[str, ...]], kept: Collection[str]) -> dict[st
 
 
 @lru_cache(maxsize=64)
-def _without(text: str, domain: str, dropped: frozenset[str]) -> str:
+def _without(text: str, domain: str, dropped: frozenset[Literal]) -> str:
     """The AL_d text without some constants, and without what says nothing of the diagram."""
     if not dropped:
         return text

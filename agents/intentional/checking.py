@@ -16,7 +16,7 @@ from typing import ClassVar
 import msgspec
 
 from agents.intentional.controller import IntentionalRobot
-from asp.language import Description, Literal, Literals, complement
+from asp.language import Description, Fluent, Literal, Literals
 from asp.reasoning.knowledge import knowledge
 from asp.solving import deciding
 from testbed.protocol import Decision, Percept, Robot, Task
@@ -53,19 +53,19 @@ def to_be_sure(task: Task) -> Task:
     """
     description = knowledge(task.domain, task.source).description
     prefix = _free_prefix(task.source)
-    names, laws = dict[str, str](), list[str]()
+    names, laws = dict[Literal, Fluent](), list[str]()
     for number, literal in enumerate(dict.fromkeys(task.goal), start=1):
-        views = list(_views(description, Literal.parse(literal)))
+        views = list(_views(description, literal))
         if views:
-            name = names[literal] = f"{prefix}{number}"
+            name = names[literal] = Fluent.of(f"{prefix}{number}")
             laws += (f"{name} if {', '.join(view)}." for view in views)
-            laws.append(f"-{name} if {complement(literal)}.")
+            laws.append(f"{name.complement} if {literal.complement}.")
     if not names:
         return task
     fluents = [f"inertial {name}." for name in names.values()]
     known = frozenset(task.initial)
     sure = [name for literal, name in names.items() if literal in known]
-    unsure = [f"-{name}" for literal, name in names.items() if complement(literal) in known]
+    unsure = [name.complement for literal, name in names.items() if literal.complement in known]
     return msgspec.structs.replace(
         task,
         source="\n".join([task.source, "fluents", *fluents, "laws", *laws, ""]),

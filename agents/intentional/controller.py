@@ -6,14 +6,14 @@ from typing import ClassVar
 
 from msgspec import structs
 
-from agents.intentional.reasoners import Activity, History, IncrementalReasoner
+from agents.intentional.reasoners import Activity, History, IncrementalReasoner, start_activity
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared.relevance import goal_fluents, relevant_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
-from asp.language import Literal
-from asp.reasoning.diagnosis import GOAL, Diagnosis
-from testbed.protocol import Capabilities, Percept, Task, Trace
+from asp.language import Action, Literal
+from asp.reasoning.diagnosis import GOAL, SELECT, Diagnosis
+from testbed.protocol import FINISH, WAIT, Capabilities, Percept, Task, Trace, is_mental
 
 _MENTAL = ("start(", "stop(")
 
@@ -38,8 +38,8 @@ class IntentionalRobot(ReasoningRobot[History]):
         self._goal_fluents = goal_fluents(self._domain.description, task.goal)
         self._history = History()
         self._history.observe(task.initial, 0)
-        self._history.happened(f"select({GOAL})", True, 0)
-        self._attempted: str | None = None
+        self._history.happened(SELECT, True, 0)
+        self._attempted: Action | None = None
 
     def _intend(self, reasoner: Reasoner[History], thought: Thought) -> Intention:
         intention = super()._intend(reasoner, thought)
@@ -57,9 +57,9 @@ class IntentionalRobot(ReasoningRobot[History]):
             if success is False and percept.failing:
                 history.failed(self._attempted, history.step)
         if percept.goal_holds is not None:
-            history.observe([GOAL if percept.goal_holds else f"-{GOAL}"], history.step)
+            history.observe([GOAL if percept.goal_holds else GOAL.complement], history.step)
 
-    def _relevant(self, percept: Percept) -> tuple[str, ...]:
+    def _relevant(self, percept: Percept) -> tuple[Literal, ...]:
         """Step 1 of the loop: what bears on the goal, or on the last attempt (P 3.2)."""
         description = self._domain.description
         return relevant_literals(
@@ -75,16 +75,16 @@ class IntentionalRobot(ReasoningRobot[History]):
         self._believed = (history.step, intention.believed - {GOAL})
         history.attempt(intention.action, history.step)
         name = len(history.activities) + 1
-        if intention.action == f"start({name})":
+        if intention.action == start_activity(name):
             history.activities.append(Activity(name, intention.plan))
 
-    def _physical(self, intention: Intention) -> str:
-        return "wait" if intention.action.startswith(_MENTAL) else intention.action
+    def _physical(self, intention: Intention) -> Action:
+        return WAIT if is_mental(intention.action) else intention.action
 
     def _trace(self, thought: Thought) -> Trace:
         intention, diagnosis = thought.intention, thought.diagnosis
         trace = Trace(
-            belief=sorted(map(Literal.parse, self._believed[1])),
+            belief=sorted(self._believed[1]),
             reason=thought.limit,
             activity=None if diagnosis is None else max(diagnosis.indices, default=None),
             plans=len(self._history.activities),
@@ -95,11 +95,11 @@ class IntentionalRobot(ReasoningRobot[History]):
             return trace
         trace = structs.replace(
             trace,
-            mental=intention.action if intention.action.startswith(_MENTAL) else None,
+            mental=intention.action if is_mental(intention.action) else None,
             intention=Literal.parse(intention.action),
             plan=list(map(Literal.parse, self._ahead(intention, diagnosis))),
             belief=sorted(map(Literal.parse, intention.believed - {GOAL})),
-            plans=trace.plans + (intention.action == f"start({trace.plans + 1})"),
+            plans=trace.plans + (intention.action == start_activity(trace.plans + 1)),
         )
         return self._reasons.explained(trace, self._history, intention, diagnosis)
 
@@ -110,9 +110,9 @@ class IntentionalRobot(ReasoningRobot[History]):
         others, more = self._reasons.alternatives(self._history, diagnosis)
         return structs.replace(trace, alternatives=others, more_alternatives=more)
 
-    def _ahead(self, intention: Intention, diagnosis: Diagnosis) -> tuple[str, ...]:
+    def _ahead(self, intention: Intention, diagnosis: Diagnosis) -> tuple[Action, ...]:
         """The plan that is started, or what is left of the one that is carried out."""
-        if intention.action == "finish" or intention.action.startswith(_MENTAL):
+        if intention.action == FINISH or is_mental(intention.action):
             return intention.plan
         name, index = next(iter(diagnosis.indices.items()))
         return self._history.activities[name - 1].plan[index:]

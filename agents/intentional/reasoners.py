@@ -13,6 +13,7 @@ from clingo import Symbol
 
 from agents.shared.sessions import sessions_of
 from agents.shared.thought import Intention
+from asp.language import Action, Literal
 from asp.reasoning import diagnosis
 from asp.reasoning.diagnosis import (
     GOAL,
@@ -22,7 +23,8 @@ from asp.reasoning.diagnosis import (
     ReferenceDiagnoser,
 )
 from asp.reasoning.knowledge import Knowledge
-from asp.solving import State, fact, first_model, ground, select, theory
+from asp.solving import State, fact, first_model, ground, literal_of, select, theory
+from testbed.protocol import FINISH
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,17 @@ class Activity:
     """A plan made for the goal: its name (1, 2, ...) and its physical actions."""
 
     name: int
-    plan: tuple[str, ...]
+    plan: tuple[Action, ...]
+
+
+def start_activity(name: int) -> Action:
+    """The mental action of starting an activity."""
+    return Action.of("start", (str(name),))
+
+
+def stop_activity(name: int) -> Action:
+    """The mental action of stopping an activity."""
+    return Action.of("stop", (str(name),))
 
 
 @dataclass
@@ -58,7 +70,7 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
 
     theories = ("history", "intentions", "persistence")
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         super().__init__(knowledge, goal)
         self._plan_limit = plan_limit
@@ -108,9 +120,9 @@ def read_intention(model: tuple[Symbol, ...]) -> Intention:
     """What an answer set of the theory of planning says."""
     (action, _), *_ = select(model, "intended_action", 2)
     started = [symbol for symbol in model if action.match("start", 1) and symbol.match("plan", 3)]
-    plan = sorted((index.number, str(step)) for _, index, step in select(started, "plan", 3))
-    believed = frozenset(str(fluent) for (fluent,) in select(model, "believed", 1))
-    return Intention(str(action), tuple(step for _, step in plan), believed)
+    plan = sorted((index.number, literal_of(step)) for _, index, step in select(started, "plan", 3))
+    believed = frozenset(literal_of(fluent) for (fluent,) in select(model, "believed", 1))
+    return Intention(literal_of(action), tuple(step for _, step in plan), believed)
 
 
 FIRST_EVENT = 1
@@ -122,13 +134,13 @@ class _Active:
     """The active activity, with the physical actions that took effect since it was started."""
 
     name: int
-    executed: list[tuple[int, str]] = field(default_factory=list)
+    executed: list[tuple[int, Action]] = field(default_factory=list)
 
 
 class IncrementalReasoner(IncrementalDiagnoser[History]):
     """Reasons about one goal in one domain, as the reference does, for one trial."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         sessions = sessions_of(knowledge)
         reference = ReferenceReasoner(knowledge, goal, plan_limit)
@@ -147,32 +159,32 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
         """Phase two."""
         state = self.belief.state
         holds = self.holds(state)
-        action, plan = ("finish", ()) if holds else self._decide(state, history, diagnosis)
+        action, plan = (FINISH, ()) if holds else self._decide(state, history, diagnosis)
         return Intention(action, plan, state | {GOAL} if holds else state)
 
     def _decide(
         self, state: State, history: History, diagnosis: Diagnosis
-    ) -> tuple[str, tuple[str, ...]]:
+    ) -> tuple[Action, tuple[Action, ...]]:
         """The intention where the goal does not hold."""
         for name, index in diagnosis.indices.items():
             left = history.activities[name - 1].plan[index:]
             if left and self._plans.succeeds(state, self._goal, left):
                 return left[0], ()  # (38)
-            return f"stop({name})", ()  # (41)
+            return stop_activity(name), ()  # (41)
         plan = self._plans.shortest(state, self._goal, self._plan_limit)
         if plan is None:
-            return "finish", ()  # (53)
+            return FINISH, ()  # (53)
         earlier = (activity.name for activity in history.activities if activity.plan == plan)
-        return f"start({next(earlier, len(history.activities) + 1)})", plan  # (42), (52)
+        name = next(earlier, len(history.activities) + 1)
+        return start_activity(name), plan  # (42), (52)
 
     def _follow(self, history: History) -> None:
         """Which activity is active after the last step (1), and what was done since it is."""
         last = history.at(history.step - 1)
         for action in last.attempted:
-            kind, _, name = action.rstrip(")").partition("(")
-            if kind == "start":
-                self._active = _Active(int(name))
-            elif kind == "stop":
+            if action.name == "start":
+                self._active = _Active(int(action.arguments[0]))
+            elif action.name == "stop":
                 self._active = None
             elif self._active and action in self._actions and last.happened.get(action):
                 done = (history.step - 1, action)

@@ -13,11 +13,11 @@ from agents.intentional.reasoners import FIRST_EVENT, History
 from agents.shared.narration import Narration, Step, listed
 from agents.shared.reasons import Reasons
 from agents.shared.thought import Intention
-from asp.language import Literal, complement
+from asp.language import Action, Literal
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, problem_of
 from asp.solving import LimitError, State, deciding
 from testbed import protocol
-from testbed.protocol import Trace
+from testbed.protocol import FINISH, Trace
 
 MOST_ALTERNATIVES = 20
 
@@ -30,16 +30,16 @@ class IntentionalReasons(Reasons):
     ) -> Trace:
         """The trace with the reason of a decision at the history's step."""
         state, action = intention.believed - {GOAL}, intention.action
-        if action == "finish":
+        if action == FINISH:
             if GOAL in intention.believed:
                 return structs.replace(trace, reason="the goal holds")
             no_plan, text = self.no_plan(state)
             return structs.replace(trace, reason=text, no_plan=no_plan)
-        if action.startswith("start("):
+        if action.name == "start":
             return structs.replace(trace, reason=_started(history, intention))
         name, index = next(iter(diagnosis.indices.items()))
         left = history.activities[name - 1].plan[index:]
-        if action.startswith("stop("):
+        if action.name == "stop":
             futile_at, text = self._futile(history.step, state, left)
             return structs.replace(trace, reason=text, futile_at=futile_at)
         by = Step(history.step + len(left))
@@ -71,7 +71,7 @@ class IntentionalReasons(Reasons):
         explanations = self._sessions.diagnosis.explanations
         return explanations.alternatives(problem, diagnosis.explanation, MOST_ALTERNATIVES)
 
-    def _futile(self, step: int, state: State, left: tuple[str, ...]) -> tuple[int, Narration]:
+    def _futile(self, step: int, state: State, left: tuple[Action, ...]) -> tuple[int, Narration]:
         """The first step at which the projection of a plan breaks (36), in words, too."""
         for later, action in enumerate(left, start=step):
             after = self._sessions.transitions.after(state, action, ())
@@ -83,7 +83,7 @@ class IntentionalReasons(Reasons):
                 return later, Narration(*said)
             state = after[0]
         end = step + len(left)
-        failing = listed(map(complement, self._tracker.missing(state)))
+        failing = listed(each.complement for each in self._tracker.missing(state))
         said = ("futile: its end, at step ", Step(end), ", violates the goal with ", failing)
         return end, Narration(*said)
 

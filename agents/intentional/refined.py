@@ -15,12 +15,12 @@ from agents.intentional.executor.execution import Execution
 from agents.intentional.executor.sensing import Asking
 from agents.intentional.executor.trace import CoarseSteps
 from agents.shared.narration import retold
-from asp.language import Literal, is_positive
+from asp.language import Literal
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
 from testbed.protocol import Capabilities, Decision, Percept, Robot, Task, Trace
 
-_WAIT, _FINISH = Literal.of("wait"), Literal.of("finish")
+WAIT, FINISH = Literal.of("wait"), Literal.of("finish")
 
 
 class RefinedRobot:
@@ -51,7 +51,7 @@ class RefinedRobot:
             self._fine.know(task.initial_fine, known)
             self._steps = CoarseSteps()
             self._reporter = Reporter(self._fine, abstract, self._steps)
-            self._believed: State = frozenset(filter(is_positive, known))
+            self._believed: State = frozenset(each for each in known if each.is_positive)
             self._execution: Execution | None = None
             self._running: Asking[None] | None = None
             spent = reasoning_clock().since(began)
@@ -102,20 +102,20 @@ class RefinedRobot:
             effects = filter(self._fine.is_magnified, self._fine.holding(over.effects))
             inferred, happened = sorted([*effects, *told.visible]), over.happened
             self._fine.trace.note(
-                abstract="", begun=None, ended=over.action, happened=happened, inferred=inferred
+                abstract=None, begun=None, ended=over.action, happened=happened, inferred=inferred
             )
         decision = self._ask(percept, told)
         action, belief = decision.action, decision.trace.belief
         self._believed = frozenset(belief) if belief else expected
         self._fine.agree(expected, self._believed, self._abstract.fluents)
-        if action not in (_WAIT, _FINISH):
+        if action not in (WAIT, FINISH):
             self._execution = Execution(
                 self._fine, self._abstract, action, self._believed, percept.step
             )
             self._running = self._execution.run()
             first = next(self._running, None)
             self._running = None if first is None else self._running
-            action = Literal.parse(first or _WAIT)
+            action = Literal.parse(first or WAIT)
         trace = retold(decision.trace, step=self._steps.own)
         return structs.replace(decision, step=percept.step, trace=trace, action=action)
 
@@ -127,7 +127,7 @@ class RefinedRobot:
         """
         self._steps.begin(percept.step)
         decision = self._coarse.act(structs.replace(told, goal_holds=None))
-        if told.goal_holds is None or decision.action != _FINISH:
+        if told.goal_holds is None or decision.action != FINISH:
             return decision
         self._steps.begin(percept.step)
         step = self._steps.present

@@ -32,7 +32,7 @@ class Narration(str):
         return self.parts
 
 
-def listed(literals: Iterable[str]) -> Narration:
+def listed(literals: Iterable[Literal]) -> Narration:
     """The literals, with commas between them."""
     return Narration(*[part for each in literals for part in (", ", Literal.parse(each))][1:])
 

@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 from agents.shared.narration import Narration
 from agents.shared.sessions import sessions_of
-from asp.language import Literal
+from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import UNLIMITED, LimitError, Limits, State, deciding
@@ -20,7 +20,7 @@ class Reasons:
     def __init__(
         self,
         knowledge: Knowledge,
-        goal: tuple[str, ...],
+        goal: tuple[Literal, ...],
         plan_limit: int,
         limits: Limits = UNLIMITED,
     ) -> None:
@@ -68,7 +68,7 @@ class Reasons:
                 return [_result(attempt, after[1], step)]
             state, step = after[0], step + 1
 
-    def no_plan(self, believed: Collection[str]) -> tuple[NoPlan, str]:
+    def no_plan(self, believed: Collection[Fluent]) -> tuple[NoPlan, str]:
         """Why no plan within the limit was found from what is believed, as a key and in words.
 
         What is believed need not be so.
@@ -86,7 +86,9 @@ class Reasons:
         said = "from what it believes, the goal is out of reach: no plan of any length"
         return "out of reach", f"{said} achieves it"
 
-    def _impossible(self, events: tuple[str, ...], state: State, step: int) -> list[Contradiction]:
+    def _impossible(
+        self, events: tuple[Action, ...], state: State, step: int
+    ) -> list[Contradiction]:
         """The reports that cannot be true; all of them, where they only exclude each other."""
         transitions = self._sessions.transitions
         alone = [e for e in events if transitions.after(state, None, (e,)) is None]
@@ -104,7 +106,7 @@ def _events(happenings: Collection[Happening]) -> list[Event]:
     return [Event(step=step, action=Literal.parse(action)) for step, action in happenings]
 
 
-def _result(attempt: str, expected: bool, step: int) -> Contradiction:
+def _result(attempt: Action, expected: bool, step: int) -> Contradiction:
     done = Literal.parse(attempt)
     sides = (done.complement, done) if expected else (done, done.complement)
     observed, believed = (Narration("hpd(", side, ")") for side in sides)

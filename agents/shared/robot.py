@@ -10,7 +10,7 @@ from msgspec import structs
 
 from agents.shared.reasons import Reasons
 from agents.shared.thought import Intention, Reasoner, Thought
-from asp.language import Literal, is_positive
+from asp.language import Action, Literal
 from asp.reasoning.diagnosis import (
     GOAL,
     Diagnosis,
@@ -22,9 +22,9 @@ from asp.reasoning.diagnosis import (
 )
 from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import LimitError, Limits, State, deciding, preparation, reasoning_clock
-from testbed.protocol import Decision, Percept, RobotStops, Task, Trace
+from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task, Trace
 
-MakeReasoner = Callable[[Knowledge, tuple[str, ...], int], Reasoner[H_contra]]
+MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[H_contra]]
 """Makes a reasoner of a domain, a goal and the greatest length of a plan."""
 
 
@@ -53,7 +53,10 @@ class ReasoningRobot(ABC, Generic[H_contra]):
             self._reasoner: Reasoner[H_contra] | None = None
             self._explanation = Explanation()
             self._told: tuple[Explanation, tuple[Happening, ...]] = (Explanation(), ())
-            self._believed: tuple[int, State] = (0, frozenset(filter(is_positive, task.initial)))
+            self._believed: tuple[int, State] = (
+                0,
+                frozenset(each for each in task.initial if each.is_positive),
+            )
             self._begin(task)
         self._prepared = reasoning_clock().since(began).preparation_cpu
 
@@ -79,7 +82,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         return Decision(
             trial=percept.trial,
             step=percept.step,
-            action=Literal.parse("wait" if intention is None else self._physical(intention)),
+            action=WAIT if intention is None else self._physical(intention),
             believes_goal=intention is not None and GOAL in intention.believed,
             trace=structs.replace(trace, deadline=decision.late),
         )
@@ -93,7 +96,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """Adds to the history the result of the last attempt."""
 
     @abstractmethod
-    def _relevant(self, percept: Percept) -> Iterable[str]:
+    def _relevant(self, percept: Percept) -> Iterable[Literal]:
         """The literals that the robot observes of those that it sees."""
 
     @abstractmethod
@@ -104,7 +107,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
     def _attempt(self, intention: Intention | None) -> None:
         """Records what is attempted."""
 
-    def _physical(self, intention: Intention) -> str:
+    def _physical(self, intention: Intention) -> Action:
         """What the robot does in the world."""
         return intention.action
 

@@ -7,6 +7,7 @@ from typing import Protocol
 
 from msgspec import structs
 
+from asp.language import Action, Fluent
 from asp.reasoning.diagnosis import Diagnoser, Diagnosis, Explanation, H_contra
 from asp.solving import Reading, reasoning_clock
 from testbed.protocol import Trace
@@ -20,9 +21,9 @@ class Intention:
     `under` is the diagnosis that it believes in, where this is chosen with the intention.
     """
 
-    action: str
-    plan: tuple[str, ...]
-    believed: frozenset[str]
+    action: Action
+    plan: tuple[Action, ...]
+    believed: frozenset[Fluent]
     under: Diagnosis | None = None
 
 

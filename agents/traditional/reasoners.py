@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from agents.shared.sessions import sessions_of
 from agents.shared.thought import Intention
+from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import (
     GOAL,
     Diagnosis,
@@ -12,13 +13,14 @@ from asp.reasoning.diagnosis import (
     ReferenceDiagnoser,
 )
 from asp.reasoning.knowledge import Knowledge, goal_facts
-from asp.solving import first_model, ground, select, theory
+from asp.solving import first_model, ground, literal_of, select, theory
+from testbed.protocol import FINISH
 
 
 class ReferenceReasoner(ReferenceDiagnoser[History]):
     """Explains histories and plans for one goal; every call solves its program from scratch."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         super().__init__(knowledge, goal)
         self._known = (*knowledge.ranks, *knowledge.start)
@@ -33,20 +35,22 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
             constants = {"n": history.step + length}
             model = first_model(ground(texts, constants, [*known, *self._goal]))
             if model is not None:
-                steps = sorted((i.number, str(action)) for i, action in select(model, "plan", 2))
-                believed = (str(fluent) for (fluent,) in select(model, "believed", 1))
+                steps = sorted(
+                    (i.number, literal_of(action)) for i, action in select(model, "plan", 2)
+                )
+                believed = (literal_of(fluent) for (fluent,) in select(model, "believed", 1))
                 return intention_of(tuple(action for _, action in steps), frozenset(believed))
         model = first_model(ground(texts, {"n": history.step}, known))
         assert model is not None, "an explanation explains every step"
-        believed = (str(fluent) for (fluent,) in select(model, "believed", 1))
+        believed = (literal_of(fluent) for (fluent,) in select(model, "believed", 1))
         return intention_of(None, frozenset(believed))
 
 
-def intention_of(plan: tuple[str, ...] | None, believed: frozenset[str]) -> Intention:
+def intention_of(plan: tuple[Action, ...] | None, believed: frozenset[Fluent]) -> Intention:
     """To carry out a plan of which so many actions are left; None: there is no plan."""
     if plan:
         return Intention(plan[0], plan, believed)
-    return Intention("finish", (), believed if plan is None else believed | {GOAL})
+    return Intention(FINISH, (), believed if plan is None else believed | {GOAL})
 
 
 # No goal is selected, so that something may happen at once.
@@ -56,7 +60,7 @@ _FIRST_EVENT = 0
 class IncrementalReasoner(IncrementalDiagnoser[History]):
     """Explains one history and plans for one goal, as the reference does, for one trial."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         sessions = sessions_of(knowledge)
         reference = ReferenceReasoner(knowledge, goal, plan_limit)

@@ -10,6 +10,7 @@ from agents.shared.relevance import outcome_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner, intention_of
+from asp.language import Literal
 from asp.reasoning.diagnosis import GOAL, History
 from testbed.protocol import Capabilities, Percept, Task, Trace
 
@@ -59,7 +60,7 @@ class TraditionalRobot(ReasoningRobot[History]):
         if percept.happened is False:
             self._rest = None  # whenever there will be time for another one
 
-    def _relevant(self, percept: Percept) -> tuple[str, ...]:
+    def _relevant(self, percept: Percept) -> tuple[Literal, ...]:
         """The outcome of the action in hand."""
         return outcome_literals(self._domain.description, percept.attempted, percept.visible)
 

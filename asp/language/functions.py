@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from asp.language import literals, syntax
+from asp.language import syntax
+from asp.language.literals import Fluent
 from asp.language.signature import Signature
 
 T = TypeVar("T")
@@ -42,12 +43,12 @@ def functions(source: syntax.Source, signature: Signature) -> dict[str, Function
     return found
 
 
-def subject(fluent: str, known: Mapping[str, Function]) -> tuple[str, ...] | None:
+def subject(fluent: Fluent, known: Mapping[str, Function]) -> tuple[str, ...] | None:
     """The total function and its arguments that a fluent gives a value; None if it is of none."""
-    function = known.get(literals.name(fluent))
+    function = known.get(fluent.name)
     if function is None or not function.total:
         return None
-    return (literals.name(fluent), *function.others(literals.arguments(fluent)))
+    return (fluent.name, *function.others(fluent.arguments))
 
 
 def excluding_place(law: syntax.Statement) -> int | None:

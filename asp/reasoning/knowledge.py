@@ -8,7 +8,12 @@ from functools import cached_property, lru_cache
 
 from clingo import Symbol
 
-from asp.language import Description, atom, complement, is_positive, parse_description
+from asp.language import (
+    Action,
+    Description,
+    Literal,
+    parse_description,
+)
 from asp.solving import fact
 from asp.translation import translate
 
@@ -30,16 +35,16 @@ class Knowledge:
     start: tuple[Symbol, ...]
 
     @cached_property
-    def actions(self) -> tuple[frozenset[str], frozenset[str]]:
+    def actions(self) -> tuple[frozenset[Action], frozenset[Action]]:
         """The agent's own actions, and exogenous ones."""
         description = self.description
         return frozenset(description.agent_actions), frozenset(description.exogenous_actions)
 
-    def against(self, exceptions: Iterable[str]) -> list[str]:
+    def against(self, exceptions: Iterable[str]) -> list[Literal]:
         """The literals that hold at step 0 where these defaults, given by name, have exceptions."""
         names = frozenset(exceptions)
         heads = (d.head for d in self.description.defaults if d.name in names)
-        return list(dict.fromkeys(map(complement, heads)))
+        return list(dict.fromkeys(each.complement for each in heads))
 
 
 @lru_cache(maxsize=_REMEMBERED)
@@ -54,10 +59,10 @@ def knowledge(name: str, source: str) -> Knowledge:
     )
 
 
-def goal_facts(goal: Iterable[str]) -> Iterator[Symbol]:
+def goal_facts(goal: Iterable[Literal]) -> Iterator[Symbol]:
     """goal(F,B) for each literal of the goal."""
     for literal in goal:
-        yield fact("goal", atom(literal), "true" if is_positive(literal) else "false")
+        yield fact("goal", literal.atom, "true" if literal.is_positive else "false")
 
 
 def _ranks(description: Description) -> Iterator[Symbol]:

@@ -13,7 +13,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from asp.language import Signature, arguments, name, named, syntax, variable_domains
+from asp.language import (
+    Action,
+    Literal,
+    Signature,
+    named,
+    syntax,
+    variable_domains,
+)
 from asp.language import variable_sorts as roles
 
 Law = syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition
@@ -47,16 +54,16 @@ class Relevance:
             for literal in self._loose(law, self.independent)
         )
 
-    def spare(self, possible: Iterable[str], goal: Iterable[str]) -> frozenset[str]:
+    def spare(self, possible: Iterable[Action], goal: Iterable[Literal]) -> frozenset[str]:
         """The constants that shortest plans for the goal do not need.
 
         `possible` are the fluents that are or may be true now. Every group is needed that the goal
         names or that may be in the way.
         """
-        needed = {constant for literal in goal for constant in arguments(literal)}
+        needed = {constant for literal in goal for constant in literal.arguments}
         for fluent in possible:
-            if name(fluent) in self.obstacles:
-                needed.update(arguments(fluent))
+            if fluent.name in self.obstacles:
+                needed.update(fluent.arguments)
         nothing: Group = frozenset()
         return self.independent.difference(*(self._group.get(c, nothing) for c in needed))
 

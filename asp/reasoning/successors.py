@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import clingo
 from clingo import Symbol
 
-from asp.language import atom, is_positive
-from asp.solving import Session, State, answer_sets, core, fact, is_satisfiable, solving
+from asp.language import Action, Fluent, Literal
+from asp.solving import Session, State, answer_sets, core, fact, is_satisfiable, literal_of, solving
 
 MOST_ASSUMED = 6
 """How many unobserved events and distrusted reports are assumed of one step at most."""
@@ -25,8 +25,8 @@ class Branch:
 
     state: State
     took_effect: bool
-    events: tuple[str, ...]
-    distrusted: tuple[str, ...]
+    events: tuple[Action, ...]
+    distrusted: tuple[Action, ...]
 
     @property
     def size(self) -> int:
@@ -36,14 +36,14 @@ class Branch:
 class Transitions:
     """The transition diagram of a domain, one transition at a time."""
 
-    def __init__(self, program: str, fluents: Sequence[str], ranks: Iterable[Symbol]) -> None:
+    def __init__(self, program: str, fluents: Sequence[Fluent], ranks: Iterable[Symbol]) -> None:
         self._fluents = tuple(fluents)
         self._session = Session(
             program, "incremental_transitions", fluents, ranks, n=1, most=MOST_ASSUMED + 1
         )
 
     def after(
-        self, state: State, attempt: str | None, reported: tuple[str, ...]
+        self, state: State, attempt: Action | None, reported: tuple[Action, ...]
     ) -> tuple[State, bool] | None:
         """The next state, and whether the attempt took effect; None where nothing fits.
 
@@ -63,8 +63,8 @@ class Transitions:
     def branches(
         self,
         state: State,
-        attempt: str | None,
-        reported: tuple[str, ...],
+        attempt: Action | None,
+        reported: tuple[Action, ...],
         size: int,
         most: int,
         failing: bool = False,
@@ -97,7 +97,7 @@ class Transitions:
         found, _ = answer_sets(self._session.control, assumptions)
         return {_branch(shown).state for shown in found}
 
-    def hindrance(self, state: State, action: str) -> tuple[str, ...]:
+    def hindrance(self, state: State, action: Action) -> tuple[Literal, ...]:
         """Literals of a state that make an action impossible, none of which can be left out.
 
         Empty if it is possible there, or impossible everywhere. True fluents are preferred. Raises
@@ -108,37 +108,37 @@ class Transitions:
         if occurs is None:
             return ()
         literals = {
-            number if fluent in state else -number: fluent if fluent in state else f"-{fluent}"
+            number if fluent in state else -number: fluent if fluent in state else fluent.complement
             for fluent in self._fluents
             if (number := self._session.holds(fluent, 0)) is not None
         }
-        in_order = sorted(literals, key=lambda number: is_positive(literals[number]))
+        in_order = sorted(literals, key=lambda number: literals[number].is_positive)
         found = core(self._session.control, [occurs], in_order)
         return tuple(sorted(literals[number] for number in found or ()))
 
-    def satisfiable(self, goal: Iterable[str]) -> bool:
+    def satisfiable(self, goal: Iterable[Literal]) -> bool:
         """Whether some state satisfies a goal. Raises LimitError."""
         self._session.switch_on()
-        wanted = [(self._session.holds(atom(each), 0), is_positive(each)) for each in goal]
+        wanted = [(self._session.holds(each.atom, 0), each.is_positive) for each in goal]
         if any(number is None and truth for number, truth in wanted):
             return False
         assumed = [number if truth else -number for number, truth in wanted if number is not None]
         return is_satisfiable(self._session.control, assumed)
 
 
-def _actions(attempt: str | None, reported: tuple[str, ...]) -> list[Symbol]:
+def _actions(attempt: Action | None, reported: tuple[Action, ...]) -> list[Symbol]:
     actions = [fact("reported", event) for event in reported]
     return actions if attempt is None else [*actions, fact("attempted", attempt)]
 
 
 def _branch(shown: Iterable[Symbol]) -> Branch:
-    found: dict[str, list[str]] = {"next": [], "unobserved": [], "distrusted": []}
+    found: dict[str, list[Literal]] = {"next": [], "unobserved": [], "distrusted": []}
     took_effect = False
     for symbol in shown:
         if symbol.name == "took_effect":
             took_effect = True
         else:
-            found[symbol.name].append(str(symbol.arguments[0]))
+            found[symbol.name].append(literal_of(symbol.arguments[0]))
     return Branch(
         frozenset(found["next"]),
         took_effect,

@@ -65,7 +65,7 @@ class Refinement:
     def _coarse_names(self) -> Mapping[str, str]:
         return {fine: coarse for coarse, fine in self.counterparts.items()}
 
-    def coarse_of(self, literal: str) -> tuple[Literal, ...]:
+    def coarse_of(self, literal: Literal) -> tuple[Literal, ...]:
         """What a fine literal or action says at the coarse resolution by itself.
 
         `fine_loc(object1_1,room1_2)` says `loc(object1,room1)`; a negative one says something
@@ -80,7 +80,7 @@ class Refinement:
             return ()
         return (Literal.of(coarse, wholes, fine.is_positive),)
 
-    def counterpart(self, literal: str) -> tuple[tuple[Literal, ...], ...]:
+    def counterpart(self, literal: Literal) -> tuple[tuple[Literal, ...], ...]:
         """The groups of fine literals each of which makes the coarse literal true.
 
         A fluent is true if its counterpart is true of some components, and false if it is false

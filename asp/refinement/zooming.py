@@ -12,7 +12,9 @@ from functools import lru_cache
 
 from asp.language import (
     NOTHING,
+    Action,
     Facts,
+    Fluent,
     Literal,
     Pattern,
     Problems,
@@ -31,12 +33,14 @@ _REFINEMENTS = 16
 class Transition:
     """A coarse transition <before, action, after>: the true fluents of two states, an action."""
 
-    before: frozenset[str]
-    action: str
-    after: frozenset[str]
+    before: frozenset[Fluent]
+    action: Action
+    after: frozenset[Fluent]
 
 
-def relevant(refinement: Refinement, transition: Transition, goal: Iterable[str]) -> frozenset[str]:
+def relevant(
+    refinement: Refinement, transition: Transition, goal: Iterable[Literal]
+) -> frozenset[str]:
     """relCon(T, G): the constants relevant to a transition or a goal (coarse literals).
 
     By rule 4 these are, too, those of what is so before the action and stands in a condition on

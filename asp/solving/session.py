@@ -9,11 +9,12 @@ from functools import lru_cache
 import clingo
 from clingo import Symbol
 
+from asp.language import Fluent, Literal
 from asp.solving.clock import preparation
 from asp.solving.signals import undisturbed
 from asp.solving.solver import fact, ground, is_satisfiable, solving, theory
 
-State = frozenset[str]
+State = frozenset[Fluent]
 """A complete state of a domain, as the set of its true fluents."""
 
 
@@ -27,7 +28,7 @@ class Session:
         self,
         program: str,
         theory_name: str,
-        fluents: Sequence[str],
+        fluents: Sequence[Fluent],
         facts: Iterable[Symbol],
         parts: Iterable[str] = (),
         **constants: int,
@@ -49,7 +50,7 @@ class Session:
             self._literals[key] = None if atom is None else atom.literal
         return self._literals[key]
 
-    def holds(self, fluent: str, step: int) -> int | None:
+    def holds(self, fluent: Fluent, step: int) -> int | None:
         """The solver literal of holds(fluent,step), or None where it can never hold."""
         return self.literal("holds", fluent, step)
 
@@ -85,11 +86,10 @@ class Session:
 
 
 @lru_cache(maxsize=1_000)
-def goal_externals(goal: tuple[str, ...]) -> tuple[Symbol, ...]:
+def goal_externals(goal: tuple[Literal, ...]) -> tuple[Symbol, ...]:
     """wanted(F) and unwanted(F) for the literals of a goal."""
     return tuple(
-        fact("unwanted", literal[1:]) if literal.startswith("-") else fact("wanted", literal)
-        for literal in goal
+        fact("wanted" if literal.is_positive else "unwanted", literal.atom) for literal in goal
     )
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from typing import Any, TypeAlias
 
 import clingo
 from clingo import Symbol
 
+from asp.language import Literal
 from asp.solving.budget import OUT_OF_BUDGET, BudgetError, count_rules, current
 from asp.solving.signals import Deliver, undisturbed
 
@@ -39,6 +40,12 @@ _POLL_S = 0.2
 def theory(name: str) -> str:
     """The text of `asp/theories/NAME.lp`."""
     return files("asp").joinpath("theories", f"{name}.lp").read_text(encoding="utf-8")
+
+
+@lru_cache(maxsize=100_000)
+def literal_of(symbol: Symbol) -> Literal:
+    """The ground fluent or action that a term stands for."""
+    return Literal.of(symbol.name, map(str, symbol.arguments), symbol.positive)
 
 
 def fact(predicate: str, *arguments: Symbol | int | str) -> Symbol:

@@ -14,10 +14,10 @@ from dataclasses import replace
 
 from asp.language import (
     Function,
+    Literal,
     Signature,
     excluding_place,
     functions,
-    ground,
     named,
     schematic,
     syntax,
@@ -82,7 +82,7 @@ class _Translation:
         That a total one has a value at first is assumed by placed(K) where it is not told which.
         """
         fluent, given, sorts = schema(symbol)
-        subject = ground(symbol.name, function.others(given))
+        subject = Literal.of(symbol.name, function.others(given))
         value = sorts[function.place]
         new = (f"holds({fluent},{NOW})", f"not holds({fluent},{BEFORE})")
         yield Rule(Part.STEP, f"changed({subject},{NOW})", new)
@@ -99,7 +99,7 @@ class _Translation:
         function = self._functions.get(name)
         if function is None:
             return None
-        return ground(name, function.others(arguments)), ground(name, arguments)
+        return Literal.of(name, function.others(arguments)), Literal.of(name, arguments)
 
     def _constraint(self, law: syntax.StateConstraint) -> Iterator[Rule]:
         name = law.head.atom.name

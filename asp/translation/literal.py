@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from itertools import chain, count
 
-from asp.language import Signature, analyse, ground, syntax, variable_domains
+from asp.language import Literal, Signature, analyse, syntax, variable_domains
 from asp.language import variable_sorts as roles
 from asp.solving import theory
 from asp.translation.rules import condition, rule, schema, sorts_of_variables
@@ -118,7 +118,7 @@ def _default(
     body += _narrowest_sorts(statement, signature)
     default = statement.of if isinstance(statement, syntax.ExceptionStatement) else statement
     assert default is not None, "the checker has found every default"
-    name = ground(default.name, variable_domains(default, signature))
+    name = Literal.of(default.name, variable_domains(default, signature))
     if default is not statement:
         return rule(f"stated_exception({name})", body)
     truth = "true" if default.head.positive else "false"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
 
-from asp.language import Signature, ground, syntax, text_of
+from asp.language import Literal, Signature, syntax, text_of
 from asp.language import variable_sorts as roles
 
 
@@ -65,7 +65,7 @@ def schema(symbol: syntax.Declaration) -> Schema:
     """The symbol with variables for its arguments."""
     variables = [f"X{number}" for number, _ in enumerate(symbol.sorts, start=1)]
     sorts = [f"{sort.name}({v})" for sort, v in zip(symbol.sorts, variables, strict=True)]
-    return Schema(ground(symbol.name, variables), variables, sorts)
+    return Schema(Literal.of(symbol.name, variables), variables, sorts)
 
 
 class Part(StrEnum):
@@ -78,7 +78,7 @@ class Part(StrEnum):
 
 
 BEFORE, NOW = "t-1", "t"
-ACTION = "action"  # as a function: the action that occurs at a step
+ACTION = Literal.of("action")  # as a function: the action that occurs at a step
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import Any
 
 import polars as pl
 
+from asp.language import Action, Literal
 from testbed.analysis.comparison import DIVIDED, Apart
 from testbed.analysis.pairs import OTHER
 from testbed.studies.table1.measures import LEFT_OUT
@@ -25,7 +26,7 @@ class Side:
     achieved: bool
     correct: bool
     outcome: str
-    event: str | None
+    event: Action | None
     undone: bool
     before: tuple[str, ...]
     measures: Mapping[str, float]
@@ -77,10 +78,11 @@ def each(pairs: pl.DataFrame) -> Iterator[Pair]:
 
 
 def _side(row: Mapping[str, Any], who: str) -> Side:
-    columns = ("trial", "achieved", "outcome", "event", "undone", "ended")
+    columns = ("trial", "achieved", "outcome", "undone", "ended")
     correct = row["correct" + who]
     return Side(
         **{name: row[name + who] for name in columns},
+        event=None if row["event" + who] is None else Literal.parse(row["event" + who]),
         correct=correct is True,
         decided=correct is not None,
         before=tuple(row["before" + who]),

@@ -11,14 +11,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from typing import TypeAlias
 
-from asp.language import Trigger
-from asp.language import literals as text
+from asp.language import Action, Literal, Trigger
 from testbed.environment import NONE
 from testbed.experiment.record import TrialRecord
 from testbed.world import World
 
 Chances: TypeAlias = Mapping[str, float]
-Law: TypeAlias = Callable[[int, str], Chances]
+Law: TypeAlias = Callable[[int, Action], Chances]
 """Of a state and the robot's action in it: the probability of each event, `none` among them."""
 
 
@@ -30,7 +29,7 @@ def as_stated(world: World, scenario: str, rate: float | None = None) -> Law:
     triggers = [t for t in world.description.triggers if t.scenario == scenario]
 
     @cache
-    def law(state: int, action: str) -> Chances:
+    def law(state: int, action: Action) -> Chances:
         drawable = [t for t in triggers if world.satisfies(state, t.pool)]
         groups = _grouped(t for t in drawable if t.upon in (None, action))
         shares = []
@@ -52,7 +51,7 @@ def passed_on(world: World, scenario: str, rate: float | None = None) -> Law:
     groups = _grouped(t for t in world.description.triggers if t.scenario == scenario)
 
     @cache
-    def law(state: int, action: str) -> Chances:
+    def law(state: int, action: Action) -> Chances:
         taken = _taken(world, state, action)
         shares = []
         for kind, thing in groups:
@@ -92,7 +91,7 @@ def _grouped(triggers: Iterable[Trigger]) -> dict[tuple[str, str], list[Trigger]
     """By what is drawn: a value, for this kind of event."""
     groups: dict[tuple[str, str], list[Trigger]] = {}
     for trigger in triggers:
-        groups.setdefault((text.name(trigger.event), trigger.drawn), []).append(trigger)
+        groups.setdefault((trigger.event.name, trigger.drawn), []).append(trigger)
     return groups
 
 
@@ -100,7 +99,7 @@ def _tried(trigger: Trigger, rate: float | None) -> float:
     return trigger.probability if rate is None else rate
 
 
-def _possible(world: World, state: int, action: str, trigger: Trigger) -> bool:
+def _possible(world: World, state: int, action: Action, trigger: Trigger) -> bool:
     own = [action] if world.executable(state, [action]) else []
     applies = world.satisfies(state, (*trigger.pool, *trigger.body))
     return applies and world.executable(state, [*own, trigger.event])
@@ -114,14 +113,14 @@ def _changes(world: World, state: int, event: str) -> bool:
 def _taken(world: World, state: int, action: str) -> set[str]:
     """What stands in a relation to the robot, or will by a direct effect of its action."""
     causal = world.description.causal
-    effects = [law.head for law in causal if law.action == action and text.is_positive(law.head)]
+    effects = [law.head for law in causal if law.action == action and law.head.is_positive]
     robots = set(world.description.robots)
     return set(_related([*world.true_atoms(state), *effects], robots))
 
 
-def _related(atoms: Iterable[str], robots: set[str]) -> Iterator[str]:
+def _related(atoms: Iterable[Literal], robots: set[str]) -> Iterator[str]:
     for atom in atoms:
-        places = text.arguments(atom)
+        places = atom.arguments
         if places and places[0] in robots:
             yield from places[1:]
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from statistics import fmean, median
 from typing import Any
 
-from asp.language import literals as text
+from asp.language import Action
 from papers.table1 import evidence
 from papers.table1.pairs import Pair, Side
 from papers.text import render
@@ -66,11 +66,11 @@ def _plans(pairs: Sequence[Pair], world: World) -> dict[str, Any]:
     }
 
 
-def _declared_last(event: str, world: World) -> bool:
+def _declared_last(event: Action, world: World) -> bool:
     """Whether no event of the same kind, on the same thing, is declared behind this one."""
-    kind, thing = text.name(event), text.arguments(event)[0]
-    alike = [e for e in world.exogenous_actions if text.name(e) == kind]
-    return [e for e in alike if text.arguments(e)[0] == thing][-1] == event
+    kind, thing = event.name, event.arguments[0]
+    alike = [e for e in world.exogenous_actions if e.name == kind]
+    return [e for e in alike if e.arguments[0] == thing][-1] == event
 
 
 def _ends(pairs: Sequence[Pair]) -> Iterator[dict[str, Any]]:
@@ -91,7 +91,7 @@ def _ends(pairs: Sequence[Pair]) -> Iterator[dict[str, Any]]:
 def _places(pairs: Sequence[Pair]) -> list[tuple[str, int]]:
     """Where events took what they moved, the most frequent place first."""
     events = [pair.treatment.event for pair in pairs if pair.treatment.event is not None]
-    return Counter(text.arguments(event)[-1] for event in events).most_common()
+    return Counter(event.arguments[-1] for event in events).most_common()
 
 
 def _actions(pairs: Sequence[Pair], side: Callable[[Pair], Side]) -> float:

@@ -19,6 +19,7 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import PROVENANCE, naming, read_config
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
+from testbed.protocol import literal_within_bounds
 
 PARQUET, CSV = "trials.parquet", "trials.csv"
 BATCH = 1000
@@ -27,6 +28,7 @@ FORMULA = "^[=+@\t\r\n\u2212\uff1d\uff0b\uff0d\uff20-]"
 """How text begins that spreadsheets take for a formula."""
 SCALARS: dict[type[inspect.Type], type[pl.DataType]] = {
     inspect.StrType: pl.String,
+    inspect.CustomType: pl.String,  # a literal
     inspect.LiteralType: pl.String,
     inspect.BoolType: pl.Boolean,
     inspect.IntType: pl.Int64,
@@ -84,7 +86,8 @@ def table_of(records: Iterable[TrialRecord]) -> pl.DataFrame:
 
 def records_of(trials: pl.DataFrame) -> Iterator[TrialRecord]:
     """The rows of a table as records."""
-    return (msgspec.convert(row, TrialRecord) for row in trials.iter_rows(named=True))
+    rows = trials.iter_rows(named=True)
+    return (msgspec.convert(row, TrialRecord, dec_hook=literal_within_bounds) for row in rows)
 
 
 def schema() -> dict[str, pl.DataType]:

@@ -9,12 +9,11 @@ from functools import partial
 
 from asp import Description
 from asp.language import (
+    Literal,
     Signature,
     SourceError,
     analyse,
-    atom,
     check_one_robot,
-    complement,
     parse_description,
     read_domain,
     suggestion,
@@ -54,7 +53,7 @@ class Diction:
     """What literals are given in; `check` raises StateError for those that are in no state."""
 
     signature: Signature
-    check: Callable[[Sequence[str]], object]
+    check: Callable[[Sequence[Literal]], object]
 
 
 def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> None:
@@ -131,7 +130,7 @@ def _domain_findings(
         yield from _said(key, owner, goals, states)
 
 
-def _check_goal(world: World, literals: Sequence[str]) -> None:
+def _check_goal(world: World, literals: Sequence[Literal]) -> None:
     """Raises StateError for literals that no state has: with a law, else by the theory."""
     world.check_together(literals)
     description = world.description
@@ -176,16 +175,16 @@ def _said(
 
 
 def _literals(
-    key: Key, given: Sequence[str] | None, diction: Diction, refusal: str
+    key: Key, given: Sequence[Literal] | None, diction: Diction, refusal: str
 ) -> Iterator[Finding]:
     """Unknown literals and contradictory ones; where there are none, whether a state has all."""
     findings: list[Finding] = []
     for index, literal in enumerate(given or ()):
-        unknown = unknown_atom(atom(literal), diction.signature, FLUENTS, "fluent")
+        unknown = unknown_atom(literal.atom, diction.signature, FLUENTS, "fluent")
         if unknown is not None:
             findings.append(((*key, index), unknown))
-        elif given and complement(literal) in given[:index]:
-            twice = f"contradicts {complement(literal)}; keep one of the two"
+        elif given and literal.complement in given[:index]:
+            twice = f"contradicts {literal.complement}; keep one of the two"
             findings.append(((*key, index), twice))
     yield from findings
     if given is not None and not findings:

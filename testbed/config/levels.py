@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language import Signature, literals, read_domain, suggestion
+from asp.language import Literal, Signature, read_domain, suggestion
 from asp.refinement import Refinement, load, read_refinement, refined_name
 from testbed.config.models import TRIGGERS, Drawing, ExperimentConfig
 from testbed.config.places import FLUENTS, Finding
@@ -112,16 +112,16 @@ def drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:
     yield from findings
 
 
-def _patterns(given: Iterable[str], signature: Signature) -> Iterator[Finding]:
+def _patterns(given: Iterable[Literal], signature: Signature) -> Iterator[Finding]:
     fluents = {n: s for n, s in signature.symbols.items() if s.kind in FLUENTS}
     for index, literal in enumerate(given):
-        key, name = ("draw", "goal", index), literals.name(literal)
+        key, name = ("draw", "goal", index), literal.name
         if name not in fluents:
             yield key, f"no fluent '{name}'; {suggestion(name, fluents)}"
             continue
-        sorts = literals.arguments(literal)
+        sorts = literal.arguments
         if len(sorts) != len(fluents[name].sorts):
-            example = literals.ground(name, (sort.name for sort in fluents[name].sorts))
+            example = Literal.of(name, (sort.name for sort in fluents[name].sorts))
             yield key, f"{name} takes {len(fluents[name].sorts)} sorts, as in {example}"
         for sort in sorts:
             if sort not in signature.sorts:

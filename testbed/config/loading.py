@@ -71,12 +71,19 @@ def load_config(
     try:
         config = _located(ExperimentConfig.model_validate(composed), path)
     except ValidationError as error:
-        lines = [_describe(item, places) for item in error.errors(include_url=False)]
-        raise ConfigError(lines) from None
+        found = error.errors(include_url=False)
+        cut = {item["loc"][:-1] for item in found if _is_rest_of_literal(item)}
+        kept = (item for item in found if item["type"] != "literal" or item["loc"][:-1] not in cut)
+        raise ConfigError([_describe(item, places) for item in kept]) from None
     check(config, places, checks)
     if config.is_fine:
         return config
     return with_scenarios(config, load_description(config.domain).scenarios)
+
+
+def _is_rest_of_literal(error: ErrorDetails) -> bool:
+    """Whether a key is what YAML cut off from an unquoted literal, at a comma."""
+    return error["type"] == "extra_forbidden" and ")" in str(error["loc"][-1])
 
 
 def _describe(error: ErrorDetails, places: Places) -> str:

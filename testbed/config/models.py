@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from asp import language
 from testbed import environment
 from testbed.config.values import (
     LARGEST_SEED,
@@ -18,12 +19,12 @@ from testbed.config.values import (
     Count,
     Flag,
     Literals,
+    LiteralText,
     Name,
     Names,
     Probability,
     Scenarios,
     Seconds,
-    Text,
 )
 from testbed.protocol import Knowledge
 
@@ -68,7 +69,7 @@ class ScriptEntry(Section):
 
     step: Count | None = None
     at_action: Count | None = None
-    action: Text
+    action: LiteralText
 
 
 class Limits(Section):
@@ -125,7 +126,7 @@ class Drawing(Section):
     something in its hand.
     """
 
-    goal: Annotated[Literals, Field(min_length=1)] = ("loc(object,room)",)
+    goal: Annotated[Literals, Field(min_length=1)] = (language.Literal.parse("loc(object,room)"),)
     holding: Probability = 0.2
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import yaml
 
-from asp.language import Signature, literals, suggestion
+from asp.language import Literal, Signature, suggestion
 from testbed.config.models import ExperimentConfig
 from testbed.config.values import NONE
 
@@ -92,21 +92,21 @@ FLUENTS = ("inertial", "defined")
 """The kinds of symbols that are fluents."""
 
 
-def unknown_atom(text: str, signature: Signature, kinds: Collection[str], what: str) -> str | None:
+def unknown_atom(
+    text: Literal, signature: Signature, kinds: Collection[str], what: str
+) -> str | None:
     """What is wrong with a ground atom that is none of these kinds, and what is right, if so."""
     symbols = {name: own for name, own in signature.symbols.items() if own.kind in kinds}
-    name, values = literals.name(text), literals.arguments(text)
+    name, values = text.name, text.arguments
     if name not in symbols:
         return f"no {what} '{name}'; {suggestion(name, symbols)}"
     sorts = [signature.sorts[sort.name] for sort in symbols[name].sorts]
-    example = literals.ground(name, (members[0] for members in sorts))
+    example = Literal.of(name, (members[0] for members in sorts))
     if len(values) != len(sorts):
         return f"{name} takes {len(sorts)} arguments, as in {example}"
     for value, members in zip(values, sorts, strict=True):
         if value not in members:
             return f"'{value}' in {text} is not known there; {suggestion(value, members)}"
-    if text != literals.ground(name, values):
-        return f"{text} is not a {what}, which is written as in {example}"
     return None
 
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, PlainSerializer, PlainValidator
+from pydantic_core import PydanticCustomError
+
+from asp.language import Literal
 
 MOST = 2**31 - 1
 """The largest count: a solver calculates with 32 bits."""
@@ -16,8 +19,12 @@ NONE = "none"
 """The scenario in which nothing exogenous happens, unless the domain has one of this name."""
 
 
-def _tidy(text: object) -> object:
-    return "".join(text.split()) if isinstance(text, str) else text
+def _literal(text: object) -> Literal:
+    try:
+        return Literal.parse("".join(text.split()) if isinstance(text, str) else "")
+    except ValueError:
+        example = "should be a literal such as f(a,b) or -f(a,b)"
+        raise PydanticCustomError("literal", example) from None
 
 
 def _whole(items: object) -> object:
@@ -47,8 +54,9 @@ def _listed(value: object) -> object:
     return () if value is None else (value,) if isinstance(value, str | int) else value
 
 
-Text = Annotated[str, BeforeValidator(_tidy), Field(min_length=1)]
-Literals = Annotated[tuple[Text, ...], BeforeValidator(_whole)]
+LiteralText = Annotated[Literal, PlainValidator(_literal), PlainSerializer(str, return_type=str)]
+"""A ground literal or action of a text."""
+Literals = Annotated[tuple[LiteralText, ...], BeforeValidator(_whole)]
 Name = Annotated[str, BeforeValidator(_named), Field(min_length=1)]
 Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
 Seconds = Annotated[float, Field(strict=True, gt=0.0, le=LONGEST_S)]

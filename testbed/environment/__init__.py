@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 from testbed.environment.core import Core
 from testbed.environment.execution import Execution
 from testbed.environment.fine import Pace, RandomGoal, RandomStart, fine_core
-from testbed.environment.legality import FINISH, NONE, WAIT
 from testbed.environment.rules import (
     ADVERSARY,
     ROBOT,
@@ -20,6 +19,7 @@ from testbed.environment.rules import (
     UnknownOptionError,
     rewards,
 )
+from testbed.protocol import FINISH, NONE, WAIT
 
 if TYPE_CHECKING:
     from testbed.environment.aec import AECView, OrderedView

@@ -9,6 +9,7 @@ from typing import Any
 from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
+from asp.language import Action
 from testbed.environment.core import Core
 from testbed.environment.observation import Observation, infos, observe
 from testbed.environment.rules import (
@@ -53,7 +54,7 @@ class AECView(View, AECEnv[str, Observation, int | None]):
 
     def __init__(self, core: Core, render_mode: str | None = None) -> None:
         super().__init__(core, render_mode)
-        self._chosen: str | None = None
+        self._chosen: Action | None = None
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
         self._begin(seed, options)
@@ -76,14 +77,14 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         else:
             self._adversary_answers(name_of(agent, action, self.core.adversary_actions))
 
-    def _robot_answers(self, action: str) -> None:
+    def _robot_answers(self, action: Action) -> None:
         self._cumulative_rewards[ROBOT] = 0.0
         self._clear_rewards()
         self._chosen = action
         self.agent_selection = ADVERSARY
         self.infos = infos(self.core, action)
 
-    def _adversary_answers(self, event: str) -> None:
+    def _adversary_answers(self, event: Action) -> None:
         assert self._chosen is not None
         reason = self.core.why_not(self._chosen, event)
         if reason is not None:

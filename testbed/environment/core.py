@@ -11,9 +11,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from asp.language import Literal
+from asp.language import Action, Literal
 from testbed.environment.execution import Execution, Played
-from testbed.environment.legality import FINISH, NONE, WAIT, LegalEvents, Legality
+from testbed.environment.legality import LegalEvents, Legality
 from testbed.environment.rules import (
     Ending,
     IllegalActionError,
@@ -22,12 +22,12 @@ from testbed.environment.rules import (
     Situation,
     Snapshot,
 )
-from testbed.protocol import Percept
+from testbed.protocol import FINISH, NONE, WAIT, Percept
 from testbed.world import World
 
 Draw: TypeAlias = Callable[[np.random.Generator], int]
 """Draws the state in which a game begins."""
-DrawGoal: TypeAlias = Callable[[int, np.random.Generator], tuple[str, ...]]
+DrawGoal: TypeAlias = Callable[[int, np.random.Generator], tuple[Literal, ...]]
 """Draws the goal of a game that begins in a state."""
 
 
@@ -59,7 +59,7 @@ class Core:
         self.adversary_actions = (NONE, *world.exogenous_actions)
         self._random = np.random.default_rng()
         self._situation: Situation | None = None
-        self._listed: tuple[tuple[Situation, str | None], tuple[str, ...]] | None = None
+        self._listed: tuple[tuple[Situation, Action | None], tuple[Action, ...]] | None = None
 
     @property
     def situation(self) -> Situation:
@@ -73,7 +73,7 @@ class Core:
         self._situation = situation
 
     def reset(
-        self, seed: int | None = None, initial: Sequence[str] | None = None, trial: str = ""
+        self, seed: int | None = None, initial: Sequence[Literal] | None = None, trial: str = ""
     ) -> None:
         """Begins a game in the state of the given literals, or in one drawn from `initial`.
 
@@ -105,7 +105,7 @@ class Core:
         return self.world.satisfies(self.situation.state, self.situation.goal)
 
     @property
-    def visible(self) -> tuple[str, ...]:
+    def visible(self) -> tuple[Literal, ...]:
         """The literals that the robot is shown now, by its action and by what it always sees."""
         return (*self.situation.sensed, *self.execution.visible(self.situation.state))
 
@@ -124,7 +124,7 @@ class Core:
             goal_holds=now.goal_holds,
         )
 
-    def events(self, robot_action: str | None) -> tuple[str, ...]:
+    def events(self, robot_action: Action | None) -> tuple[Action, ...]:
         """What the adversary may do beside the robot's action: `none`, then exogenous actions.
 
         Not knowing it (None), the adversary may try all that is possible by itself.
@@ -134,23 +134,23 @@ class Core:
             self._listed = (asked, tuple(self.legal_events(robot_action)))
         return self._listed[1]
 
-    def legal_events(self, robot_action: str | None) -> LegalEvents:
+    def legal_events(self, robot_action: Action | None) -> LegalEvents:
         """The same, each asked for only when it is looked at; another step makes it stale."""
         return LegalEvents(self.adversary_actions, lambda event: self.legal(robot_action, event))
 
-    def legal(self, robot_action: str | None, event: str) -> bool:
+    def legal(self, robot_action: Action | None, event: Action) -> bool:
         """Whether `event` is among `events(robot_action)`."""
         return self._legality.allows(self.situation.state, robot_action, event)
 
-    def is_physical(self, robot_action: str) -> bool:
+    def is_physical(self, robot_action: Action) -> bool:
         """Whether an action of the robot is to change the world: neither mental nor a test."""
         return robot_action not in (WAIT, FINISH) and bool(self.execution.physical(robot_action))
 
-    def why_not(self, robot_action: str, event: str) -> str | None:
+    def why_not(self, robot_action: Action, event: Action) -> str | None:
         """One line that says why the event is impossible beside the robot's action; else None."""
         return self._legality.why_not(self.situation.state, robot_action, event)
 
-    def advance(self, robot_action: str, event: str = NONE) -> None:
+    def advance(self, robot_action: Action, event: Action = NONE) -> None:
         """Plays a step: both actions at once. An attempt at the impossible changes nothing.
 
         Raises IllegalActionError, and leaves all as it was, where the game is over, the robot has
@@ -190,7 +190,7 @@ class Core:
     def _draw(self, states: Sequence[int]) -> int:
         return states[int(self._random.integers(len(states)))] if len(states) > 1 else states[0]
 
-    def _check(self, robot_action: str, event: str) -> None:
+    def _check(self, robot_action: Action, event: Action) -> None:
         if self.situation.ending is not None:
             raise IllegalActionError(f"the game is over: {self.situation.ending}")
         if robot_action not in self.robot_actions:
@@ -202,19 +202,19 @@ class Core:
             step = self.situation.step
             raise IllegalActionError(f"step {step}: {event} beside {robot_action}: {reason}")
 
-    def _takes_effect(self, robot_action: str) -> bool:
+    def _takes_effect(self, robot_action: Action) -> bool:
         if not self._legality.possible(self.situation.state, robot_action):
             return False
         chance = self.execution.chance(robot_action)
         return chance >= 1 or bool(self._random.random() < chance)
 
-    def _answers(self, robot_action: str) -> bool:
+    def _answers(self, robot_action: Action) -> bool:
         """Whether this is a wrong `finish` to which the game goes on."""
         told_before = self.situation.goal_holds is False
         wrong = robot_action == FINISH and not self.achieved
         return wrong and self.rules.goal_feedback and not told_before
 
-    def _ending(self, robot_action: str) -> Ending | None:
+    def _ending(self, robot_action: Action) -> Ending | None:
         if robot_action == FINISH and self.achieved:
             return Ending.ACHIEVED
         if robot_action == FINISH and not self._answers(robot_action):

@@ -8,8 +8,7 @@ from itertools import islice
 
 import numpy as np
 
-from asp.language import Action, Literal
-from asp.language import literals as text
+from asp.language import Action, Fluent, Literal
 from asp.refinement import Sensing
 from testbed.environment.rules import Observability, Situation
 from testbed.protocol import Event
@@ -39,54 +38,56 @@ class Execution:
     def __post_init__(self) -> None:
         self._tests = self.sensing.names if self.sensing else frozenset[str]()
         self.actions: tuple[Action, ...] = self.world.agent_actions
-        _check(self.statistics, {*map(text.name, self.actions), *self._tests})
+        _check(self.statistics, {*(action.name for action in self.actions), *self._tests})
         if self.sensing:
             self.actions += self.sensing.actions
         names = self.coarse or ()
-        are_coarse = enumerate(text.name(fluent) in names for fluent in self.world.fluents)
+        are_coarse = enumerate(fluent.name in names for fluent in self.world.fluents)
         self._coarse = sum(is_coarse << number for number, is_coarse in are_coarse)
 
-    def possible(self, state: int, action: str) -> bool:
+    def possible(self, state: int, action: Action) -> bool:
         """Whether an attempt can come to anything in the state."""
         if self.sensing and not self.physical(action):
             return self.sensing.can(action, self.world.facts(state))
         return self.world.executable(state, (action,))
 
-    def physical(self, action: str) -> tuple[str, ...]:
+    def physical(self, action: Action) -> tuple[Action, ...]:
         """What the action contributes to the compound action: itself, or nothing if it looks."""
-        return () if text.name(action) in self._tests else (action,)
+        return () if action.name in self._tests else (action,)
 
-    def chance(self, action: str) -> float:
+    def chance(self, action: Action) -> float:
         """The probability with which a possible action takes effect."""
-        return self.statistics.get(text.name(action), 1.0) if self.physical(action) else 1.0
+        return self.statistics.get(action.name, 1.0) if self.physical(action) else 1.0
 
-    def sensed(self, action: str, after: int, random: np.random.Generator) -> tuple[str, ...]:
+    def sensed(
+        self, action: Action, after: int, random: np.random.Generator
+    ) -> tuple[Literal, ...]:
         """What an action that took effect shows of the state after it, perhaps wrongly."""
         if not self.sensing or self.physical(action):
             return ()
         fluent = self.sensing.fluent(action)
         right = 1.0
-        if self.robot not in text.arguments(fluent):
-            right = self.statistics.get(text.name(action), 1.0)
+        if self.robot not in fluent.arguments:
+            right = self.statistics.get(action.name, 1.0)
         holds = self.world.holds(after, fluent)
         if right < 1 and random.random() >= right:
             holds = not holds
-        return (fluent if holds else text.complement(fluent),)
+        return (fluent if holds else fluent.complement,)
 
-    def visible(self, state: int) -> tuple[str, ...]:
+    def visible(self, state: int) -> tuple[Literal, ...]:
         """The literals that the robot sees whatever it does."""
         return self.world.visible(state, self.robot)
 
-    def notices(self, state: int, fluents: frozenset[str]) -> bool:
+    def notices(self, state: int, fluents: frozenset[Fluent]) -> bool:
         """Whether the robot is where it could tell whether one of the fluents holds."""
         if self.sensing:
             tests = (self.sensing.test_of(self.robot, fluent) for fluent in fluents)
             facts = self.world.facts(state)
             if any(test is not None and self.sensing.can(test, facts) for test in tests):
                 return True
-        return not fluents.isdisjoint(map(text.atom, self.visible(state)))
+        return not fluents.isdisjoint(each.atom for each in self.visible(state))
 
-    def closed_to_events(self, state: int, action: str) -> str | None:
+    def closed_to_events(self, state: int, action: Action) -> str | None:
         """Why nothing exogenous happens beside the action, if so."""
         if self.coarse is None:
             return None
@@ -114,10 +115,10 @@ class Played:
 
     execution: Execution
     before: Situation
-    effective: tuple[str, ...]
-    event: str | None
+    effective: tuple[Action, ...]
+    event: Action | None
     after: int
-    possible: Callable[[str], bool]
+    possible: Callable[[Action], bool]
 
     def reports(
         self, rules: Mapping[str, Observability], random: np.random.Generator
@@ -125,14 +126,14 @@ class Played:
         """What the robot is told of the step, truly and falsely, each with the step at which."""
         told = [self.event] if self.event and self._is_told(self.event, rules, random) else []
         for action in (*told, *self._false_reports(rules, random)):
-            late = rules[text.name(action)].delay
+            late = rules[action.name].delay
             step = self.before.step
-            yield step + 1 + late, Event(step=step, action=Literal.parse(action))
+            yield step + 1 + late, Event(step=step, action=action)
 
     def _is_told(
-        self, event: str, rules: Mapping[str, Observability], random: np.random.Generator
+        self, event: Action, rules: Mapping[str, Observability], random: np.random.Generator
     ) -> bool:
-        how = rules.get(text.name(event), Observability())
+        how = rules.get(event.name, Observability())
         if how.mode == "never" or (how.mode == "colocated" and not self._witnessed()):
             return False
         return bool(random.random() < how.probability)
@@ -146,10 +147,10 @@ class Played:
 
     def _false_reports(
         self, rules: Mapping[str, Observability], random: np.random.Generator
-    ) -> Iterator[str]:
+    ) -> Iterator[Action]:
         for name, how in rules.items():
             if how.false_reports > 0.0 and random.random() < how.false_reports:
                 events = self.execution.world.exogenous_actions
-                others = [e for e in events if text.name(e) == name and e != self.event]
+                others = [e for e in events if e.name == name and e != self.event]
                 drawn = (others[int(number)] for number in random.permutation(len(others)))
                 yield from islice(filter(self.possible, drawn), 1)

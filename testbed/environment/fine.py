@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Literal
+from typing import Literal as Choice
 
 import numpy as np
 
-from asp.language import literals as text
+from asp.language import Fluent, Literal
 from asp.refinement import Refinement, sensing_of
 from testbed.environment.core import Core, DrawGoal
 from testbed.environment.execution import Execution, Statistics
 from testbed.environment.rules import Rules
 from testbed.world import World, world_of
 
-Pace = Literal["concrete", "abstract"]
+Pace = Choice["concrete", "abstract"]
 """When exogenous actions may happen: at each step, or only beside an action of the robot that
 changes what holds at the coarse resolution."""
 
@@ -59,7 +59,7 @@ class RandomStart:
     def __post_init__(self) -> None:
         groups = self.world.description.initially
         placed = {fluent for some in groups for fluent in some}
-        things = {text.arguments(some[0])[0] for some in groups if text.arguments(some[0])}
+        things = {some[0].arguments[0] for some in groups if some[0].arguments}
         self._relations = [
             fluent
             for fluent in self.world.description.inertial
@@ -76,15 +76,15 @@ class RandomStart:
                 state = self._with(state, [some[int(n)] for n in random.permutation(len(some))])
         return state
 
-    def _with(self, state: int, options: Sequence[str]) -> int:
+    def _with(self, state: int, options: Sequence[Literal]) -> int:
         """A state in which the first of the options holds that can."""
         found = (self.world.adjusted(state, (option,)) for option in options)
         return next((states[0] for states in found if states), state)
 
 
-def _relates(robot: str, fluent: str, things: set[str]) -> bool:
-    others = {constant for constant in text.arguments(fluent) if constant != robot}
-    return robot in text.arguments(fluent) and bool(others) and others <= things
+def _relates(robot: str, fluent: Fluent, things: set[str]) -> bool:
+    others = {constant for constant in fluent.arguments if constant != robot}
+    return robot in fluent.arguments and bool(others) and others <= things
 
 
 class RandomGoal:
@@ -94,19 +94,16 @@ class RandomGoal:
     """
 
     def __init__(
-        self, world: World, patterns: Iterable[str], sorts: Mapping[str, tuple[str, ...]]
+        self, world: World, patterns: Iterable[Literal], sorts: Mapping[str, tuple[str, ...]]
     ) -> None:
         self._world = world
-        parts = [(pattern.partition("(")[0], text.arguments(pattern)) for pattern in patterns]
-        drawn = list(dict.fromkeys(sort for _, own in parts for sort in own))
+        given = tuple(patterns)
+        drawn = list(dict.fromkeys(sort for pattern in given for sort in pattern.arguments))
         combinations = product(*(sorts[sort] for sort in drawn))
         chosen = [dict(zip(drawn, values, strict=True)) for values in combinations]
-        self._goals = [
-            tuple(text.ground(name, (values[sort] for sort in own)) for name, own in parts)
-            for values in chosen
-        ]
+        self._goals = [tuple(pattern.renamed(values) for pattern in given) for values in chosen]
 
-    def __call__(self, state: int, random: np.random.Generator) -> tuple[str, ...]:
+    def __call__(self, state: int, random: np.random.Generator) -> tuple[Literal, ...]:
         """The goal of a game that begins in the state."""
         unmet = [goal for goal in self._goals if not self._world.satisfies(state, goal)]
         options = unmet or self._goals

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from asp.language import Action, Fluent, Literal
 from testbed.environment.execution import Execution
-
-WAIT, FINISH, NONE = "wait", "finish", "none"
-"""The actions that are the environment's own: of the robot, and of the adversary."""
+from testbed.protocol import FINISH, NONE, WAIT
 
 
 @dataclass(frozen=True)
@@ -23,7 +22,7 @@ class Legality:
     execution: Execution
     while_thinking: bool
 
-    def allows(self, state: int, robot_action: str | None, event: str) -> bool:
+    def allows(self, state: int, robot_action: Action | None, event: Action) -> bool:
         """Whether the event is legal; doing nothing always is."""
         if event == NONE:
             return True
@@ -32,7 +31,7 @@ class Legality:
         executable, ways = self.execution.world.executable, self._ways(state, robot_action)
         return all(executable(state, (*way, event)) for way in ways)
 
-    def why_not(self, state: int, robot_action: str | None, event: str) -> str | None:
+    def why_not(self, state: int, robot_action: Action | None, event: Action) -> str | None:
         """One line that says why the event is not legal; None if it is."""
         if event == NONE:
             return None
@@ -40,12 +39,12 @@ class Legality:
         reasons = (why_not(state, (*way, event)) for way in ways)
         return self._closed(state, robot_action) or next(filter(None, reasons), None)
 
-    def possible(self, state: int, robot_action: str) -> bool:
+    def possible(self, state: int, robot_action: Action) -> bool:
         """Whether the robot attempts something, and not in vain."""
         idle = robot_action in (WAIT, FINISH)
         return not idle and self.execution.possible(state, robot_action)
 
-    def _closed(self, state: int, robot_action: str | None) -> str | None:
+    def _closed(self, state: int, robot_action: Action | None) -> str | None:
         """Why nothing exogenous happens beside the robot's action, if so."""
         if robot_action is None:
             return None
@@ -56,7 +55,7 @@ class Legality:
             return None if self.while_thinking else closed
         return self.execution.closed_to_events(state, robot_action)
 
-    def _ways(self, state: int, robot_action: str | None) -> Iterator[tuple[str, ...]]:
+    def _ways(self, state: int, robot_action: Action | None) -> Iterator[tuple[Action, ...]]:
         """The robot's part of the compound action, in each way in which it may come out."""
         if robot_action is None or not self.possible(state, robot_action):
             yield ()
@@ -66,24 +65,24 @@ class Legality:
             yield ()
 
 
-class LegalEvents(Sequence[str]):
+class LegalEvents(Sequence[Action]):
     """The candidates that pass a test, in their order; `in` tests one, iterating tests on.
 
     The number of them tests each, and is not asked for a second time by who then iterates.
     """
 
-    def __init__(self, candidates: Sequence[str], legal: Callable[[str], bool]) -> None:
+    def __init__(self, candidates: Sequence[Fluent], legal: Callable[[Action], bool]) -> None:
         self._candidates = candidates
         self._legal = legal
 
     @cached_property
-    def _all(self) -> tuple[str, ...]:
+    def _all(self) -> tuple[Action, ...]:
         return tuple(filter(self._legal, self._candidates))
 
     def __contains__(self, event: object) -> bool:
-        return event in self._candidates and self._legal(str(event))
+        return isinstance(event, Literal) and event in self._candidates and self._legal(event)
 
-    def __iter__(self) -> Iterator[str]:
+    def __iter__(self) -> Iterator[Action]:
         # `tuple` asks for an iterator, then for the number, and only then for the first item.
         yield from self._all if "_all" in vars(self) else filter(self._legal, self._candidates)
 

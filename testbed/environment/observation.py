@@ -9,10 +9,10 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from asp.language import literals as text
+from asp.language import Action, Fluent, Literal
 from testbed.environment.core import Core
-from testbed.environment.legality import NONE, WAIT
 from testbed.environment.rules import ADVERSARY, ROBOT, check_agent
+from testbed.protocol import NONE, WAIT
 
 Vector: TypeAlias = NDArray[np.int8]
 Observation: TypeAlias = dict[str, Vector]
@@ -36,7 +36,7 @@ def signs(length: int) -> spaces.Box:
     return spaces.Box(-1, 1, (length,), np.int8)
 
 
-def observe(core: Core, agent: str, robot_action: str | None) -> Observation:
+def observe(core: Core, agent: str, robot_action: Action | None) -> Observation:
     """The agent's observation; `robot_action` is the robot's answer, if it has given it.
 
     Raises UnknownAgentError, and NotResetError before the first game.
@@ -60,7 +60,7 @@ def state_vector(core: Core) -> Vector:
     return _vector(core.world.fluents, core.world.literals(core.situation.state))
 
 
-def infos(core: Core, robot_action: str | None) -> dict[str, dict[str, Any]]:
+def infos(core: Core, robot_action: Action | None) -> dict[str, dict[str, Any]]:
     """What each agent sees, as ASP text: the robot's percept, the adversary's full view.
 
     Both know the goal; `outcome` is None until the game is over.
@@ -74,8 +74,8 @@ def infos(core: Core, robot_action: str | None) -> dict[str, dict[str, Any]]:
     }
 
 
-def _vector(fluents: Sequence[str], literals: Sequence[str]) -> Vector:
-    known = {text.atom(seen): 1 if text.is_positive(seen) else -1 for seen in literals}
+def _vector(fluents: Sequence[Fluent], literals: Sequence[Literal]) -> Vector:
+    known = {seen.atom: 1 if seen.is_positive else -1 for seen in literals}
     return np.array([known.get(fluent, 0) for fluent in fluents], np.int8)
 
 

@@ -7,7 +7,6 @@ from typing import Any, TypeAlias
 
 from pettingzoo import ParallelEnv
 
-from testbed.environment.legality import NONE
 from testbed.environment.observation import Observation, infos, observe
 from testbed.environment.rules import (
     ADVERSARY,
@@ -18,6 +17,7 @@ from testbed.environment.rules import (
     rewards,
 )
 from testbed.environment.view import View
+from testbed.protocol import NONE
 
 Shown: TypeAlias = tuple[dict[str, Observation], dict[str, dict[str, Any]]]
 """Observations and infos, by agent."""

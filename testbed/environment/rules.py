@@ -6,12 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from operator import index
-from typing import Any, Literal
+from typing import Any
+from typing import Literal as Choice
 
+from asp.language import Action, Literal
 from testbed.protocol import Event
 
 ROBOT, ADVERSARY = "robot_0", "adversary_0"
-Mode = Literal["never", "colocated", "always"]
+Mode = Choice["never", "colocated", "always"]
 
 
 class IllegalActionError(ValueError):
@@ -57,7 +59,7 @@ class Rules:
     game. Unless `exogenous_while_thinking`, nothing exogenous happens while the robot waits.
     """
 
-    goal: tuple[str, ...]
+    goal: tuple[Literal, ...]
     steps: int = 100
     observability: Mapping[str, Observability] = field(default_factory=dict)
     goal_feedback: bool = True
@@ -90,11 +92,11 @@ class Situation:
     trial: str
     step: int
     state: int
-    goal: tuple[str, ...]
-    answer: str | None = None
+    goal: tuple[Literal, ...]
+    answer: Action | None = None
     happened: bool | None = None
-    event: str | None = None
-    sensed: tuple[str, ...] = ()
+    event: Action | None = None
+    sensed: tuple[Literal, ...] = ()
     told: tuple[Event, ...] = ()
     pending: tuple[tuple[int, Event], ...] = ()
     goal_holds: bool | None = None
@@ -109,7 +111,7 @@ class Snapshot:
     generator: Any
 
 
-def name_of(agent: str, answer: Any, actions: Sequence[str]) -> str:
+def name_of(agent: str, answer: Any, actions: Sequence[Action]) -> Action:
     """The action of an agent's answer, an index: an integer of any type, also of NumPy's.
 
     Raises IllegalActionError, which names the actions, also for an array of one.
@@ -129,7 +131,7 @@ def check_agent(agent: str) -> None:
         raise UnknownAgentError(f"{agent!r} is not an agent; there are {ROBOT} and {ADVERSARY}")
 
 
-def listed(actions: Sequence[str], legal: Sequence[str] | None = None) -> str:
+def listed(actions: Sequence[Action], legal: Sequence[Action] | None = None) -> str:
     """The actions, or the legal ones among them, with their indices."""
     chosen = actions if legal is None else legal
     return ", ".join(f"{i} {action}" for i, action in enumerate(actions) if action in chosen)

@@ -10,10 +10,10 @@ from typing import Any, Protocol, TypeVar, get_args
 import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
-from asp.language import suggestion
+from asp.language import Action, Literal, suggestion
 from testbed.config import ExperimentConfig, Finding
 from testbed.experiment.specs import Setting
-from testbed.protocol import in_one_line
+from testbed.protocol import in_one_line, shortened
 from testbed.registry import Registry, RegistryError, class_fault
 
 T = TypeVar("T")
@@ -120,12 +120,14 @@ class _Named:
         """Begins a trial. Raises AdversaryError."""
         self._asked(lambda: self._adversary.reset(seed))
 
-    def act(self, view: AdversaryView) -> str:
+    def act(self, view: AdversaryView) -> Action:
         """The answer at a step. Raises AdversaryError, also for one that is no text."""
         answer: object = self._asked(lambda: self._adversary.act(view))
-        if not isinstance(answer, str):
-            raise AdversaryError(f"{self._name} answered {answer!r}, which is not an action")
-        return answer
+        try:
+            return Literal.parse(str(answer) if isinstance(answer, str) else "")
+        except ValueError:
+            message = f"{self._name} answered {answer!r}, which is not an action"
+            raise AdversaryError(shortened(message)) from None
 
     def _asked(self, call: Callable[[], T]) -> T:
         try:

@@ -12,7 +12,7 @@ import msgspec
 
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
-from testbed.protocol import Count
+from testbed.protocol import Count, literal_within_bounds
 
 MOST_BYTES = 4 * 2**20
 """Of one record as a line."""
@@ -46,7 +46,7 @@ class Line(NamedTuple):
 
 # Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
 # once end the interpreter.
-_decoder = msgspec.json.Decoder(TrialRecord)
+_decoder = msgspec.json.Decoder(TrialRecord, dec_hook=literal_within_bounds)
 _seal = msgspec.json.Decoder(_Seal)
 
 

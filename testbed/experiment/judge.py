@@ -12,9 +12,11 @@ from heapq import heapify, heappop, heappush
 from itertools import count
 
 from asp.language import (
+    Action,
     Description,
+    Fluent,
+    Literal,
     Signature,
-    atom,
     ground_description,
     narrowed,
     restrict,
@@ -28,7 +30,7 @@ from testbed.world import World, world_of
 
 MOST_ANSWERS = 4_096
 """How many answers are remembered: trials from the same state ask the same."""
-Goal = tuple[str, ...]
+Goal = tuple[Literal, ...]
 Problem = tuple[World, int, Goal]
 """A world, the state to begin in, and the goal."""
 UNINFORMED = 200
@@ -81,7 +83,7 @@ class BudgetError(RuntimeError):
 def cheapest_plan(
     world: World,
     initial: int,
-    goal: Iterable[str],
+    goal: Iterable[Literal],
     costs: Mapping[str, int] | None = None,
     most_states: int | None = None,
 ) -> tuple[str, ...] | None:
@@ -94,7 +96,7 @@ def cheapest_plan(
     alike: dict[str, int] = dict.fromkeys(world.agent_actions, 1)
     price = alike if costs is None else costs
     heuristic: Heuristic = blind
-    came_from: dict[int, tuple[int, str] | None] = {initial: None}
+    came_from: dict[int, tuple[int, Action] | None] = {initial: None}
     least, expanded = {initial: 0}, 0
     # By the least cost of a plan through a state, then by the least of what is left of it.
     frontier = [(0, 0, next(number), initial)]
@@ -121,8 +123,8 @@ def cheapest_plan(
     return None
 
 
-def _path(came_from: Mapping[int, tuple[int, str] | None], state: int) -> tuple[str, ...]:
-    actions: list[str] = []
+def _path(came_from: Mapping[int, tuple[int, Action] | None], state: int) -> tuple[str, ...]:
+    actions: list[Action] = []
     while (step := came_from[state]) is not None:
         state, action = step
         actions.append(action)
@@ -144,12 +146,12 @@ class Narrowing:
         self._relevance = Relevance(without_exogenous(source, signature), signature)
         self._world = lru_cache(maxsize=64)(self._without)
 
-    def problem(self, state: Collection[str], goal: Iterable[str]) -> Problem:
+    def problem(self, state: Collection[Fluent], goal: Iterable[Literal]) -> Problem:
         """The narrowed world, and in it the state with these true atoms, and the goal."""
         wanted = tuple(goal)
         world = self._world(self._relevance.spare(state, wanted))
         known = frozenset(world.fluents)
-        left = tuple(literal for literal in wanted if atom(literal) in known)
+        left = tuple(literal for literal in wanted if literal.atom in known)
         return world, world.state(a for a in state if a in known), left
 
     def _without(self, dropped: frozenset[str]) -> World:

@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 
-from asp.language import Description, Trigger
+from asp.language import Description, Literal, Trigger
 from asp.refinement import Refinement
 from testbed.config import ExperimentConfig, grounds, level_size
 from testbed.environment import RandomGoal, RandomStart
@@ -57,7 +57,7 @@ def _in_scenarios(config: ExperimentConfig) -> Iterator[TrialSpec]:
 
 def _starts(
     config: ExperimentConfig, scenario: str, world: World
-) -> Iterator[tuple[tuple[str, ...], int]]:
+) -> Iterator[tuple[tuple[Literal, ...], int]]:
     """Initial states, and which of the pairs from there this is, from 0 on."""
     given = config.settings(scenario).initial
     states = world.initial_states() if given is None else [world.state(given)]
@@ -117,7 +117,7 @@ def _at_levels(config: ExperimentConfig) -> Iterator[TrialSpec]:
 
 def _drawing(
     config: ExperimentConfig, refinement: Refinement
-) -> Callable[[np.random.Generator], tuple[tuple[str, ...], tuple[str, ...]]]:
+) -> Callable[[np.random.Generator], tuple[tuple[Literal, ...], tuple[Literal, ...]]]:
     """What draws the trials of one level: the inertial atoms true at first, and a goal.
 
     The goal does not hold at first. What the configuration gives is not drawn.
@@ -126,7 +126,7 @@ def _drawing(
     start = RandomStart(world, description.robots[0], config.draw.holding)
     goal = None if config.goal else RandomGoal(world, config.draw.goal, description.sorts)
 
-    def draw(generator: np.random.Generator) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    def draw(generator: np.random.Generator) -> tuple[tuple[Literal, ...], tuple[Literal, ...]]:
         state = start(generator) if config.initial is None else world.state(config.initial)
         inertial = frozenset(world.true_atoms(state)).intersection(world.description.inertial)
         return tuple(sorted(inertial)), config.goal if goal is None else goal(state, generator)

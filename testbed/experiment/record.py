@@ -5,18 +5,20 @@ Steps are the environment's: 0 is the selection of the goal, the robot's first a
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, NamedTuple, TypeAlias, get_args
+from typing import Annotated, NamedTuple, TypeAlias, get_args
+from typing import Literal as Choice
 
 import msgspec
 
+from asp.language import Action, Literal
 from testbed.protocol import Contradiction, Count, Minimality, NoPlan
 
-Outcome = Literal["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
+Outcome = Choice["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 FAILURES: tuple[Outcome, ...] = ("robot_lost", "error")
-MinimalReason = Literal["no plan", "budget"]
+MinimalReason = Choice["no plan", "budget"]
 """Why the least that achieves a goal is not known."""
-Cause = Literal["robot", "infrastructure", "testbed"]
+Cause = Choice["robot", "infrastructure", "testbed"]
 """What a trial failed for: the robot's own error; a process that ended, or the link to it; ours."""
 COARSE = "coarse"
 """The level of trials at the coarse resolution."""
@@ -36,7 +38,7 @@ class Attempt(msgspec.Struct):
     """A physical action of the robot, and whether it took effect."""
 
     step: Count
-    action: str
+    action: Action
     happened: bool
 
 
@@ -44,7 +46,7 @@ class Occurrence(msgspec.Struct):
     """An exogenous action that happened, and whether the robot was told of it, if only later."""
 
     step: Count
-    action: str
+    action: Action
     observed: bool
 
 
@@ -52,7 +54,7 @@ class Rejected(msgspec.Struct):
     """An exogenous action that a script has for this step, that was not possible, and why."""
 
     step: Count
-    action: str
+    action: Action
     reason: str
 
 
@@ -61,7 +63,7 @@ class Report(msgspec.Struct):
 
     told: Count
     step: Count
-    action: str
+    action: Action
     true: bool
 
 
@@ -69,7 +71,7 @@ class At(msgspec.Struct):
     """An action at a step."""
 
     step: Count
-    action: str
+    action: Action
 
 
 class Explained(msgspec.Struct):
@@ -83,7 +85,7 @@ class Explained(msgspec.Struct):
 
     step: Count
     unobserved: list[At]
-    exceptions: list[str]
+    exceptions: list[Literal]
     distrusted: list[At] = []
     contradictions: list[Contradiction] = []
     alternatives: Count = 0
@@ -99,7 +101,7 @@ class Activity(msgspec.Struct):
 
     name: Count
     start: Count
-    plan: list[str]
+    plan: list[Action]
     stop: Count | None = None
     futile_at: Count | None = None
     reason: str | None = None
@@ -150,8 +152,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     robot: str
     domain: str
     level: str
-    initial: list[str]
-    goal: list[str]
+    initial: list[Literal]
+    goal: list[Literal]
     achieved: bool = False
     finished: bool = False
     correct: bool | None = False

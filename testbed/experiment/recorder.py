@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import msgspec
 
+from asp.language import Action
 from testbed.environment import FINISH, WAIT, Ending
 from testbed.experiment.record import (
     Activity,
@@ -76,7 +77,7 @@ class Recorder:
             record.explanations.append(_explained(decision.step, trace, trace.explanation))
         self._activity(decision.step, trace)
 
-    def _attempt(self, step: int, action: str, happened: bool, costs: Mapping[str, int]) -> None:
+    def _attempt(self, step: int, action: Action, happened: bool, costs: Mapping[str, int]) -> None:
         self.record.actions.append(Attempt(step, action, happened))
         self.record.action_count += 1
         self.record.execution_units += costs.get(action, 0)
@@ -87,7 +88,7 @@ class Recorder:
         """What was done at the fine resolution."""
         if fine.happened and self.record.actions:
             self.record.actions[-1].happened = True
-        if fine.begun == step:
+        if fine.abstract is not None and fine.begun == step:
             self._attempt(step, fine.abstract, False, costs)
         counts.plans, counts.actions, counts.tests = fine.plans, fine.actions, fine.tests
         counts.planning_time_s += fine.planning_time_s
@@ -98,15 +99,14 @@ class Recorder:
 
     def _activity(self, step: int, trace: Trace) -> None:
         """Follow the activities; a robot without mental actions begins one with each plan."""
-        kind, _, name = (trace.mental or "").rstrip(")").partition("(")
-        activities = self.record.activities
-        if kind == "stop" and activities:
+        mental, activities = trace.mental, self.record.activities
+        if mental is not None and mental.name == "stop" and activities:
             activities[-1].stop = step
             activities[-1].futile_at = trace.futile_at
             activities[-1].reason = trace.reason or None
-        if kind == "start":
-            activities.append(Activity(int(name), step, list(trace.plan)))
-        elif not kind and trace.plans > len(activities):
+        if mental is not None and mental.name == "start":
+            activities.append(Activity(int(mental.arguments[0]), step, list(trace.plan)))
+        elif mental is None and trace.plans > len(activities):
             activities.append(Activity(trace.plans, step, list(trace.plan)))
 
     def report(self, told: int, event: Event) -> None:
@@ -153,7 +153,7 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
     return Explained(
         step,
         [At(event.step, event.action) for event in explanation.unobserved],
-        list[str](explanation.exceptions),
+        list(explanation.exceptions),
         distrusted=[At(event.step, event.action) for event in explanation.distrusted],
         contradictions=trace.contradictions,
         alternatives=len(trace.alternatives),

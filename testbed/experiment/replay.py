@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
-from asp.language import suggestion
+from asp.language import Action, Fluent, suggestion
 from testbed.environment import FINISH
 from testbed.experiment.digest import logical
 from testbed.experiment.errors import StoreError
@@ -113,7 +113,7 @@ class Narrator:
 
     def __init__(self, world: World, say: Say) -> None:
         self._world, self._say = world, say
-        self._plan: tuple[str, ...] = ()
+        self._plan: tuple[Action, ...] = ()
         self._believed = False
 
     def tell(self, moment: Moment) -> None:
@@ -138,10 +138,10 @@ class Narrator:
             yield f"  others       {moment.event}"
         yield from (f"  others       {own}: was not possible" for own in moment.skipped)
 
-    def _state(self, true: frozenset[str]) -> Iterator[str]:
+    def _state(self, true: frozenset[Fluent]) -> Iterator[str]:
         yield f"  world        {' '.join(sorted(true))}"
 
-    def _thought(self, moment: Moment, true: frozenset[str]) -> Iterator[str]:
+    def _thought(self, moment: Moment, true: frozenset[Fluent]) -> Iterator[str]:
         return self._mind(moment.decision.trace, sorted(true))
 
     def _mind(self, trace: Trace, truth: Sequence[str]) -> Iterator[str]:
@@ -193,7 +193,7 @@ class FineNarrator(Narrator):
         self._inertial = frozenset(world.description.inertial)
         self._told_of: frozenset[str] | None = None
 
-    def _state(self, true: frozenset[str]) -> Iterator[str]:
+    def _state(self, true: frozenset[Fluent]) -> Iterator[str]:
         """All at first, and then what is new."""
         before, self._told_of = self._told_of, true & self._inertial
         if before is None:
@@ -201,7 +201,7 @@ class FineNarrator(Narrator):
         elif before != self._told_of:
             yield f"  world        now {_difference(before, self._told_of)}"
 
-    def _thought(self, moment: Moment, true: frozenset[str]) -> Iterator[str]:
+    def _thought(self, moment: Moment, true: frozenset[Fluent]) -> Iterator[str]:
         trace, step = moment.decision.trace, moment.percept.step
         fine = trace.fine or FineTrace()
         for literal in moment.percept.visible:

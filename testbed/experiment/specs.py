@@ -12,6 +12,7 @@ from typing import Any
 import msgspec
 
 from asp.domains.levels import LevelSize
+from asp.language import Action, Literal
 from testbed.config import JUDGE_STATES, TRIGGERS, ExperimentConfig, ScriptEntry
 from testbed.environment import Observability, Pace
 from testbed.experiment.seeds import playing_order, short_hash, trial_seed
@@ -41,8 +42,8 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """
 
     domain: str
-    goal: tuple[str, ...]
-    script: tuple[tuple[int, str], ...] | None
+    goal: tuple[Literal, ...]
+    script: tuple[tuple[int, Action], ...] | None
     observability: dict[str, Observability]
     knowledge: Knowledge
     goal_feedback: bool
@@ -58,7 +59,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     strategy: str | None = None
     options: dict[str, Any] | None = None
     judge_states: int = JUDGE_STATES
-    script_at_actions: tuple[tuple[int, str], ...] = ()
+    script_at_actions: tuple[tuple[int, Action], ...] = ()
     script_skips: bool = False
 
 
@@ -71,7 +72,7 @@ class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
     level: str
     seed: int
     robot: str
-    initial: tuple[str, ...]
+    initial: tuple[Literal, ...]
     domain: str
     setting: Setting
 
@@ -109,7 +110,7 @@ def _strategy(config: ExperimentConfig) -> str | None:
     return None if config.adversary.strategy == by_default else config.adversary.strategy
 
 
-def _numbered(script: Sequence[ScriptEntry], key: str) -> tuple[tuple[int, str], ...]:
+def _numbered(script: Sequence[ScriptEntry], key: str) -> tuple[tuple[int, Action], ...]:
     """The entries whose moment is said by this key, with its value."""
     moments = ((getattr(entry, key), entry.action) for entry in script)
     return tuple((number, action) for number, action in moments if number is not None)
@@ -120,7 +121,7 @@ def pair_specs(
     scenario: str,
     level: str,
     path: Sequence[object],
-    initial: tuple[str, ...],
+    initial: tuple[Literal, ...],
     setting: Setting,
     domain: str,
 ) -> Iterator[TrialSpec]:

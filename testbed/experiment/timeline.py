@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
+from asp.language import Literal
 from testbed.experiment.record import COARSE, Explained, TrialRecord
 from testbed.protocol import Explanation
 
@@ -82,7 +83,7 @@ def in_words(name: str) -> str:
     return name.replace("_", " ")
 
 
-def exception(literal: str) -> str:
+def exception(literal: Literal) -> str:
     """What holds at step 0 against a default."""
     return f"exception {literal}"
 

@@ -11,6 +11,7 @@ from functools import partial
 import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Script, Sight
+from asp.language import Action
 from testbed.environment import NONE, Core, IllegalActionError
 from testbed.experiment.encoding import check
 from testbed.experiment.record import Occurrence, Rejected
@@ -44,7 +45,7 @@ class Moment:
     percept: Percept
     decision: Decision
     happened: bool | None
-    event: str | None
+    event: Action | None
     before: int
     after: int
     skipped: tuple[str, ...] = ()
@@ -139,12 +140,12 @@ def _step(
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state, skipped)
 
 
-def _view(core: Core, robot_action: str, sees: Sequence[Sight]) -> AdversaryView:
+def _view(core: Core, robot_action: Action, sees: Sequence[Sight]) -> AdversaryView:
     now, sees_action = core.situation, "robot_action" in sees
     return AdversaryView(
         step=now.step,
         state=frozenset(core.world.true_atoms(now.state) if "state" in sees else ()),
-        robot_action=robot_action if sees_action else "",
+        robot_action=robot_action if sees_action else None,
         legal=core.legal_events(robot_action),
         physical=sees_action and core.is_physical(robot_action),
     )

@@ -7,7 +7,7 @@ from functools import lru_cache
 import msgspec
 
 from agents.adversary import Adversary, Game
-from asp.language import Literal, arguments, complement
+from asp.language import Fluent, Literal
 from testbed.config import Ground, ground_of_files, ground_of_size
 from testbed.environment import Core, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
@@ -80,7 +80,7 @@ class FineTrialSetup(TrialSetup):
             lambda state, goal: narrowing.problem(self._coarse_atoms(state), goal), self.costs
         )
         inertial, robot = self._fine.description.inertial, description.robots[0]
-        self._about_robot = [fluent for fluent in inertial if robot in arguments(fluent)]
+        self._about_robot = [fluent for fluent in inertial if robot in fluent.arguments]
 
     def core(self, setting: Setting) -> Core:
         """A new game, with the setting's statistics and pace."""
@@ -91,11 +91,11 @@ class FineTrialSetup(TrialSetup):
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
         """As of the coarse state, and of the fine one the inertial literals about the robot."""
         true = frozenset(self._fine.true_atoms(state))
-        own = [fluent if fluent in true else complement(fluent) for fluent in self._about_robot]
+        own = [fluent if fluent in true else fluent.complement for fluent in self._about_robot]
         task = super().task(spec, self._world.state(self._coarse_atoms(state)), seed)
         return msgspec.structs.replace(task, refinement=self._text, initial_fine=own)
 
-    def _coarse_atoms(self, state: int) -> frozenset[str]:
+    def _coarse_atoms(self, state: int) -> frozenset[Fluent]:
         return frozenset(self._fine.true_atoms(state)).intersection(self._world.fluents)
 
 

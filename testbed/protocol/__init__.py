@@ -1,6 +1,6 @@
 """The messages between a driver and a robot, and the interface of a robot."""
 
-from testbed.protocol.bounds import MOST_BYTES, Count, shortened
+from testbed.protocol.bounds import MOST_BYTES, Count, literal_within_bounds, shortened
 from testbed.protocol.errors import (
     NOT_UNDERSTOOD,
     LinkError,
@@ -11,7 +11,10 @@ from testbed.protocol.errors import (
     in_one_line,
 )
 from testbed.protocol.messages import (
+    FINISH,
+    NONE,
     PROTOCOL_VERSION,
+    WAIT,
     Contradiction,
     Decision,
     Event,
@@ -26,13 +29,17 @@ from testbed.protocol.messages import (
     Trace,
     decode,
     encode,
+    is_mental,
 )
 from testbed.protocol.robot import Capabilities, Knowledge, Robot, RobotClient, RobotFactory
 
 __all__ = [
+    "FINISH",
     "MOST_BYTES",
+    "NONE",
     "NOT_UNDERSTOOD",
     "PROTOCOL_VERSION",
+    "WAIT",
     "Capabilities",
     "Contradiction",
     "Count",
@@ -59,5 +66,7 @@ __all__ = [
     "decode",
     "encode",
     "in_one_line",
+    "is_mental",
+    "literal_within_bounds",
     "shortened",
 ]

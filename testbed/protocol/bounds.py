@@ -20,8 +20,6 @@ Count: TypeAlias = Annotated[int, Meta(ge=0, le=LARGEST)]
 """A number of things, or a step."""
 Seconds: TypeAlias = Annotated[float, Meta(ge=0.0, le=1e9)]
 """A finite time: neither NaN nor an infinity is within the bounds."""
-Mental: TypeAlias = Annotated[str, Meta(pattern=r"\A(start|stop)\([0-9]{1,9}\)\Z")]
-"""A mental action: `start(N)` or `stop(N)` of activity N."""
 
 T = TypeVar("T")
 Items: TypeAlias = Annotated[list[T], Meta(max_length=MOST_ITEMS)]

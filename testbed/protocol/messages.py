@@ -13,10 +13,21 @@ from typing import Literal as Choice
 import msgspec
 
 from asp.language import Action, Literal
-from testbed.protocol.bounds import Count, Items, Mental, Seconds, Text, literal_within_bounds
+from testbed.protocol.bounds import Count, Items, Seconds, Text, literal_within_bounds
 from testbed.protocol.errors import LinkError
 
 PROTOCOL_VERSION = 1
+
+WAIT, FINISH, NONE = map(Action.of, ("wait", "finish", "none"))
+"""The actions that are the environment's own: of the robot, and of the adversary."""
+
+
+def is_mental(action: Action) -> bool:
+    """Whether an action starts or stops an activity: `start(N)`, `stop(N)`."""
+    parts = action.arguments
+    number = parts[0] if len(parts) == 1 else ""
+    return action.name in ("start", "stop") and number.isdecimal() and len(number) < 10
+
 
 NoPlan: TypeAlias = Choice["out of reach", "beyond the limit", "not known"]
 """Why a robot has no plan: no plan of any length exists, only a longer one, or neither is proved.
@@ -134,7 +145,7 @@ class Contradiction(Part, frozen=True, kw_only=True):
 class FineTrace(Part, frozen=True, kw_only=True):
     """How an abstract action is carried out at the fine resolution, at one step of it.
 
-    ``abstract`` is the action, empty where the robot thinks or finishes; ``begun`` the step at
+    ``abstract`` is the action, None where the robot thinks or finishes; ``begun`` the step at
     which it was begun; ``zoomed`` the coarse constants relevant to it (all of them without
     zooming), and ``plan`` the concrete actions ahead, each given when newly found or made.
     ``plans``, ``actions`` and ``tests`` count refined plans, concrete physical actions and tests
@@ -148,7 +159,7 @@ class FineTrace(Part, frozen=True, kw_only=True):
     are the same in process time.
     """
 
-    abstract: Text = ""
+    abstract: Action | None = None
     begun: Count | None = None
     zoomed: Items[Text] = []
     plan: Items[Action] = []
@@ -157,7 +168,7 @@ class FineTrace(Part, frozen=True, kw_only=True):
     tests: Count = 0
     committed: Items[Literal] = []
     failed: Text = ""
-    ended: Text = ""
+    ended: Action | None = None
     inferred: Items[Literal] = []
     happened: bool | None = None
     planning_time_s: Seconds = 0.0
@@ -188,8 +199,8 @@ class Trace(Part, frozen=True, kw_only=True):
     one, empty in the steps between the first and the last of an abstract action.
     """
 
-    mental: Mental | None = None
-    intention: Text = ""
+    mental: Action | None = None
+    intention: Action | None = None
     activity: Count | None = None
     plan: Items[Action] = []
     belief: Items[Literal] = []
@@ -208,6 +219,10 @@ class Trace(Part, frozen=True, kw_only=True):
     preparation_cpu_s: Seconds = 0.0
     deadline: bool = False
     fine: FineTrace | None = None
+
+    def __post_init__(self) -> None:
+        if self.mental is not None and not is_mental(Literal.parse(self.mental)):
+            raise ValueError(f"{self.mental} neither starts nor stops an activity")
 
 
 class Decision(Message, frozen=True, kw_only=True):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from asp.language import Description
+from asp.language import Action, Description, Literal
 from testbed.world.closure import Closure, LiteralSets, Rule
 from testbed.world.world import Law, World
 
@@ -44,7 +44,7 @@ class CompiledWorld(World):
     def states(self) -> Iterator[int]:
         return self._choose(0, self._inertial_fluents)
 
-    def adjusted(self, state: int, literals: Iterable[str]) -> tuple[int, ...]:
+    def adjusted(self, state: int, literals: Iterable[Literal]) -> tuple[int, ...]:
         return self._changed(self._sets.complete(state), self._mask(literals))
 
     def _choose(self, chosen: int, undecided: int) -> Iterator[int]:
@@ -66,13 +66,13 @@ class CompiledWorld(World):
     def _states_of(self, models: Iterable[int]) -> tuple[int, ...]:
         return tuple(sorted(model & self._sets.positive for model in models))
 
-    def _completions(self, literals: tuple[str, ...]) -> Iterable[int]:
+    def _completions(self, literals: tuple[Literal, ...]) -> Iterable[int]:
         facts = self._mask(literals)
         mentioned = facts | self._sets.complement(facts)
         left_out = self._sets.complement(self._sets.positive & ~mentioned)
         return self._states_of(self._closure.models(facts, left_out))
 
-    def _broken(self, literals: tuple[str, ...]) -> Law | None:
+    def _broken(self, literals: tuple[Literal, ...]) -> Law | None:
         known = self._closure.consequences(self._mask(literals))
         if self._sets.consistent(known):
             return None
@@ -82,7 +82,7 @@ class CompiledWorld(World):
                 return (law.head,), law.body
         raise AssertionError("a contradiction follows from a law")
 
-    def _transitions(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
+    def _transitions(self, state: int, compound: frozenset[Action]) -> tuple[int, ...]:
         literals = self._sets.complete(state)
         if next(self._forbidden(literals, compound), None) is not None:
             return ()
@@ -96,14 +96,14 @@ class CompiledWorld(World):
         defaults = literals & self._inertial | self._closed_world
         return self._states_of(self._closure.models(effects, defaults))
 
-    def _forbidding(self, state: int, compound: frozenset[str]) -> Law | None:
+    def _forbidding(self, state: int, compound: frozenset[Action]) -> Law | None:
         first = min(self._forbidden(self._sets.complete(state), compound), default=None)
         if first is None:
             return None
         law = self.description.executability[first]
         return law.actions, law.body
 
-    def _forbidden(self, literals: int, compound: frozenset[str]) -> Iterator[int]:
+    def _forbidden(self, literals: int, compound: frozenset[Action]) -> Iterator[int]:
         """The numbers of the laws that make the compound action impossible."""
         for action in compound:
             for number, actions, body in self._impossible.get(action, ()):
@@ -113,10 +113,10 @@ class CompiledWorld(World):
     def _seen(self, state: int, robot: str) -> int:
         return _fired(self._sees.get(robot, ()), self._sets.complete(state))
 
-    def _bit(self, literal: str) -> int:
+    def _bit(self, literal: Literal) -> int:
         return self._sets.literal(*self._numbered(literal))
 
-    def _mask(self, literals: Iterable[str]) -> int:
+    def _mask(self, literals: Iterable[Literal]) -> int:
         mask = 0
         for literal in literals:
             mask |= self._bit(literal)

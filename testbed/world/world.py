@@ -73,7 +73,7 @@ class World(ABC):
         """A copy is compiled anew: neither compiled laws nor what is remembered can be pickled."""
         return type(self), self._arguments
 
-    def state(self, literals: Iterable[str]) -> int:
+    def state(self, literals: Iterable[Literal]) -> int:
         """The initial state of these literals; a fluent left out is false unless it follows.
 
         Raises StateError where a fluent is unknown, the literals contradict each other or a state
@@ -90,7 +90,7 @@ class World(ABC):
                 raise StateError(f"an initial state needs {' or '.join(some)}")
         return states[0]
 
-    def check_together(self, literals: Iterable[str]) -> None:
+    def check_together(self, literals: Iterable[Literal]) -> None:
         """Raises StateError where the literals, with all that follows from them, are in no state.
 
         A sound test that takes no search: what passes it may still be in no state.
@@ -130,7 +130,7 @@ class World(ABC):
         raise StateError("no state of the domain has only what must be true")
 
     @abstractmethod
-    def adjusted(self, state: int, literals: Iterable[str]) -> tuple[int, ...]:
+    def adjusted(self, state: int, literals: Iterable[Literal]) -> tuple[int, ...]:
         """The states in which the literals hold, and else what holds in the given one if it can.
 
         Sorted; none where the literals are in no state. Raises UnknownFluentError.
@@ -151,17 +151,17 @@ class World(ABC):
         """The fluents that are true in the state, for laws that are matched against them."""
         return Facts(self.true_atoms(state))
 
-    def holds(self, state: int, literal: str) -> bool:
+    def holds(self, state: int, literal: Literal) -> bool:
         """Whether the literal holds. Raises UnknownFluentError."""
         number, positive = self._numbered(literal)
         return bool(state >> number & 1) == positive
 
-    def satisfies(self, state: int, literals: Iterable[str]) -> bool:
+    def satisfies(self, state: int, literals: Iterable[Literal]) -> bool:
         """Whether all the literals hold. Raises UnknownFluentError."""
         numbered = list(map(self._numbered, literals))
         return all(bool(state >> number & 1) == positive for number, positive in numbered)
 
-    def successors(self, state: int, actions: Iterable[str]) -> tuple[int, ...]:
+    def successors(self, state: int, actions: Iterable[Action]) -> tuple[int, ...]:
         """Every state the compound action can lead to, sorted; none: it cannot be executed.
 
         Raises UnknownActionError.
@@ -178,7 +178,7 @@ class World(ABC):
             for reached in self._successors(state, frozenset([action])):
                 yield action, reached
 
-    def successor(self, state: int, actions: Iterable[str]) -> int:
+    def successor(self, state: int, actions: Iterable[Action]) -> int:
         """The one successor. Raises NotExecutableError, or ValueError where there are several."""
         compound = frozenset(actions)
         found = self.successors(state, compound)
@@ -189,11 +189,11 @@ class World(ABC):
             raise ValueError(f"{_names(compound)} has several outcomes: {outcomes}")
         return found[0]
 
-    def executable(self, state: int, actions: Iterable[str]) -> bool:
+    def executable(self, state: int, actions: Iterable[Action]) -> bool:
         """Whether the compound action has a successor. Raises UnknownActionError."""
         return bool(self.successors(state, actions))
 
-    def why_not(self, state: int, actions: Iterable[str]) -> str | None:
+    def why_not(self, state: int, actions: Iterable[Action]) -> str | None:
         """One line that says why the compound action cannot be executed; None if it can.
 
         Raises UnknownActionError.
@@ -212,33 +212,33 @@ class World(ABC):
         return tuple(fluent if state >> n & 1 else fluent.complement for n, fluent in seen)
 
     @abstractmethod
-    def _completions(self, literals: tuple[str, ...]) -> Iterable[int]:
+    def _completions(self, literals: tuple[Literal, ...]) -> Iterable[int]:
         """What the literals can be completed to where the rest is false unless it follows."""
 
     @abstractmethod
-    def _broken(self, literals: tuple[str, ...]) -> Law | None:
+    def _broken(self, literals: tuple[Literal, ...]) -> Law | None:
         """A constraint that the literals break together with all that follows from them."""
 
     @abstractmethod
-    def _transitions(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
+    def _transitions(self, state: int, compound: frozenset[Action]) -> tuple[int, ...]:
         """The successors of a compound action of known actions, sorted."""
 
     @abstractmethod
-    def _forbidding(self, state: int, compound: frozenset[str]) -> Law | None:
+    def _forbidding(self, state: int, compound: frozenset[Action]) -> Law | None:
         """The first law that makes the compound action impossible."""
 
     @abstractmethod
     def _seen(self, state: int, robot: str) -> int:
         """The fluents of which the robot sees whether they hold, one bit each."""
 
-    def _successors(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
+    def _successors(self, state: int, compound: frozenset[Action]) -> tuple[int, ...]:
         unknown = sorted(compound - self._actions)
         if unknown:
             name = self.description.name
             raise UnknownActionError(f"{unknown[0]} is not an action of the domain {name}")
         return self._transitions(state, compound)
 
-    def _numbered(self, literal: str) -> tuple[int, bool]:
+    def _numbered(self, literal: Literal) -> tuple[int, bool]:
         """The number of a literal's fluent, and its sign. Raises UnknownFluentError."""
         try:
             return self._numbers[literal]
@@ -246,12 +246,12 @@ class World(ABC):
             atom = literal.removeprefix("-")
             raise UnknownFluentError(f"{atom} is not a fluent of the domain") from None
 
-    def _listed(self, literals: Iterable[str]) -> str:
+    def _listed(self, literals: Iterable[Literal]) -> str:
         """The literals in the order of the fluents, of a pair the positive one first."""
         ordered = sorted({(n, not positive) for n, positive in map(self._numbered, literals)})
         return ", ".join("-" * negative + self.fluents[n] for n, negative in ordered)
 
-    def _if(self, head: str, body: Iterable[str]) -> str:
+    def _if(self, head: str, body: Iterable[Literal]) -> str:
         return f"{head} if {self._listed(body)}".removesuffix(" if ")
 
 
@@ -263,5 +263,5 @@ def bits(mask: int) -> Iterator[int]:
         mask ^= low
 
 
-def _names(actions: Iterable[str]) -> str:
+def _names(actions: Iterable[Action]) -> str:
     return ", ".join(sorted(actions))

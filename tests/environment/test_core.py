@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from asp import Description, load_description, parse_description
+from asp.language import Literal
 from testbed.environment import (
     FINISH,
     NONE,
@@ -19,12 +20,13 @@ from testbed.environment import (
     Rules,
 )
 from testbed.world import StateError, UnknownFluentError, world_of
+from tests.literals import parsed
 
 WORLD = world_of(load_description("office"))
 IN_KITCHEN = ("loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)")
 GOAL = ("loc(book1,library)", "-in_hand(rob1,book1)")
 RULES = Rules(goal=GOAL)
-TO_LIBRARY, PUT_DOWN = "move(rob1,library)", "put_down(rob1,book1)"
+TO_LIBRARY, PUT_DOWN = Literal.parse("move(rob1,library)"), Literal.parse("put_down(rob1,book1)")
 
 
 def begin(rules: Rules = RULES, initial: Sequence[str] = IN_KITCHEN, seed: int = 0) -> Core:
@@ -48,7 +50,7 @@ def test_a_game_begins_at_step_1_with_nothing_attempted() -> None:
 
 def test_both_actions_take_effect_at_once() -> None:
     core = begin()
-    core.advance(TO_LIBRARY, "exo_move(book2,office1)")
+    core.advance(TO_LIBRARY, Literal.parse("exo_move(book2,office1)"))
     expected = ("loc(rob1,library)", "loc(book1,library)", "loc(book2,office1)")
     assert core.world.satisfies(core.situation.state, expected)
     percept = core.percept
@@ -58,7 +60,7 @@ def test_both_actions_take_effect_at_once() -> None:
 
 def test_an_impossible_attempt_does_not_happen_but_the_event_beside_it_does() -> None:
     core = begin()
-    core.advance("move(rob1,office1)", "exo_lock(library)")
+    core.advance(*parsed(["move(rob1,office1)", "exo_lock(library)"]))
     assert core.world.satisfies(core.situation.state, ("loc(rob1,kitchen)", "locked(library)"))
     assert (core.percept.attempted, core.percept.happened) == ("move(rob1,office1)", False)
 
@@ -83,11 +85,11 @@ def test_what_the_adversary_may_do_beside_the_robot() -> None:
     }
     free = begin(initial=("loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"))
     # A book being picked up cannot be moved elsewhere at the same time.
-    beside = free.events("pickup(rob1,book1)")
+    beside = free.events(Literal.parse("pickup(rob1,book1)"))
     assert not any(event.startswith("exo_move(book1") for event in beside)
     assert "exo_move(book2,office1)" in beside
     # Beside an attempt in vain everything is possible that is possible by itself.
-    assert free.events("put_down(rob1,book1)") == free.events(None)
+    assert free.events(Literal.parse("put_down(rob1,book1)")) == free.events(None)
 
 
 @pytest.mark.parametrize(
@@ -196,24 +198,24 @@ def test_who_is_told_of_an_event(mode: Mode, event: str, told: bool) -> None:
     rules = replace(RULES, observability={"exo_move": Observability(mode)})
     core = Core(world, rules, ())
     core.reset(0, (*IN_KITCHEN, "loc(book3,office1)"))
-    core.advance(TO_LIBRARY, event)
+    core.advance(TO_LIBRARY, Literal.parse(event))
     assert _news(core) == ([(1, event)] if told else [])
 
 
 def test_a_lock_is_witnessed_from_the_rooms_beside_it_only() -> None:
     rules = replace(RULES, observability={"exo_lock": Observability("colocated")})
     near = begin(rules)
-    near.advance("pickup(rob1,book2)", "exo_lock(library)")
+    near.advance(Literal.parse("pickup(rob1,book2)"), Literal.parse("exo_lock(library)"))
     assert _news(near) == [(1, "exo_lock(library)")]
     far = begin(rules, ("loc(rob1,office1)", "loc(book1,office2)", "loc(book2,kitchen)"))
-    far.advance("pickup(rob1,book2)", "exo_lock(library)")
+    far.advance(Literal.parse("pickup(rob1,book2)"), Literal.parse("exo_lock(library)"))
     assert far.percept.events == []
 
 
 def test_late_news_says_when_it_happened() -> None:
     rules = replace(RULES, observability={"exo_lock": Observability("always", delay=2)})
     core = begin(rules)
-    core.advance("pickup(rob1,book2)", "exo_lock(library)")
+    core.advance(Literal.parse("pickup(rob1,book2)"), Literal.parse("exo_lock(library)"))
     heard = []
     for _ in range(4):
         heard.append(_news(core))
@@ -225,7 +227,7 @@ def test_a_false_report_is_of_something_possible_that_did_not_happen() -> None:
     how = {"exo_move": Observability("always", false_reports=0.3)}
     core = begin(replace(RULES, observability=how))
     start = core.situation
-    happened = "exo_move(book2,office1)"
+    happened = Literal.parse("exo_move(book2,office1)")
     possible = {event for event in core.events(TO_LIBRARY) if event.startswith("exo_move")}
     reports = []
     for _ in range(500):
@@ -243,7 +245,7 @@ def test_nothing_is_reported_of_steps_at_which_nothing_can_happen() -> None:
     core = begin(replace(RULES, observability={"exo_lock": Observability(false_reports=1.0)}))
     core.advance(WAIT)
     assert _news(core) == []
-    core.advance("pickup(rob1,book2)")
+    core.advance(Literal.parse("pickup(rob1,book2)"))
     assert _news(core) == [(2, "exo_lock(library)")]
 
 
@@ -254,7 +256,7 @@ def test_an_event_is_told_with_its_probability() -> None:
     told = 0
     for _ in range(500):
         core.situation = start
-        core.advance(TO_LIBRARY, "exo_lock(library)")
+        core.advance(TO_LIBRARY, Literal.parse("exo_lock(library)"))
         told += len(core.percept.events)
     assert 0.2 < told / 500 < 0.4  # the standard deviation is 0.02
 
@@ -275,14 +277,14 @@ def test_the_initial_state_is_drawn_with_the_seed_or_given() -> None:
 def test_a_snapshot_brings_back_the_future_as_well() -> None:
     rules = replace(RULES, observability={"exo_lock": Observability("always", 0.5)})
     core = begin(rules)
-    start = core.snapshot()
+    start, unlock = core.snapshot(), Literal.parse("unlock(rob1,library)")
     other = Core(WORLD, rules, ())
 
     def play(player: Core) -> list[object]:
         player.restore(start)
         futures: list[object] = []
         for _ in range(10):
-            player.advance("unlock(rob1,library)", player.events("unlock(rob1,library)")[-1])
+            player.advance(unlock, player.events(unlock)[-1])
             futures.append(player.percept)
         return futures
 
@@ -331,7 +333,7 @@ def test_an_event_is_legal_only_if_it_is_however_the_action_comes_out() -> None:
     )
     sure.reset(0)
     slippery.reset(0)
-    assert sure.events("a(r)") == (NONE, "e")
-    assert slippery.events("a(r)") == (NONE,)
+    assert sure.events(Literal.parse("a(r)")) == (NONE, "e")
+    assert slippery.events(Literal.parse("a(r)")) == (NONE,)
     with pytest.raises(IllegalActionError, match="the effects of e contradict"):
-        slippery.advance("a(r)", "e")
+        slippery.advance(Literal.parse("a(r)"), "e")

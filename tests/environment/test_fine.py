@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asp.domains.levels import level_text
-from asp.language import read_domain
+from asp.language import Literal, read_domain
 from asp.refinement import Refinement, load
 from testbed.environment import (
     FINISH,
@@ -24,9 +24,12 @@ from testbed.world import world_of
 
 START = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]
 GOAL = ("loc(object1,room2)", "-in_hand(rob1,object1)")
-TO_2, TO_DOOR = "fine_move(rob1,room1_2)", "fine_move(rob1,room2_1)"
-PICKUP, PUT_DOWN = "fine_pickup(rob1,object1_1)", "fine_put_down(rob1,object1_1)"
-HERE = "test_fine_loc(rob1,object1_1,room1_1)"
+TO_2, TO_DOOR = Literal.parse("fine_move(rob1,room1_2)"), Literal.parse("fine_move(rob1,room2_1)")
+PICKUP, PUT_DOWN = (
+    Literal.parse("fine_pickup(rob1,object1_1)"),
+    Literal.parse("fine_put_down(rob1,object1_1)"),
+)
+HERE = Literal.parse("test_fine_loc(rob1,object1_1,room1_1)")
 
 # An office of two cells a room, the library of which can be locked.
 OFFICE_CELLS = """
@@ -97,9 +100,9 @@ def test_the_robot_is_told_whether_its_attempt_took_effect_and_no_more() -> None
 def test_an_action_fails_as_often_as_the_statistics_say() -> None:
     core = begin(fine_move=0.85)
     came_out = Counter[bool]()
-    there_and_back = {True: "fine_move(rob1,room1_1)", False: TO_2}
+    there_and_back = {True: Literal.parse("fine_move(rob1,room1_1)"), False: TO_2}
     for _ in range(3000):
-        is_there = core.world.holds(core.situation.state, "fine_loc(rob1,room1_2)")
+        is_there = core.world.holds(core.situation.state, Literal.parse("fine_loc(rob1,room1_2)"))
         core.advance(there_and_back[is_there])
         came_out[core.situation.happened is True] += 1
     # 3000 draws at 0.85 have a standard deviation of 20.
@@ -108,7 +111,7 @@ def test_an_action_fails_as_often_as_the_statistics_say() -> None:
 
 def test_a_failed_action_changes_nothing_but_the_event_beside_it_does() -> None:
     core = begin(fine_move=0.0)
-    core.advance(TO_2, "fine_exo_move(object1_1,room2_2)")
+    core.advance(TO_2, Literal.parse("fine_exo_move(object1_1,room2_2)"))
     assert core.world.satisfies(
         core.situation.state, ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room2_2)"]
     )
@@ -120,20 +123,20 @@ def test_a_test_shows_its_fluent_and_changes_nothing() -> None:
     core.advance(HERE)
     assert core.percept.visible == ["fine_loc(object1_1,room1_1)"]
     assert (core.percept.attempted, core.percept.happened) == (HERE, True)
-    core.advance("test_fine_in_hand(rob1,object1_1)")
+    core.advance(Literal.parse("test_fine_in_hand(rob1,object1_1)"))
     assert core.percept.visible == ["-fine_in_hand(rob1,object1_1)"]
     assert core.situation.state == before
 
 
 def test_what_a_test_shows_is_true_of_the_state_that_it_leaves() -> None:
     core = begin()
-    core.advance(HERE, "fine_exo_move(object1_1,room1_1)")
+    core.advance(HERE, Literal.parse("fine_exo_move(object1_1,room1_1)"))
     assert core.percept.visible == ["fine_loc(object1_1,room1_1)"]
 
 
 def test_a_test_in_another_cell_shows_nothing() -> None:
     core = begin()
-    core.advance("test_fine_loc(rob1,object1_1,room1_2)")
+    core.advance(Literal.parse("test_fine_loc(rob1,object1_1,room1_2)"))
     assert core.percept.visible == []
     assert core.percept.happened is False
 
@@ -148,7 +151,7 @@ def test_a_test_is_wrong_as_often_as_the_statistics_say_but_not_about_the_robot(
     assert shown["-fine_loc(object1_1,room1_1)"] == pytest.approx(1800, abs=70)
     assert shown.total() == 2000
     blind = begin(test_fine_loc=0.0)
-    blind.advance("test_fine_loc(rob1,rob1,room1_1)")
+    blind.advance(Literal.parse("test_fine_loc(rob1,rob1,room1_1)"))
     assert blind.percept.visible == ["fine_loc(rob1,room1_1)"]
 
 
@@ -190,7 +193,7 @@ def test_an_impossible_event_is_refused_with_the_reason() -> None:
     core = begin()
     before = core.snapshot()
     with pytest.raises(IllegalActionError, match=r"impossible fine_exo_move\(object1_1,room1_2\)"):
-        core.advance(HERE, "fine_exo_move(object1_1,room1_2)")
+        core.advance(HERE, Literal.parse("fine_exo_move(object1_1,room1_2)"))
     assert core.snapshot() == before
 
 
@@ -198,13 +201,13 @@ def test_at_the_abstract_pace_others_act_only_beside_what_changes_the_coarse_sta
     at = begin(pace="abstract", fine_move=0.5)
     assert at.events(TO_2) == at.events(HERE) == at.events(TO_DOOR) == (NONE,)
     with pytest.raises(IllegalActionError, match="changes nothing coarse"):
-        at.advance(TO_2, "fine_exo_move(object1_1,room2_2)")
+        at.advance(TO_2, Literal.parse("fine_exo_move(object1_1,room2_2)"))
     at = begin(["fine_loc(rob1,room1_2)", "fine_loc(object1_1,room1_2)"], pace="abstract")
     assert set(at.events(TO_DOOR)) == {
         NONE,
         *(f"fine_exo_move(object1_1,{cell})" for cell in ("room1_1", "room2_1", "room2_2")),
     }
-    assert at.events("fine_move(rob1,room1_1)") == (NONE,)
+    assert at.events(Literal.parse("fine_move(rob1,room1_1)")) == (NONE,)
     assert begin(pace="concrete").events(TO_2) != (NONE,)
 
 
@@ -215,7 +218,10 @@ def test_the_robot_witnesses_what_it_could_have_tested(start: str, told: bool) -
     rules = Rules(goal=GOAL, observability={"fine_exo_move": Observability("colocated")})
     core = begin(["fine_loc(rob1,room1_1)", f"fine_loc(object1_1,{start})"], rules=rules)
     goes_to = "room2_1"
-    core.advance("test_fine_in_hand(rob1,object1_1)", f"fine_exo_move(object1_1,{goes_to})")
+    core.advance(
+        Literal.parse("test_fine_in_hand(rob1,object1_1)"),
+        Literal.parse(f"fine_exo_move(object1_1,{goes_to})"),
+    )
     assert bool(core.percept.events) == told
 
 
@@ -282,7 +288,9 @@ def test_what_is_not_magnified_is_seen_as_ever() -> None:
     core.reset(0, ["fine_loc(rob1,office1_1)", *books])
     assert not any("locked" in literal for literal in core.percept.visible)
     core.reset(0, ["fine_loc(rob1,kitchen_2)", *books, "locked(library)"])
-    assert not core.execution.possible(core.situation.state, "fine_move(rob1,library_1)")
-    core.advance("unlock(rob1,library)")
+    assert not core.execution.possible(
+        core.situation.state, Literal.parse("fine_move(rob1,library_1)")
+    )
+    core.advance(Literal.parse("unlock(rob1,library)"))
     assert "-locked(library)" in core.percept.visible
-    assert core.execution.possible(core.situation.state, "fine_move(rob1,library_1)")
+    assert core.execution.possible(core.situation.state, Literal.parse("fine_move(rob1,library_1)"))

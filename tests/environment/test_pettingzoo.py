@@ -11,6 +11,7 @@ from pettingzoo import AECEnv, ParallelEnv
 from pettingzoo.test import api_test, parallel_api_test, render_test
 from pettingzoo.utils.conversions import aec_to_parallel
 
+from asp.language import Literal
 from testbed import office_v0
 from testbed.config import ConfigError
 from testbed.environment import ADVERSARY, ROBOT, IllegalActionError
@@ -173,7 +174,7 @@ def test_the_adversary_sees_everything_and_the_robots_choice() -> None:
     assert np.flatnonzero(seen["observation"][fluents:]).tolist() == [move]
     assert env.infos[ADVERSARY]["robot_action"] == "move(rob1,library)"
     legal = {core.adversary_actions[i] for i in np.flatnonzero(seen["action_mask"])}
-    assert legal == set(core.events("move(rob1,library)"))
+    assert legal == set(core.events(Literal.parse("move(rob1,library)")))
 
 
 @pytest.mark.parametrize("bad", [-1, 11, 99, None, 1.5, "wait", True])

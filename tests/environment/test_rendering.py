@@ -5,7 +5,7 @@ import pytest
 
 from asp import load_description, parse_description
 from asp.domains.levels import level_text
-from asp.language import read_domain
+from asp.language import Literal, read_domain
 from asp.refinement import load
 from testbed.environment import Core, Rules, fine_core
 from testbed.environment.rendering import (
@@ -17,6 +17,7 @@ from testbed.environment.rendering import (
     render,
     scene,
 )
+from testbed.protocol import FINISH
 from testbed.world import world_of
 
 WORLD = world_of(load_description("office"))
@@ -73,10 +74,10 @@ def test_the_scene_says_what_just_happened() -> None:
         scene_of(core).robot,
         scene_of(core).adversary,
     ) == ("", "")
-    core.advance("move(rob1,office1)", "exo_lock(library)")
+    core.advance(Literal.parse("move(rob1,office1)"), Literal.parse("exo_lock(library)"))
     shown = scene_of(core)
     assert (shown.robot, shown.adversary) == ("move(rob1,office1) failed", "exo_lock(library)")
-    core.advance("finish")
+    core.advance(FINISH)
     assert scene_of(core).outcome == "false_finish"
 
 
@@ -93,7 +94,7 @@ def test_every_initial_state_shows_each_thing_once() -> None:
 
 def test_the_text_shows_it() -> None:
     core = office()
-    core.advance("move(rob1,library)", "exo_lock(library)")
+    core.advance(Literal.parse("move(rob1,library)"), Literal.parse("exo_lock(library)"))
     lines = draw_text(scene_of(core)).splitlines()
     assert len({len(line) for line in lines[:-1]}) == 1
     cells = [

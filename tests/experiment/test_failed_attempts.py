@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LEVELS, level_text
-from asp.language import arguments, ground, name
+from asp.language import Literal
 from benchmarks.own import Own
 from testbed.experiment.trial import Moment
 from tests.experiment.gardens import GARDEN, PIECES
@@ -89,7 +89,7 @@ WALKS = {
 
 
 def _is_test(moment: Moment) -> bool:
-    return name(moment.decision.action).startswith("test_")
+    return moment.decision.action.name.startswith("test_")
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -98,7 +98,7 @@ def test_no_test_is_made_that_can_show_nothing(walk: str, robot: str, tmp_path: 
     here = WALKS[walk]
     steps = list(here.played(tmp_path, robot, here.move))
     failed = [one for one, _ in steps if one.happened is False]
-    assert {name(one.decision.action) for one in failed} == {here.move}
+    assert {one.decision.action.name for one in failed} == {here.move}
     tests = [(one, after) for one, after in steps if _is_test(one)]
     assert tests
     assert [one.decision.action for one, after in tests if not after.percept.visible] == []
@@ -117,11 +117,11 @@ def test_what_can_be_tested_from_where_the_robot_is_is_tested(
     assert following
     for (one, _), (test, after) in following:
         action = one.decision.action
-        assert name(action) == failing
-        inside = arguments(action)
+        assert action.name == failing
+        inside = action.arguments
         about = (inside[0], *inside) if further else inside
-        assert test.decision.action == ground(f"test_{effect}", about)
-        assert after.percept.visible == ["-" + ground(effect, inside)]
+        assert test.decision.action == Literal.of(f"test_{effect}", about)
+        assert after.percept.visible == ["-" + Literal.of(effect, inside)]
 
 
 @pytest.mark.parametrize("robot", ROBOTS)
@@ -135,9 +135,9 @@ def test_what_can_be_tested_from_beside_is_looked_for_from_there(
     looks = [
         (one.decision.action, following.decision.action)
         for one, following in steps
-        if name(one.decision.action) == name(following.decision.action) == f"test_{here.place}"
+        if one.decision.action.name == following.decision.action.name == f"test_{here.place}"
     ]
-    named = [(arguments(one), arguments(other)) for one, other in looks]
+    named = [(one.arguments, other.arguments) for one, other in looks]
     assert any(one[:2] == other[:2] and one != other for one, other in named)
     assert all(after.percept.visible for one, after in steps if _is_test(one))
 

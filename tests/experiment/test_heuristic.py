@@ -16,6 +16,7 @@ from testbed.experiment.heuristic.potentials import Potentials, blind
 from testbed.experiment.resume import play_missing
 from testbed.world import World, load_world, world_of
 from tests.experiment.gardens import GARDEN
+from tests.literals import parsed
 from tests.oracle import minimal_units
 from tests.world.test_world_random import HEADER, laws
 
@@ -173,6 +174,7 @@ def distances(world: World, goal: Iterable[str], costs: Mapping[str, int]) -> Le
 
 def check(world: World, goal: tuple[str, ...], costs: Mapping[str, int], starts: int) -> None:
     """The heuristic is consistent from the starts on, and changes no least number."""
+    goal = parsed(goal)
     least, states = distances(world, goal, costs), tuple(world.states())
     potentials = Potentials(world.description)
     for start in Random(1).sample(states, min(starts, len(states))):
@@ -202,12 +204,12 @@ def measures(world: World) -> tuple[Mapping[str, int], Mapping[str, int]]:
 @pytest.mark.parametrize(
     "goal",
     [
-        ("loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book2)"),
-        ("loc(book1,office1)", "in_hand(rob1,book2)", "-locked(library)"),
+        parsed(["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book2)"]),
+        parsed(["loc(book1,office1)", "in_hand(rob1,book2)", "-locked(library)"]),
     ],
 )
 def test_from_every_state_of_the_office_the_least_is_the_same(goal: tuple[str, ...]) -> None:
-    world = load_world("office")
+    world, goal = load_world("office"), parsed(goal)
     for costs in measures(world):
         least = distances(world, goal, costs)
         for state in world.states():
@@ -218,11 +220,11 @@ def test_from_every_state_of_the_office_the_least_is_the_same(goal: tuple[str, .
 @pytest.mark.parametrize(
     ("text", "goal"),
     [
-        (GARDEN.replace("OTHER", "rake"), ("stands(rake,north)", "stands(spade,south)")),
-        (CARTS, ("at(jar,gate)", "at(jug,lawn)", "-laden(barrow)")),
+        (GARDEN.replace("OTHER", "rake"), parsed(["stands(rake,north)", "stands(spade,south)"])),
+        (CARTS, parsed(["at(jar,gate)", "at(jug,lawn)", "-laden(barrow)"])),
         (CARTS, ("at(joe,shed)", "at(barrow,lawn)", "icy")),
-        (TOWERS, ("rests(red,blue)", "rests(blue,green)")),
-        (TOWERS, ("rests(red,blue)", "-rests(green,floor)")),
+        (TOWERS, parsed(["rests(red,blue)", "rests(blue,green)"])),
+        (TOWERS, parsed(["rests(red,blue)", "-rests(green,floor)"])),
         (SAILS, ("moored",)),
     ],
 )
@@ -257,7 +259,7 @@ def test_what_is_too_much_to_enumerate_is_searched_without(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     world = world_of(parse_description(CARTS))
-    start, goal, (costs, _) = next(world.states()), ("at(jar,gate)",), measures(world)
+    start, goal, (costs, _) = next(world.states()), parsed(["at(jar,gate)"]), measures(world)
     assert Potentials(world.description).heuristic(start, goal, costs) is not blind
     monkeypatch.setattr("testbed.experiment.heuristic.changes.MOST_CHANGES", 3)
     assert Potentials(world.description).heuristic(start, goal, costs) is blind

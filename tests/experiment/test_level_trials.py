@@ -16,6 +16,7 @@ from testbed.experiment.trial_setup import load_ground, setup_of
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, FineTrace, Percept, Task, Trace
 from testbed.world import world_of
+from tests.literals import parsed
 
 SMALL = "level_sizes={small: {rooms: 2, rows: 1, columns: 2, objects: [[2, 2]]}}"
 
@@ -58,7 +59,7 @@ class Reciter:
         )
 
 
-def _fine(begun: int | None, abstract: str, **values: Any) -> FineTrace:
+def _fine(begun: int | None, abstract: str | None, **values: Any) -> FineTrace:
     return FineTrace(begun=begun, abstract=abstract, **values)
 
 
@@ -74,7 +75,7 @@ CARRYING = (
         "fine_move(rob1,room2_1)",
         _fine(5, "move(rob1,room2)", plans=2, actions=3, happened=True, infer_time_s=0.125),
     ),
-    ("finish", _fine(None, "", plans=2, actions=3, happened=True)),
+    ("finish", _fine(None, None, plans=2, actions=3, happened=True)),
 )
 
 
@@ -129,7 +130,7 @@ def test_what_is_uncertain_excuses_a_longer_way() -> None:
         ("fine_move(rob1,room1_2)", _fine(4, "move(rob1,room1)", actions=3, happened=True)),
         ("fine_pickup(rob1,object1_1)", _fine(5, "pickup(rob1,object1)", actions=4)),
         ("fine_move(rob1,room2_1)", _fine(6, "move(rob1,room2)", actions=5)),
-        ("finish", _fine(None, "")),
+        ("finish", _fine(None, None)),
     )
     record, _ = _play(there_and_back)
     assert (record.achieved, record.action_count, record.correct) == (True, 4, False)
@@ -239,6 +240,6 @@ def test_the_oracle_counts_abstract_actions() -> None:
     state = world_of(load_ground(_specs("levels=[L1]")[0].setting).refinement).state(
         ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room2_2)"]
     )
-    alone, both = ("loc(object1,room1)",), ("loc(object1,room1)", "loc(rob1,room2)")
+    alone, both = parsed(["loc(object1,room1)"]), parsed(["loc(object1,room1)", "loc(rob1,room2)"])
     assert setup.judge.minimal(state, alone, 1_000).actions == 3
     assert setup.judge.minimal(state, both, 1_000).actions == 5

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LEVELS, level_text
-from asp.language import name
 from asp.refinement import load
 from benchmarks.own import Own
 from testbed.experiment.record import TrialRecord
@@ -31,7 +30,7 @@ class Field:
     def noisy(self, right: float) -> dict[str, float]:
         """Statistics by which everything comes out right with one probability."""
         refinement = load(self.domain, "own.al", self.refinement, "own.fine")
-        actions = set(map(name, world_of(refinement).agent_actions))
+        actions = {each.name for each in world_of(refinement).agent_actions}
         strong = refinement.strong_signature.symbols.values()
         tests = {symbol.name for symbol in strong if symbol.name.startswith("test_")}
         return dict.fromkeys(sorted(actions | tests), right)

@@ -10,13 +10,11 @@ from asp.language import analyse, ground_description
 from testbed.environment import RandomGoal
 from testbed.experiment.judge import Narrowing, cheapest_plan
 from testbed.world import World, load_world, world_of
+from tests.literals import parsed
 from tests.oracle import minimal_actions, minimal_units
 
-DELIVERED = (
-    "loc(book1,library)",
-    "loc(book2,library)",
-    "-in_hand(rob1,book1)",
-    "-in_hand(rob1,book2)",
+DELIVERED = parsed(
+    ["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book1)", "-in_hand(rob1,book2)"]
 )
 
 
@@ -32,7 +30,7 @@ def _after(world: World, state: int, plan: tuple[str, ...]) -> int:
 
 
 def test_the_published_problem_takes_its_six_actions(office: World) -> None:
-    start = office.state(["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)"])
+    start = office.state(parsed(["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)"]))
     assert cheapest_plan(office, start, DELIVERED) == (
         "move(rob1,library)",
         "put_down(rob1,book1)",
@@ -45,7 +43,7 @@ def test_the_published_problem_takes_its_six_actions(office: World) -> None:
 
 def test_out_of_the_locked_library_for_both_books_takes_seventeen(office: World) -> None:
     start = office.state(
-        ["loc(rob1,library)", "locked(library)", "loc(book1,office1)", "loc(book2,office1)"]
+        parsed(["loc(rob1,library)", "locked(library)", "loc(book1,office1)", "loc(book2,office1)"])
     )
     assert minimal_actions(office, start, DELIVERED) == 17
 
@@ -70,19 +68,24 @@ def test_the_cheapest_plan_is_where_no_step_can_make_it_cheaper(office: World) -
 
 
 def test_what_costs_nothing_counts_nothing(office: World) -> None:
-    start = office.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
-    goal = ("loc(rob1,library)",)
+    start = office.state(parsed(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]))
+    goal = parsed(["loc(rob1,library)"])
     free = {action: 0 if action.startswith("pickup") else 5 for action in office.agent_actions}
     assert minimal_units(office, start, goal, free) == 5
-    assert minimal_units(office, start, ("loc(book1,kitchen)", "loc(book1,library)"), free) is None
-    assert minimal_units(office, start, ("loc(rob1,kitchen)",), free) == 0
+    assert (
+        minimal_units(office, start, parsed(["loc(book1,kitchen)", "loc(book1,library)"]), free)
+        is None
+    )
+    assert minimal_units(office, start, parsed(["loc(rob1,kitchen)"]), free) == 0
 
 
 def test_nothing_to_do_and_nothing_to_be_done(office: World) -> None:
-    start = office.state(["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,library)"])
+    start = office.state(parsed(["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,library)"]))
     assert cheapest_plan(office, start, DELIVERED) == ()
-    assert cheapest_plan(office, start, ("loc(book1,kitchen)", "loc(book1,library)")) is None
-    assert minimal_actions(office, start, ("loc(rob1,kitchen)", "locked(library)")) is None
+    assert (
+        cheapest_plan(office, start, parsed(["loc(book1,kitchen)", "loc(book1,library)"])) is None
+    )
+    assert minimal_actions(office, start, parsed(["loc(rob1,kitchen)", "locked(library)"])) is None
 
 
 def test_from_every_initial_state_the_plan_arrives_and_is_plausible(office: World) -> None:
@@ -102,7 +105,7 @@ def test_from_every_initial_state_the_plan_arrives_and_is_plausible(office: Worl
 
 
 def test_no_shorter_sequence_of_actions_does_it(office: World) -> None:
-    start = office.state(["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,library)"])
+    start = office.state(parsed(["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,library)"]))
     plan = cheapest_plan(office, start, DELIVERED)
     assert plan is not None
     for shorter in itertools.product(office.agent_actions, repeat=len(plan) - 1):
@@ -113,13 +116,13 @@ def test_no_shorter_sequence_of_actions_does_it(office: World) -> None:
 
 
 @pytest.mark.parametrize(
-    "patterns", [["loc(object,room)"], ["loc(object,room)", "loc(robot,room)"]]
+    "patterns", [parsed(["loc(object,room)"]), parsed(["loc(object,room)", "loc(robot,room)"])]
 )
 def test_a_narrowed_domain_has_the_same_least(patterns: list[str]) -> None:
     source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
     description = ground_description(source, signature, "level")
     world, narrowing = world_of(description), Narrowing(description, source, signature)
-    draw = RandomGoal(world, patterns, description.sorts)
+    draw = RandomGoal(world, parsed(patterns), description.sorts)
     random = np.random.default_rng(1)
     states = world.initial_states()
     for number in random.permutation(len(states))[:60]:
@@ -135,7 +138,7 @@ def test_a_narrowed_domain_says_what_is_out_of_reach() -> None:
     source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
     description = ground_description(source, signature, "level")
     narrowing = Narrowing(description, source, signature)
-    start = [f"loc({thing},room1)" for thing in ("rob1", "object1", "object2", "object3")]
-    impossible = ["in_hand(rob1,object1)", "loc(rob1,room1)", "loc(object1,room2)"]
+    start = parsed(f"loc({thing},room1)" for thing in ("rob1", "object1", "object2", "object3"))
+    impossible = parsed(["in_hand(rob1,object1)", "loc(rob1,room1)", "loc(object1,room2)"])
     assert minimal_actions(*narrowing.problem(start, impossible)) is None
     assert minimal_actions(*narrowing.problem(start, start)) == 0

@@ -66,7 +66,7 @@ QUESTIONS = st.builds(Question, percept=PERCEPTS, task=st.none() | TASKS)
 EXPLANATIONS = st.builds(Explanation, step=COUNT, unobserved=st.lists(EVENTS), exceptions=LISTS)
 FINE = st.builds(
     FineTrace,
-    abstract=TEXT,
+    abstract=st.none() | LITERALS,
     begun=st.none() | COUNT,
     plan=LISTS,
     plans=COUNT,
@@ -77,7 +77,7 @@ TRACES = st.builds(
     Trace,
     fine=st.none() | FINE,
     mental=st.none() | MENTAL,
-    intention=TEXT,
+    intention=st.none() | LITERALS,
     activity=st.none() | COUNT,
     plan=LISTS,
     belief=LISTS,

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from asp.language import arguments
 from testbed.config import load_config
 from testbed.experiment.record import Activity, TrialRecord
 from testbed.experiment.resume import play_missing
@@ -124,7 +123,7 @@ def _stops_where_it_sees(record: TrialRecord) -> None:
     assert record.explanations[0].step == seen
     ((when, first),) = [(e.step, e.action) for e in record.explanations[0].unobserved]
     assert when == changed
-    assert arguments(first)[0] == arguments(event)[0]
+    assert first.arguments[0] == event.arguments[0]
     # Whatever it assumed at first, what it believes in the end is what happened.
     assert [(e.step, e.action) for e in record.explanations[-1].unobserved] == [(changed, event)]
     assert (record.outcome, record.correct) == ("achieved", True)

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator
 from agents.intentional.executor.model import FineBelief, fine_model
 from agents.intentional.executor.trace import FineTraceBuilder
 from agents.shared.robot import limits_of
-from asp.language import Action, arguments, atom, is_positive, name
+from asp.language import Action, Fluent, Literal
 from asp.refinement import Refinement
 from asp.solving import State
 from testbed.protocol import Percept, Task
@@ -34,13 +34,13 @@ class FineTracker:
         self._sensing = self.model.sensing
         self.effects = self.model.effects
         self.belief = FineBelief(self.model, ())
-        self.unmagnified: frozenset[str] = frozenset()
-        self.shown: frozenset[str] = frozenset()
-        self.noticed: set[str] = set()
-        self.pending: tuple[str, ...] = ()
-        self.news: list[tuple[int, str]] = []
+        self.unmagnified: frozenset[Literal] = frozenset()
+        self.shown: frozenset[Literal] = frozenset()
+        self.noticed: set[Literal] = set()
+        self.pending: tuple[Literal, ...] = ()
+        self.news: list[tuple[int, Action]] = []
 
-    def know(self, literals: Iterable[str], coarse: Collection[str]) -> None:
+    def know(self, literals: Iterable[Literal], coarse: Collection[Literal]) -> None:
         """Begins with what is known of both resolutions.
 
         Of the coarse one it tells what the robot does not have, or where it is not; where things
@@ -49,39 +49,39 @@ class FineTracker:
         magnified = frozenset(filter(self.is_magnified, coarse))
         self.belief = FineBelief(self.model, literals)
         fluents = [
-            atom(part)
+            part.atom
             for literal in magnified
-            if self.robot in arguments(literal)
+            if self.robot in literal.arguments
             for parts in self.refinement.counterpart(literal)
             for part in parts
-            if not is_positive(part) or self.belief.is_false(part)
+            if not part.is_positive or self.belief.is_false(part)
         ]
-        self.belief.see(f"-{fluent}" for fluent in fluents)
-        self._suppose(frozenset(filter(is_positive, coarse)) - magnified)
+        self.belief.see(fluent.complement for fluent in fluents)
+        self._suppose(frozenset(each for each in coarse if each.is_positive) - magnified)
 
-    def is_magnified(self, literal: str) -> bool:
+    def is_magnified(self, literal: Literal) -> bool:
         """Whether a coarse literal has a counterpart."""
-        return name(literal) in self.refinement.counterparts
+        return literal.name in self.refinement.counterparts
 
     @property
-    def true(self) -> frozenset[str]:
+    def true(self) -> frozenset[Literal]:
         """The fluents that are known, or believed, to be true."""
         return self.belief.known.true | self.unmagnified
 
-    def testable(self, things: Collection[str]) -> Iterator[str]:
+    def testable(self, things: Collection[str]) -> Iterator[Fluent]:
         """The fluents about these things that can be tested now, by what is known and believed."""
         return self._sensing.possible(self.robot, self._sensing.facts(self.true), things)
 
-    def test_of(self, fluent: str) -> Action | None:
+    def test_of(self, fluent: Fluent) -> Action | None:
         """The robot's test of a fluent; None where there is none."""
         return self._sensing.test_of(self.robot, fluent)
 
-    def can_test(self, fluent: str) -> bool:
+    def can_test(self, fluent: Fluent) -> bool:
         """Whether there is a test of the fluent, possible by what is known and believed."""
         test = self.test_of(fluent)
         return test is not None and self._sensing.can(test, self._sensing.facts(self.true))
 
-    def is_value(self, fluent: str) -> bool:
+    def is_value(self, fluent: Fluent) -> bool:
         """Whether a coarse fluent is one of several of which one always holds, as of places."""
         return self.model.is_value(self.refinement.counterpart(fluent)[0][0])
 
@@ -96,23 +96,23 @@ class FineTracker:
             effects = self.effects.of(event.action, self.belief.known.true)
             self.assume(effects)
             self.belief.see(self.believable(filter(self._is_fine, effects)))
-            touched.update(c for effect in effects for c in arguments(effect))
+            touched.update(c for effect in effects for c in effect.arguments)
         self.shown = frozenset(filter(self._is_unmagnified, percept.visible))
-        self.noticed.update(map(atom, self.shown))
+        self.noticed.update(each.atom for each in self.shown)
         new = [literal for literal in self.shown if not self.holds(literal)]
-        touched.update(c for literal in new for c in arguments(literal))
+        touched.update(c for literal in new for c in literal.arguments)
         self.assume(new)
         wholes = self.refinement.wholes
         return frozenset([*touched, *(wholes.get(constant, constant) for constant in touched)])
 
     def certain(self) -> FineBelief:
         """What the robot knows of itself, with what follows: tests of that are always right."""
-        changing = frozenset(map(atom, self.pending))
+        changing = frozenset(each.atom for each in self.pending)
         certain = FineBelief(self.model, filter(self._is_own, self.belief.known.true - changing))
         certain.suppose(frozenset(filter(self._is_own, self.unmagnified - changing)))
         return certain
 
-    def believable(self, literals: Iterable[str]) -> list[str]:
+    def believable(self, literals: Iterable[Literal]) -> list[Literal]:
         """Those of the literals seen at one moment that agree with what is certain.
 
         A thing that is held is where the robot is: seen elsewhere, or not seen there, it was
@@ -129,31 +129,32 @@ class FineTracker:
             if self._is_own(literal)
             or not (
                 certain.is_false(literal)
-                if is_positive(literal)
-                else atom(literal) in certain.known.true
+                if literal.is_positive
+                else literal.atom in certain.known.true
             )
         ]
 
-    def holding(self, literals: Collection[str]) -> list[str]:
+    def holding(self, literals: Collection[Literal]) -> list[Literal]:
         """Those of coarse literals that follow from what is known, or are believed."""
-        follows = self.belief.coarse([atom(each) for each in literals if self.is_magnified(each)])
+        follows = self.belief.coarse([each.atom for each in literals if self.is_magnified(each)])
         return [
             each
             for each in literals
             if (each in follows if self.is_magnified(each) else self.holds(each))
         ]
 
-    def holds(self, literal: str) -> bool:
+    def holds(self, literal: Literal) -> bool:
         """Whether a literal without a counterpart is believed."""
-        return (atom(literal) in self.unmagnified) == is_positive(literal)
+        return (literal.atom in self.unmagnified) == literal.is_positive
 
-    def assume(self, literals: Iterable[str]) -> None:
+    def assume(self, literals: Iterable[Literal]) -> None:
         """Believes what literals say of fluents without counterparts."""
         unmagnified = list(filter(self._is_unmagnified, literals))
-        gone = (atom(literal) for literal in unmagnified)
-        self._suppose(self.unmagnified.difference(gone).union(filter(is_positive, unmagnified)))
+        gone = (literal.atom for literal in unmagnified)
+        new = (literal for literal in unmagnified if literal.is_positive)
+        self._suppose(self.unmagnified.difference(gone).union(new))
 
-    def agree(self, expected: State, believed: State, fluents: Collection[str]) -> None:
+    def agree(self, expected: State, believed: State, fluents: Collection[Fluent]) -> None:
         """Believes of these fluents what the coarse robot does, which expected something else.
 
         What was known to the contrary at the fine resolution is old.
@@ -164,7 +165,7 @@ class FineTracker:
         self._suppose(left.union(f for f in believed if not self.is_magnified(f)))
         self.noticed.clear()
 
-    def _suppose(self, unmagnified: frozenset[str]) -> None:
+    def _suppose(self, unmagnified: frozenset[Literal]) -> None:
         self.unmagnified = unmagnified
         self.belief.suppose(unmagnified)
 
@@ -174,17 +175,17 @@ class FineTracker:
         shares = self.model.shares_places
         return frozenset(part for parts in components for part in (parts[:1] if shares else parts))
 
-    def is_doubtful(self, literal: str) -> bool:
+    def is_doubtful(self, literal: Literal) -> bool:
         """Whether a coarse literal rests on tests that may be wrong."""
         return self.is_magnified(literal) and not self._is_own(literal)
 
-    def _is_own(self, literal: str) -> bool:
+    def _is_own(self, literal: Literal) -> bool:
         """Whether a literal is about the robot itself."""
-        return self.robot in arguments(literal)
+        return self.robot in literal.arguments
 
-    def _is_fine(self, literal: str) -> bool:
-        return name(literal) in self.refinement.counterparts.values()
+    def _is_fine(self, literal: Literal) -> bool:
+        return literal.name in self.refinement.counterparts.values()
 
-    def _is_unmagnified(self, literal: str) -> bool:
+    def _is_unmagnified(self, literal: Literal) -> bool:
         symbols = self.refinement.coarse_signature.symbols
-        return name(literal) in symbols and not self.is_magnified(literal)
+        return literal.name in symbols and not self.is_magnified(literal)

@@ -6,7 +6,7 @@ from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.execution import Execution
 from agents.intentional.executor.trace import CoarseSteps
-from asp.language import Literal, atom, complement
+from asp.language import Action, Literal
 from asp.solving import State
 from testbed.protocol import Event, Percept
 
@@ -18,7 +18,7 @@ class Reporter:
         self._fine = fine
         self._coarse = coarse
         self._steps = steps
-        self._later: list[str] = []
+        self._later: list[Literal] = []
 
     def percept(
         self, percept: Percept, believed: State, over: Execution | None
@@ -48,13 +48,13 @@ class Reporter:
             goal_holds=percept.goal_holds,
         ), expected
 
-    def _contrary(self, expected: State) -> list[str]:
+    def _contrary(self, expected: State) -> list[Literal]:
         """What is known to the contrary, and what was seen of fluents without counterparts."""
         fine = self._fine
-        contrary = [complement(f) if f in expected else f for f in self._coarse.fluents]
+        contrary = [f.complement if f in expected else f for f in self._coarse.fluents]
         with fine.trace.timing("infer"):
             holding = fine.holding(contrary)
-        return [each for each in holding if fine.is_magnified(each) or atom(each) in fine.noticed]
+        return [each for each in holding if fine.is_magnified(each) or each.atom in fine.noticed]
 
     def _latest(self, over: Execution | None) -> int:
         """The coarse step to which news of the present one is put down.
@@ -64,7 +64,9 @@ class Reporter:
         now = self._steps.present
         return max(1, now - 1) if over is not None and not over.happened else now
 
-    def _events(self, believed: State, action: str | None, over: Execution | None) -> list[Event]:
+    def _events(
+        self, believed: State, action: Action | None, over: Execution | None
+    ) -> list[Event]:
         """The news as events of coarse steps."""
         latest = self._latest(over)
         heard = [
@@ -82,8 +84,8 @@ class Reporter:
         return [*earlier, *(Event(step=latest, action=Literal.parse(event)) for event in possible)]
 
     def _after(
-        self, believed: State, action: str | None, recent: list[str], possible: list[str]
-    ) -> list[str]:
+        self, believed: State, action: Action | None, recent: list[Literal], possible: list[Action]
+    ) -> list[Literal]:
         """The events that can only have happened when the action was done: news of the next step.
 
         So it is with an object that is taken away as soon as it is put down.

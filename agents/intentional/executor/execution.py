@@ -8,14 +8,13 @@ from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.sensing import Asking, Sensing
 from agents.intentional.executor.zoomed_planning import ZoomedPlanner
-from asp.language import arguments, complement, is_positive
+from asp.language import Action, Literal
 from asp.refinement import Transition
 from asp.solving import LimitError, State, deciding
+from testbed.protocol import WAIT
 
 _PATIENCE = 12
 """So many failures in a row are not taken for bad luck any more."""
-
-_WAIT = "wait"
 
 
 class Execution:
@@ -26,7 +25,7 @@ class Execution:
     """
 
     def __init__(
-        self, fine: FineTracker, coarse: AbstractTask, action: str, before: State, step: int
+        self, fine: FineTracker, coarse: AbstractTask, action: Action, before: State, step: int
     ) -> None:
         """`before` is the coarse state that the action is to lead from."""
         self._fine = fine
@@ -62,7 +61,7 @@ class Execution:
         self._fine.trace.note(failed=f"{self.action} failed {_PATIENCE} times in a row")
         return False
 
-    def _follow(self, plan: Sequence[str]) -> Asking[bool]:
+    def _follow(self, plan: Sequence[Action]) -> Asking[bool]:
         """Does one action after another, as long as nothing upsets the plan."""
         for number, action in enumerate(plan, start=1):
             self._sensing.clear()
@@ -72,14 +71,14 @@ class Execution:
                 return False
         return True
 
-    def _do(self, action: str) -> Asking[bool]:
+    def _do(self, action: Action) -> Asking[bool]:
         """Attempts a concrete action and tests what came of it; then looks around, or why not."""
         expected = self._fine.effects.of(action, self._fine.true)
         self._fine.trace.add("actions")
         self._fine.pending = expected
         percept = yield action
         self._sensing.hear(percept)
-        outcome: list[str] = []
+        outcome: list[Literal] = []
         for effect in expected:
             came_out = yield from self._sensing.outcome(effect, percept)
             outcome += [] if came_out is None else [came_out]
@@ -94,7 +93,7 @@ class Execution:
         yield from self._sensing.doubt(action)
         return False
 
-    def _planned(self) -> Asking[tuple[str, ...] | None]:
+    def _planned(self) -> Asking[tuple[Literal, ...] | None]:
         """A plan; where a decision reaches one of its limits the robot waits, and goes on after."""
         while True:
             try:
@@ -102,7 +101,7 @@ class Execution:
                     return self._planner.plan()
             except LimitError as limit:
                 self._fine.trace.note(failed=str(limit))
-                self._sensing.hear((yield _WAIT))
+                self._sensing.hear((yield WAIT))
 
     def _is_settled(self) -> bool:
         """Whether the action is done; then what nobody can see of its effects is believed, too."""
@@ -124,12 +123,12 @@ class Execution:
             or not (
                 fine.is_magnified(effect)
                 or effect in self._direct
-                or complement(effect) in fine.shown
+                or effect.complement in fine.shown
             )
             for effect in self.effects
         )
 
-    def _is_upset(self, rest: Sequence[str]) -> bool:
+    def _is_upset(self, rest: Sequence[Literal]) -> bool:
         """Whether something new is about what the rest of a plan acts upon.
 
         A thing that is found where it is acted upon next was expected there, and one that is not
@@ -141,13 +140,13 @@ class Execution:
         if not self._sensing.heard.isdisjoint(about):
             return True
         return any(
-            whole in about and is_positive(literal) != (whole in next_to_hand)
+            whole in about and literal.is_positive != (whole in next_to_hand)
             for literal in self._sensing.seen
             for whole in self._wholes([literal]) & self._sensing.looked_for
         )
 
-    def _wholes(self, literals: Iterable[str]) -> set[str]:
+    def _wholes(self, literals: Iterable[Literal]) -> set[str]:
         """The coarse constants that literals or actions are about, the robot apart."""
         wholes = self._fine.refinement.wholes
-        named = {wholes.get(c, c) for literal in literals for c in arguments(literal)}
+        named = {wholes.get(c, c) for literal in literals for c in literal.arguments}
         return named - {self._fine.robot}

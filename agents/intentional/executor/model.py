@@ -10,11 +10,12 @@ from collections.abc import Collection, Iterable
 from itertools import chain
 
 from asp.language import (
+    Action,
     Facts,
+    Fluent,
     Literal,
     Pattern,
     closed_world,
-    complement,
     functions,
     pattern_of,
     subject,
@@ -42,7 +43,7 @@ class Effects:
             pattern = pattern_of(law, signature, statics, given, law.head)
             self._laws[law.action.name].append(pattern)
 
-    def of(self, action: str, true: Iterable[str]) -> tuple[Literal, ...]:
+    def of(self, action: Action, true: Iterable[Fluent]) -> tuple[Literal, ...]:
         """The literals that the action brings about where these fluents are known to be true."""
         one, facts = Literal.parse(action), Facts(map(Literal.parse, true))
         heads = (law.heads(one.arguments, facts) for law in self._laws.get(one.name, ()))
@@ -78,18 +79,18 @@ class FineModel:
             for literal in roles.literals(law.body)
         }
         self.carriers = frozenset(fluent for fluent in self.unmagnified if fluent.name in named)
-        self.conditions: dict[str, frozenset[str]] = {}
+        self.conditions: dict[str, frozenset[Literal]] = {}
         for law in refinement.description.executability:
             for action in law.actions:
                 before = self.conditions.get(action, frozenset())
                 self.conditions[action] = before.union(each.atom for each in law.body)
-        self.direct_effects: dict[str, frozenset[str]] = {}
+        self.direct_effects: dict[str, frozenset[Literal]] = {}
         for causal in refinement.description.causal:
             found = self.direct_effects.get(causal.action, frozenset())
             self.direct_effects[causal.action] = found | {causal.head}
         self._functions = functions(weak, refinement.weak_signature)
 
-    def is_value(self, fluent: str) -> bool:
+    def is_value(self, fluent: Fluent) -> bool:
         """Whether a fine fluent is one of several of which one always holds."""
         return subject(fluent, self._functions) is not None
 
@@ -97,15 +98,15 @@ class FineModel:
 class FineBelief:
     """What is known of a trial at the fine resolution."""
 
-    def __init__(self, model: FineModel, literals: Iterable[str]) -> None:
+    def __init__(self, model: FineModel, literals: Iterable[Literal]) -> None:
         """`literals` are known to begin with."""
         self._model = model
         self._knowledge, self._carriers = model.knowledge, model.carriers
-        self._carrying: frozenset[str] = frozenset()
+        self._carrying: frozenset[Literal] = frozenset()
         self.known = Known()
         self.see(literals)
 
-    def see(self, literals: Iterable[str]) -> None:
+    def see(self, literals: Iterable[Literal]) -> None:
         """Takes literals for certain that were observed at one moment.
 
         What was known gives way to them; where that does not suffice, the least is forgotten.
@@ -114,7 +115,7 @@ class FineBelief:
         unmagnified = self._model.unmagnified
         self.known = Known(after.true - unmagnified, after.false - unmagnified)
 
-    def suppose(self, unmagnified: Collection[str]) -> None:
+    def suppose(self, unmagnified: Collection[Literal]) -> None:
         """Goes by these fluents without counterparts: of those that matter here others are false.
 
         Where a thing is that has no components may follow from what carries it.
@@ -132,19 +133,19 @@ class FineBelief:
         idle = self._carriers - self._carrying
         return Known(known.true | self._carrying, known.false | idle)
 
-    def is_open(self, fluent: str) -> bool:
+    def is_open(self, fluent: Fluent) -> bool:
         """Whether it is not known if a fluent holds."""
         return fluent not in self.known.true and not self.is_false(fluent)
 
-    def is_false(self, fluent: str) -> bool:
+    def is_false(self, fluent: Fluent) -> bool:
         """Whether a fluent is known not to hold."""
         return self._knowledge.is_false(self._with_carriers(), fluent)
 
-    def coarse(self, fluents: Collection[str]) -> frozenset[str]:
+    def coarse(self, fluents: Collection[Fluent]) -> frozenset[Literal]:
         """The literals that follow of coarse fluents with counterparts (indirect observation)."""
         return self._knowledge.coarse(self._with_carriers(), fluents)
 
-    def candidates(self, fluent: str) -> tuple[tuple[str, ...], ...]:
+    def candidates(self, fluent: Fluent) -> tuple[tuple[Fluent, ...], ...]:
         """Groups of fluents one of each of which is true, nobody knows which, if a coarse one is.
 
         One group for each component that always has a value, as a thing is always somewhere; else
@@ -157,7 +158,7 @@ class FineBelief:
             return ()
         return tuple(tuple(f for f in group if not self.is_false(f)) for group in groups)
 
-    def adapt(self, before: State, now: State, fluents: Collection[str]) -> None:
+    def adapt(self, before: State, now: State, fluents: Collection[Fluent]) -> None:
         """Forgets what an explanation at the coarse resolution has made doubtful.
 
         `before` and `now` are the fluents that were expected and that are believed. Of what is now
@@ -166,11 +167,11 @@ class FineBelief:
         """
         follows = self.coarse(fluents)
         for fluent in fluents:
-            literal = fluent if fluent in now else complement(fluent)
+            literal = fluent if fluent in now else fluent.complement
             changed = (fluent in before) != (fluent in now)
-            if complement(literal) in follows or (changed and literal not in follows):
+            if literal.complement in follows or (changed and literal not in follows):
                 groups = self._model.refinement.counterpart(literal)
-                self.known = self.known.without(complement(p) for group in groups for p in group)
+                self.known = self.known.without(p.complement for group in groups for p in group)
 
 
 _MODELS: Recent[Refinement, FineModel] = Recent(MOST_REFINEMENTS)

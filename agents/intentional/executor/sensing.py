@@ -6,13 +6,13 @@ from collections.abc import Collection, Generator, Iterable
 from typing import TypeVar
 
 from agents.intentional.executor.belief import FineTracker
-from asp.language import arguments, atom, complement, is_positive
+from asp.language import Action, Fluent, Literal
 from asp.refinement import Transition
 from testbed.protocol import Percept
 
 T = TypeVar("T")
 
-Asking = Generator[str, Percept, T]
+Asking = Generator[Action, Percept, T]
 """Yields concrete actions and tests, and is sent the percepts after them."""
 
 
@@ -34,7 +34,7 @@ class Sensing:
 
     def clear(self) -> None:
         """What is new from now on."""
-        self.seen: list[str] = []
+        self.seen: list[Literal] = []
         self.heard: set[str] = set()
 
     def look(self) -> Asking[None]:
@@ -43,24 +43,24 @@ class Sensing:
         What a test finds may be what another one needs.
         """
         true = self._fine.belief.known.true
-        robots = {c for f in true if self._fine.robot in arguments(f) for c in arguments(f)}
-        tested: set[str] = set()
+        robots = {c for f in true if self._fine.robot in f.arguments for c in f.arguments}
+        tested: set[Fluent] = set()
         while possible := self._open(tested):
             for fluent in filter(self._fine.belief.is_open, possible):
-                things = set(arguments(fluent)) - robots
+                things = set(fluent.arguments) - robots
                 wholes = self._fine.refinement.wholes
                 self.looked_for.update(wholes.get(thing, thing) for thing in things)
                 yield from self._test(fluent)
             tested.update(possible)
 
-    def _open(self, tested: Collection[str]) -> list[str]:
+    def _open(self, tested: Collection[Fluent]) -> list[Fluent]:
         """What can be tested here and is not known, apart from what has been tested."""
         possible = self._fine.testable(self._things)
         return [f for f in possible if f not in tested and self._fine.belief.is_open(f)]
 
-    def doubt(self, action: str) -> Asking[None]:
+    def doubt(self, action: Action) -> Asking[None]:
         """Tests again what an action that failed took for granted, and what is not certain."""
-        about = {self._fine.refinement.wholes.get(part, part) for part in arguments(action)}
+        about = {self._fine.refinement.wholes.get(part, part) for part in action.arguments}
         things = self._fine.looked_for(about)
         with self._fine.trace.timing("infer"):
             doubtful = self._fine.belief.known.true - self._fine.certain().known.true
@@ -68,7 +68,7 @@ class Sensing:
             if fluent in doubtful and fluent in self._fine.belief.known.true:
                 yield from self._test(fluent)
 
-    def outcome(self, effect: str, percept: Percept) -> Asking[str | None]:
+    def outcome(self, effect: Literal, percept: Percept) -> Asking[Literal | None]:
         """The effect if it came about, as far as that can be observed; else its complement.
 
         Where the attempt took no effect, what cannot be observed is as it was: nothing is tested
@@ -77,15 +77,15 @@ class Sensing:
         """
         failed = percept.happened is False
         if self._fine.test_of(effect) is None:
-            if complement(effect) in percept.visible:
-                return complement(effect)
+            if effect.complement in percept.visible:
+                return effect.complement
             return None if failed and effect not in percept.visible else effect
         if failed and not self._fine.can_test(effect):
             return None
         holds = yield from self._read(effect)
-        return effect if holds == is_positive(effect) else complement(effect)
+        return effect if holds == effect.is_positive else effect.complement
 
-    def commit(self, literals: Iterable[str]) -> None:
+    def commit(self, literals: Iterable[Literal]) -> None:
         """Takes observations of the present moment for certain."""
         with self._fine.trace.timing("infer"):
             seen = self._fine.believable(literals)
@@ -100,7 +100,7 @@ class Sensing:
         self.heard |= touched
         self._disturbed |= touched
 
-    def _test(self, fluent: str) -> Asking[None]:
+    def _test(self, fluent: Fluent) -> Asking[None]:
         """Tests a fluent and takes the outcome for certain.
 
         An outcome contrary to the coarse belief is tested once more. Absence is certain then if it
@@ -112,28 +112,28 @@ class Sensing:
             if holds:
                 holds = yield from self._read(fluent)
         if holds is not None:
-            self.commit([fluent if holds else complement(fluent)])
+            self.commit([fluent if holds else fluent.complement])
 
-    def _expected(self, fluent: str) -> bool | None:
+    def _expected(self, fluent: Fluent) -> bool | None:
         """Whether a fine fluent may be true by the coarse belief; None where that is changing."""
         for coarse in self._fine.refinement.coarse_of(fluent):
-            if not self._disturbed.isdisjoint(arguments(coarse)):
+            if not self._disturbed.isdisjoint(coarse.arguments):
                 return None
             if (coarse in self._before) == (coarse in self._after):
                 return coarse in self._before
         return None
 
-    def _read(self, fluent: str) -> Asking[bool | None]:
+    def _read(self, fluent: Fluent) -> Asking[bool | None]:
         """The outcome of a test; None if it shows nothing."""
-        test = self._fine.test_of(atom(fluent))
+        test = self._fine.test_of(fluent.atom)
         assert test is not None, "only what can be tested is tested"
         self._fine.trace.add("tests")
         percept = yield test
         self.hear(percept)
-        if atom(fluent) in percept.visible:
+        if fluent.atom in percept.visible:
             return True
-        return False if complement(atom(fluent)) in percept.visible else None
+        return False if fluent.atom.complement in percept.visible else None
 
-    def _is_known(self, literal: str) -> bool:
+    def _is_known(self, literal: Literal) -> bool:
         known = self._fine.belief.known
-        return atom(literal) in (known.true if is_positive(literal) else known.false)
+        return literal.atom in (known.true if literal.is_positive else known.false)

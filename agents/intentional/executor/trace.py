@@ -5,7 +5,8 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, Literal
+from typing import Any
+from typing import Literal as Choice
 
 from msgspec import structs
 
@@ -14,7 +15,7 @@ from testbed.protocol import FineTrace
 
 _LASTING = ("abstract", "begun", "plans", "actions", "tests")
 
-Phase = Literal["planning", "infer"]
+Phase = Choice["planning", "infer"]
 
 
 class FineTraceBuilder:

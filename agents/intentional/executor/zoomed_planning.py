@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from agents.intentional.executor.belief import FineTracker
-from asp.language import arguments, complement, name
+from asp.language import Action, Fluent, Literal
 from asp.reasoning.fine_planning import FineStart, NoPlan
 from asp.refinement import Transition, fine_constants, fine_goal, relevant
 
-Groups = tuple[tuple[str, ...], ...]
+Groups = tuple[tuple[Literal, ...], ...]
 """Groups of fluents one of each of which is true."""
 
 
@@ -20,7 +20,7 @@ class ZoomedPlanner:
     """
 
     def __init__(
-        self, fine: FineTracker, transition: Transition, inertial: Collection[str]
+        self, fine: FineTracker, transition: Transition, inertial: Collection[Fluent]
     ) -> None:
         """`transition` is to be brought about, `inertial` are the coarse inertial fluents."""
         self._fine = fine
@@ -32,7 +32,7 @@ class ZoomedPlanner:
             self.effects = goal.effects
             self._lasting = tuple(each for each in goal.literals if each not in goal.effects)
 
-    def plan(self) -> tuple[str, ...] | None:
+    def plan(self) -> tuple[Action, ...] | None:
         """A shortest plan for the effects; None if nothing in the zoomed domain leads to them.
 
         What else is so, and is not to change, is part of the goal where the plan would change it;
@@ -51,16 +51,16 @@ class ZoomedPlanner:
             self._fine.trace.note(plan=list(plan))
         return plan
 
-    def _spoilt(self, plan: Sequence[str]) -> tuple[str, ...]:
+    def _spoilt(self, plan: Sequence[Action]) -> tuple[Literal, ...]:
         """What is known to hold and is not to change, if a plan has effects contrary to it."""
         fine = self._fine
         effects = (effect for action in plan for effect in fine.effects.of(action, fine.true))
         changed = {coarse for effect in effects for coarse in fine.refinement.coarse_of(effect)}
-        if changed.isdisjoint(map(complement, self._lasting)):
+        if changed.isdisjoint(each.complement for each in self._lasting):
             return ()
         return tuple(fine.holding(self._lasting))
 
-    def _candidates(self) -> tuple[tuple[str, ...], ...]:
+    def _candidates(self) -> tuple[tuple[Fluent, ...], ...]:
         """Where the things that the action is about, or tied to, may be by the coarse belief.
 
         A fluent that is known to be false by now stands in the way of an action that depends on it,
@@ -71,23 +71,23 @@ class ZoomedPlanner:
         return tuple(
             group
             for fluent in sorted(self._inertial)
-            if self._fine.is_magnified(fluent) and not about.isdisjoint(arguments(fluent))
+            if self._fine.is_magnified(fluent) and not about.isdisjoint(fluent.arguments)
             for group in self._fine.belief.candidates(fluent)
             if group or fluent in needed
         )
 
     def _about(self) -> frozenset[str]:
         """The constants of the action, and those related to them otherwise than by place."""
-        about = set(arguments(self._action))
-        ties = [set(arguments(f)) for f in self._inertial if not self._fine.is_value(f)]
+        about = set(self._action.arguments)
+        ties = [set(f.arguments) for f in self._inertial if not self._fine.is_value(f)]
         while further := [tie for tie in ties if not about.isdisjoint(tie) and not tie <= about]:
             about.update(*further)
         return frozenset(about)
 
 
 def shortest_plan(
-    fine: FineTracker, goal: tuple[str, ...], candidates: Groups, zoom: Collection[str]
-) -> tuple[str, ...] | None:
+    fine: FineTracker, goal: tuple[Literal, ...], candidates: Groups, zoom: Collection[str]
+) -> tuple[Action, ...] | None:
     """A shortest plan of concrete actions; None if there is none. Raises LimitError.
 
     By Definition 1 the place of the robot need not be relevant to what it does there; a state has
@@ -96,9 +96,9 @@ def shortest_plan(
     refinement, model = fine.refinement, fine.model
     # Of fluents without counterparts a state is told by inertial ones: others follow by laws.
     symbols = refinement.coarse_signature.symbols
-    inertial = frozenset(f for f in fine.unmagnified if symbols[name(f)].kind == "inertial")
+    inertial = frozenset(f for f in fine.unmagnified if symbols[f.name].kind == "inertial")
     true = fine.belief.known.true | inertial
-    own = (arguments(fluent) for fluent in true if fine.robot in arguments(fluent))
+    own = (fluent.arguments for fluent in true if fine.robot in fluent.arguments)
     whereabouts = (refinement.wholes.get(each, each) for named in own for each in named)
     zoom = frozenset(zoom).union(whereabouts)
     constants = zoom | fine_constants(refinement, zoom)

@@ -3,6 +3,7 @@
 from asp.reasoning.diagnosis.encoding import problem_of
 from asp.reasoning.diagnosis.history import (
     GOAL,
+    SELECT,
     Diagnoser,
     Diagnosis,
     Explanation,
@@ -24,6 +25,7 @@ from asp.reasoning.diagnosis.reference import ReferenceDiagnoser, diagnosis_of, 
 
 __all__ = [
     "GOAL",
+    "SELECT",
     "Compression",
     "Diagnoser",
     "Diagnosis",

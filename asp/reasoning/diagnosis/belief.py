@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from asp.language import atom, is_positive
+from asp.language import Literal
 from asp.reasoning.diagnosis.history import GOAL, Explanation, History, Moment, record_of
 from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.successors import Transitions
@@ -24,25 +24,25 @@ class BeliefTracker:
     """Carries beliefs about one goal forward, `since` being the first step with events."""
 
     def __init__(
-        self, knowledge: Knowledge, transitions: Transitions, goal: tuple[str, ...], since: int
+        self, knowledge: Knowledge, transitions: Transitions, goal: tuple[Literal, ...], since: int
     ) -> None:
         self.knowledge = knowledge
         self.transitions = transitions
         self.since = since
         self._goal = goal
 
-    def missing(self, state: State) -> list[str]:
+    def missing(self, state: State) -> list[Literal]:
         """The literals of the goal that are not true in a state."""
-        return [each for each in self._goal if (atom(each) in state) != is_positive(each)]
+        return [each for each in self._goal if (each.atom in state) != each.is_positive]
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
         return not self.missing(state)
 
-    def surprises(self, moment: Moment, state: State) -> list[str]:
+    def surprises(self, moment: Moment, state: State) -> list[Literal]:
         """The literals that were observed at a moment and are not true in a state."""
         return [
-            fluent if truth else f"-{fluent}"
+            fluent if truth else fluent.complement
             for fluent, truth in moment.trusted.items()
             if truth != (self.holds(state) if fluent == GOAL else fluent in state)
         ]

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import clingo
 from clingo import Symbol
 
-from asp.language import atom, is_positive
+from asp.language import Literal
 from asp.reasoning.diagnosis.history import Explanation, Happening, History, Record, record_of
 from asp.reasoning.knowledge import Knowledge
-from asp.solving import Session, State, fact
+from asp.solving import Session, State, fact, literal_of
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Problem:
     `since` is the first step at which an event may have occurred.
     """
 
-    goal: tuple[str, ...]
+    goal: tuple[Literal, ...]
     records: Mapping[int, Record]
     step: int
     since: int
@@ -50,7 +50,7 @@ class Problem:
 
 
 def problem_of(
-    knowledge: Knowledge, goal: tuple[str, ...], history: History, since: int
+    knowledge: Knowledge, goal: tuple[Literal, ...], history: History, since: int
 ) -> Problem:
     """All that there is to explain of a history."""
     records = {
@@ -76,8 +76,7 @@ def observations(session: Session, problem: Problem) -> list[int] | None:
         if time > problem.step:
             continue
         wanted += (
-            (session.holds(atom(literal), time), is_positive(literal))
-            for literal in record.observed
+            (session.holds(literal.atom, time), literal.is_positive) for literal in record.observed
         )
         if record.goal is not None:
             wanted.append((session.literal("reached", time), record.goal))
@@ -114,11 +113,11 @@ def explanation_of(shown: Iterable[Symbol], proved: bool = True) -> Explanation:
     for symbol in shown:
         found.setdefault(symbol.name, []).append(symbol.arguments)
     unobserved, distrusted = (
-        tuple(sorted(Happening(step.number, str(a)) for a, step in found.get(name, [])))
+        tuple(sorted(Happening(step.number, literal_of(a)) for a, step in found.get(name, [])))
         for name in ("unobserved", "distrusted")
     )
     initial = (
-        str(fluent) if str(truth) == "true" else f"-{fluent}"
+        Literal.of(fluent.name, map(str, fluent.arguments), truth.name == "true")
         for fluent, truth in found.get("initial", [])
     )
     return Explanation(

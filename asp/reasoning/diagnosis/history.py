@@ -8,17 +8,18 @@ from typing import NamedTuple, Protocol, TypeVar
 
 from clingo import Symbol
 
-from asp.language import atom, is_positive
+from asp.language import Action, Fluent, Literal
 from asp.solving import fact
 
-GOAL = "my_goal"
+GOAL = Literal.of("my_goal")
+SELECT = Action.of("select", (GOAL,))
 
 
 class Happening(NamedTuple):
     """An action at a step."""
 
     step: int
-    action: str
+    action: Action
 
 
 @dataclass
@@ -31,15 +32,15 @@ class Moment:
     rest on tests, and the `misread` ones are taken for wrong.
     """
 
-    observed: dict[str, bool] = field(default_factory=dict)
-    attempted: list[str] = field(default_factory=list)
-    happened: dict[str, bool] = field(default_factory=dict)
-    failing: list[str] = field(default_factory=list)
-    doubtful: frozenset[str] = frozenset()
-    misread: frozenset[str] = frozenset()
+    observed: dict[Fluent, bool] = field(default_factory=dict)
+    attempted: list[Action] = field(default_factory=list)
+    happened: dict[Action, bool] = field(default_factory=dict)
+    failing: list[Action] = field(default_factory=list)
+    doubtful: frozenset[Fluent] = frozenset()
+    misread: frozenset[Fluent] = frozenset()
 
     @property
-    def trusted(self) -> dict[str, bool]:
+    def trusted(self) -> dict[Fluent, bool]:
         """What was observed and is not taken for wrong."""
         return {f: truth for f, truth in self.observed.items() if f not in self.misread}
 
@@ -59,18 +60,18 @@ class History:
         """What is recorded of a step; made when it is first asked for."""
         return self.moments.setdefault(step, Moment())
 
-    def observe(self, literals: Iterable[str], step: int) -> None:
+    def observe(self, literals: Iterable[Literal], step: int) -> None:
         """obs(F,B,I) for each literal."""
         moment = self.at(step)
         for literal in literals:
-            moment.observed[atom(literal)] = is_positive(literal)
+            moment.observed[literal.atom] = literal.is_positive
 
-    def doubt(self, literals: Iterable[str], step: int) -> None:
+    def doubt(self, literals: Iterable[Literal], step: int) -> None:
         """doubtful(F,I) for those of the literals that were observed."""
         moment = self.at(step)
-        moment.doubtful |= moment.observed.keys() & set(map(atom, literals))
+        moment.doubtful |= moment.observed.keys() & {each.atom for each in literals}
 
-    def distrust(self, wrong: Iterable[tuple[int, str]]) -> None:
+    def distrust(self, wrong: Iterable[tuple[int, Fluent]]) -> None:
         """misread(F,I) for exactly these steps and fluents; it is news of the past."""
         self.late_news += 1
         pairs = frozenset(wrong)
@@ -88,16 +89,16 @@ class History:
         """Whether any observation rests on tests."""
         return any(moment.doubtful for moment in self.moments.values())
 
-    def happened(self, action: str, truth: bool, step: int) -> None:
+    def happened(self, action: Action, truth: bool, step: int) -> None:
         """hpd(A,B,I)."""
         self.late_news += step < self.step
         self.at(step).happened[action] = truth
 
-    def attempt(self, action: str, step: int) -> None:
+    def attempt(self, action: Action, step: int) -> None:
         """attempt(A,I)."""
         self.at(step).attempted.append(action)
 
-    def failed(self, action: str, step: int) -> None:
+    def failed(self, action: Action, step: int) -> None:
         """failing(A,I)."""
         self.at(step).failing.append(action)
 
@@ -128,30 +129,30 @@ class Record:
     actions that happened, `goal` whether the goal was seen to hold.
     """
 
-    observed: tuple[str, ...] = ()
-    attempt: tuple[str, bool] | None = None
-    reported: tuple[str, ...] = ()
+    observed: tuple[Literal, ...] = ()
+    attempt: tuple[Action, bool] | None = None
+    reported: tuple[Action, ...] = ()
     goal: bool | None = None
     failing: bool = False
 
     @property
-    def action(self) -> str | None:
+    def action(self) -> Action | None:
         """The attempted action, if any."""
         return None if self.attempt is None else self.attempt[0]
 
     @property
-    def distrustable(self) -> tuple[str, ...]:
+    def distrustable(self) -> tuple[Action, ...]:
         """What may be distrusted of the step: reports, and an attempt that failed."""
         failed = (self.attempt[0],) if self.attempt is not None and self.failing else ()
         return (*self.reported, *failed)
 
 
-def record_of(moment: Moment, own: Collection[str], others: Collection[str]) -> Record:
+def record_of(moment: Moment, own: Collection[Action], others: Collection[Action]) -> Record:
     """What a moment says of a domain with these actions of the agent's own, and exogenous ones."""
     physical = next((a for a in moment.attempted if a in own), None)
     trusted = moment.trusted
     return Record(
-        observed=tuple(f if truth else f"-{f}" for f, truth in trusted.items() if f != GOAL),
+        observed=tuple(f if truth else f.complement for f, truth in trusted.items() if f != GOAL),
         attempt=None if physical is None else (physical, moment.happened[physical]),
         failing=physical in moment.failing,
         reported=tuple(a for a, truth in moment.happened.items() if truth and a in others),
@@ -172,7 +173,7 @@ class Explanation:
     unobserved: tuple[Happening, ...] = ()
     distrusted: tuple[Happening, ...] = ()
     exceptions: tuple[str, ...] = ()
-    initial: tuple[str, ...] = ()
+    initial: tuple[Literal, ...] = ()
     proved: bool = field(default=True, compare=False)
 
     @property
@@ -192,14 +193,14 @@ class Explanation:
         for default in self.exceptions:
             yield fact(f"{predicate}_exception", default)
         for literal in self.initial:
-            yield fact(f"{predicate}_initial", atom(literal), _boolean(is_positive(literal)))
+            yield fact(f"{predicate}_initial", literal.atom, _boolean(literal.is_positive))
 
-    def happened(self, record: Record, step: int) -> tuple[str, ...]:
+    def happened(self, record: Record, step: int) -> tuple[Action, ...]:
         """The exogenous actions of a step that has this record."""
         trusted = (e for e in record.reported if (step, e) not in self.distrusted)
         return (*trusted, *(event.action for event in self.unobserved if event.step == step))
 
-    def executed(self, record: Record, step: int) -> str | None:
+    def executed(self, record: Record, step: int) -> Action | None:
         """The agent's action of a step that has this record; None where none was executed."""
         return None if (step, record.action) in self.distrusted else record.action
 

@@ -7,10 +7,10 @@ from typing import Any
 
 from clingo import Symbol
 
-from asp.language import atom, is_positive
+from asp.language import Literal
 from asp.reasoning.diagnosis.history import History
 from asp.reasoning.knowledge import Knowledge, goal_facts
-from asp.solving import core, fact, ground, optimal_model, select, theory
+from asp.solving import core, fact, ground, literal_of, optimal_model, select, theory
 
 
 def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...] | None:
@@ -25,7 +25,7 @@ def conflict(program: str, facts: Iterable[Symbol], step: int) -> tuple[str, ...
     return None if found is None else tuple(map(_text, found))
 
 
-def distrust_tests(knowledge: Knowledge, goal: Iterable[str], history: History) -> bool:
+def distrust_tests(knowledge: Knowledge, goal: Iterable[Literal], history: History) -> bool:
     """Takes the fewest doubtful observations for wrong that have to be, whatever events occurred.
 
     False where the history is inconsistent all the same. Raises LimitError.
@@ -39,18 +39,18 @@ def distrust_tests(knowledge: Knowledge, goal: Iterable[str], history: History) 
     wrong = () if model is None else select(model, "wrong", 2)
     if not wrong:
         return False
-    history.distrust((time.number, str(fluent)) for fluent, time in wrong)
+    history.distrust((time.number, literal_of(fluent)) for fluent, time in wrong)
     return True
 
 
-def never_together(program: str, literals: Iterable[str]) -> tuple[str, ...] | None:
+def never_together(program: str, literals: Iterable[Literal]) -> tuple[str, ...] | None:
     """A smallest part of some literals that no state has; None: there is a state that has them all.
 
     `program` is a domain's translation. None of the literals named can be left out. Raises
     LimitError.
     """
     wanted = {
-        fact("obs", atom(literal), "true" if is_positive(literal) else "false", 0): literal
+        fact("obs", literal.atom, "true" if literal.is_positive else "false", 0): literal
         for literal in literals
     }
     part = _core(program, [*wanted, fact("current_step", 0)], 0, list(wanted).index)

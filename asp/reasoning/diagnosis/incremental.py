@@ -10,7 +10,7 @@ from collections.abc import Collection
 from functools import partial
 from typing import Generic
 
-from asp.language import atom, is_positive
+from asp.language import Fluent, Literal
 from asp.reasoning.diagnosis.belief import Belief, BeliefTracker
 from asp.reasoning.diagnosis.encoding import Interpretation, Problem
 from asp.reasoning.diagnosis.history import (
@@ -49,7 +49,7 @@ class DiagnosisSessions:
         self.explanations = SmallestExplanations(knowledge)
         self.suffixes = SuffixExplanations(knowledge)
 
-    def tracker(self, goal: tuple[str, ...], since: int = 0) -> BeliefTracker:
+    def tracker(self, goal: tuple[Literal, ...], since: int = 0) -> BeliefTracker:
         """A tracker of beliefs about a goal; `since` is the first step with events."""
         return BeliefTracker(self.knowledge, self.transitions, goal, since)
 
@@ -65,7 +65,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
     def __init__(
         self,
         sessions: DiagnosisSessions,
-        goal: tuple[str, ...],
+        goal: tuple[Literal, ...],
         since: int,
         reference: Diagnoser[H_contra],
     ) -> None:
@@ -182,11 +182,11 @@ class IncrementalDiagnoser(Generic[H_contra]):
             return None
 
     def _adopt(
-        self, found: Interpretation, history: History, unknown: Collection[str]
+        self, found: Interpretation, history: History, unknown: Collection[Fluent]
     ) -> Explanation:
         """The explanation that was found; the belief becomes what it leads to."""
         self._belief = Belief(history.step, found.state, found.held)
-        initial = sorted(f if f in found.initial else f"-{f}" for f in unknown)
+        initial = sorted(f if f in found.initial else f.complement for f in unknown)
         explanation = found.explanation
         return Explanation(
             explanation.unobserved, explanation.distrusted, explanation.exceptions, tuple(initial)
@@ -206,10 +206,10 @@ class IncrementalDiagnoser(Generic[H_contra]):
 
     def _first(self, history: History, adopted: Explanation) -> Belief | None:
         """The belief at step 0, if the adopted explanation says how it began."""
-        if {atom(literal) for literal in adopted.initial} != set(self._unknown(history)):
+        if {literal.atom for literal in adopted.initial} != set(self._unknown(history)):
             return None
         observed = record_of(history.at(0), *self._knowledge.actions).observed
-        state = frozenset(filter(is_positive, observed))
+        state = frozenset(each for each in observed if each.is_positive)
         if adopted.initial or self._knowledge.description.defaults:
             records = {0: Record(observed=(*observed, *adopted.initial))}
             start = self._sessions.explanations.smallest(Problem(self._goal, records, 0, 0))
@@ -223,7 +223,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
         records = {time: record for time, record in self._records.items() if time <= step}
         return Problem(self._goal, records, step, self._since)
 
-    def _unknown(self, history: History) -> list[str]:
+    def _unknown(self, history: History) -> list[Fluent]:
         """The inertial fluents of which nothing was observed at step 0."""
         known = history.at(0).observed
         return [fluent for fluent in self._knowledge.description.inertial if fluent not in known]

@@ -9,6 +9,7 @@ from typing import ClassVar, Generic
 import clingo
 from clingo import Symbol
 
+from asp.language import Literal
 from asp.reasoning.diagnosis.encoding import explanation_of
 from asp.reasoning.diagnosis.history import (
     Diagnosis,
@@ -47,7 +48,7 @@ class ReferenceDiagnoser(Generic[H_contra]):
     theories: ClassVar[Sequence[str]] = ("history",)
     """The theories beside those of explanations."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...]) -> None:
+    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...]) -> None:
         self._base = (knowledge.program, *map(theory, self.theories))
         self._given = (*knowledge.ranks, *knowledge.start, *goal_facts(goal))
 

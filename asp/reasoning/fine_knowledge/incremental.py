@@ -80,7 +80,7 @@ class IncrementalFineKnowledge:
         self._variables = remembering(self._find_variables)
         self._values = lru_cache(1)(self._find_values)
 
-    def after(self, known: Known, seen: Collection[str]) -> Known:
+    def after(self, known: Known, seen: Collection[Literal]) -> Known:
         """What is known after literals seen at one step.
 
         Raises ValueError if they contradict each other.
@@ -88,7 +88,7 @@ class IncrementalFineKnowledge:
         following = self.following(known, seen) if self.is_simple else None
         return self._theory.after(known, seen) if following is None else following
 
-    def following(self, known: Known, seen: Iterable[str]) -> Known | None:
+    def following(self, known: Known, seen: Iterable[Literal]) -> Known | None:
         """What is known after literals seen at one step; None: they contradict each other."""
         literals = list(map(Literal.parse, seen))
         told = {literal for literal in literals if literal.is_positive}
@@ -106,7 +106,7 @@ class IncrementalFineKnowledge:
             return None
         return Known(frozenset(true), (known.false | denied) - true)
 
-    def is_false(self, known: Known, fluent: str) -> bool:
+    def is_false(self, known: Known, fluent: Fluent) -> bool:
         """Whether an inertial fluent is known to be false."""
         if not self.is_simple:
             return self._theory.is_false(known, fluent)
@@ -115,7 +115,7 @@ class IncrementalFineKnowledge:
         values = self._values(known.true)
         return any(values.get(key, own) != own for key, own in self._variables(fluent))
 
-    def coarse(self, known: Known, fluents: Collection[str]) -> frozenset[str]:
+    def coarse(self, known: Known, fluents: Collection[Fluent]) -> frozenset[Literal]:
         """What follows of coarse fluents that have counterparts, as literals."""
         if not self.is_simple:
             return self._theory.coarse(known, fluents)
@@ -126,7 +126,7 @@ class IncrementalFineKnowledge:
             if fluent in true or all(self.is_false(known, part) for part in self._parts(fluent))
         )
 
-    def _find_groups(self, coarse: str) -> tuple[tuple[Fluent, ...], ...]:
+    def _find_groups(self, coarse: Fluent) -> tuple[tuple[Fluent, ...], ...]:
         """The fluents that make a coarse one true, by what they are values of.
 
         That is a fluent without the places in which it has one value at most.
@@ -138,7 +138,7 @@ class IncrementalFineKnowledge:
             groups.setdefault(tuple(rest), []).append(fluent)
         return tuple(map(tuple, groups.values()))
 
-    def _find_alike(self, fluent: str) -> tuple[Fluent, ...]:
+    def _find_alike(self, fluent: Fluent) -> tuple[Fluent, ...]:
         """The fluents that are true exactly if this one is: those of other components."""
         one = Literal.parse(fluent)
         place = self._laws.shared.get(one.name)
@@ -147,12 +147,12 @@ class IncrementalFineKnowledge:
         others = self._refinement.components[self._refinement.wholes[one.arguments[place]]]
         return tuple(Literal.of(one.name, _with(one.arguments, place, other)) for other in others)
 
-    def _find_parts(self, coarse: str) -> tuple[Fluent, ...]:
+    def _find_parts(self, coarse: Fluent) -> tuple[Fluent, ...]:
         """The fluents all of which are false exactly if a coarse one is; one of those alike."""
         groups = self._refinement.counterpart(coarse)
         return tuple(dict.fromkeys(self._alike(part)[0] for group in groups for part in group))
 
-    def _find_variables(self, fluent: str) -> tuple[tuple[tuple[str, ...], str], ...]:
+    def _find_variables(self, fluent: Fluent) -> tuple[tuple[tuple[str, ...], str], ...]:
         """For each place in which a fluent has one value at most: the rest of it, the value."""
         one = Literal.parse(fluent)
         return tuple(
@@ -160,7 +160,7 @@ class IncrementalFineKnowledge:
             for place in self._laws.single.get(one.name, ())
         )
 
-    def _find_values(self, true: frozenset[str]) -> Mapping[tuple[str, ...], str]:
+    def _find_values(self, true: frozenset[Fluent]) -> Mapping[tuple[str, ...], str]:
         return {key: value for fluent in true for key, value in self._variables(fluent)}
 
     def _excluded(self, true: Iterable[Fluent], fluents: Iterable[Fluent]) -> set[Fluent]:

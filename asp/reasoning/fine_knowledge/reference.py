@@ -9,17 +9,17 @@ from typing import Protocol
 from clingo import Symbol
 
 from asp.language import (
+    Action,
+    Fluent,
     Literal,
     Signature,
-    arguments,
-    atom,
     narrowed,
     restrict,
     syntax,
 )
 from asp.language import variable_sorts as roles
 from asp.refinement import Refinement
-from asp.solving import Recent, fact, first_model, ground, theory
+from asp.solving import Recent, fact, first_model, ground, literal_of, theory
 from asp.translation import condition, rule, schema, sort_conditions
 
 _REMEMBERED = 64
@@ -31,10 +31,10 @@ Laws = Collection[syntax.StateConstraint]
 class Known:
     """Inertial fluents of D_f: those known to be true, and those observed to be false."""
 
-    true: frozenset[str] = frozenset()
-    false: frozenset[str] = frozenset()
+    true: frozenset[Fluent] = frozenset()
+    false: frozenset[Fluent] = frozenset()
 
-    def without(self, literals: Iterable[str]) -> Known:
+    def without(self, literals: Iterable[Literal]) -> Known:
         """What is left when literals are forgotten."""
         gone = frozenset(literals)
         return Known(self.true - gone, frozenset(f for f in self.false if f"-{f}" not in gone))
@@ -45,14 +45,14 @@ class Inferred:
     """What is known; the fluents that may be true or false; the coarse literals that follow."""
 
     known: Known
-    possible: frozenset[str]
-    coarse: frozenset[str]
+    possible: frozenset[Action]
+    coarse: frozenset[Literal]
 
 
 class FineKnowledge(Protocol):
     """What follows from observations in a refinement."""
 
-    def after(self, known: Known, seen: Collection[str]) -> Known:
+    def after(self, known: Known, seen: Collection[Literal]) -> Known:
         """What is known after literals seen at one step.
 
         What was known before gives way to what was seen, and to what follows from it; where that
@@ -60,10 +60,10 @@ class FineKnowledge(Protocol):
         contradict each other.
         """
 
-    def is_false(self, known: Known, fluent: str) -> bool:
+    def is_false(self, known: Known, fluent: Fluent) -> bool:
         """Whether an inertial fluent is known to be false."""
 
-    def coarse(self, known: Known, fluents: Collection[str]) -> frozenset[str]:
+    def coarse(self, known: Known, fluents: Collection[Fluent]) -> frozenset[Literal]:
         """What follows of coarse fluents that have counterparts, as literals."""
 
 
@@ -75,7 +75,7 @@ class ReferenceFineKnowledge:
         self._programs: Recent[frozenset[str], str] = Recent(_REMEMBERED)
 
     def infer(
-        self, known: Known, seen: Sequence[Collection[str]], about: Collection[str]
+        self, known: Known, seen: Sequence[Collection[Literal]], about: Collection[str]
     ) -> Inferred:
         """What is known after literals were seen, step by step, where some things were known.
 
@@ -85,7 +85,7 @@ class ReferenceFineKnowledge:
         """
         literals = [*known.true, *known.false, *(literal for step in seen for literal in step)]
         wholes = self._refinement.wholes
-        named = (wholes.get(name, name) for literal in literals for name in arguments(literal))
+        named = (wholes.get(name, name) for literal in literals for name in literal.arguments)
         whole = frozenset([*about, *named])
         program = self._programs.get(whole, lambda: self._make_program(whole))
         texts = [program, theory("fine_inference")]
@@ -97,21 +97,21 @@ class ReferenceFineKnowledge:
                 return _read(model)
         raise ValueError("literals seen at one step contradict each other")
 
-    def after(self, known: Known, seen: Collection[str]) -> Known:
+    def after(self, known: Known, seen: Collection[Literal]) -> Known:
         """What is known after literals seen at one step."""
         return self.infer(known, [seen], ()).known
 
-    def is_false(self, known: Known, fluent: str) -> bool:
+    def is_false(self, known: Known, fluent: Fluent) -> bool:
         """Whether an inertial fluent is known to be false."""
-        about = {self._refinement.wholes[part] for part in arguments(fluent)}
+        about = {self._refinement.wholes[part] for part in fluent.arguments}
         inferred = self.infer(known, [], about)
         return fluent not in inferred.known.true and fluent not in inferred.possible
 
-    def coarse(self, known: Known, fluents: Collection[str]) -> frozenset[str]:
+    def coarse(self, known: Known, fluents: Collection[Fluent]) -> frozenset[Literal]:
         """What follows of coarse fluents that have counterparts, as literals."""
-        about = {constant for fluent in fluents for constant in arguments(fluent)}
+        about = {constant for fluent in fluents for constant in fluent.arguments}
         inferred = self.infer(known, [], about).coarse
-        return frozenset(literal for literal in inferred if atom(literal) in fluents)
+        return frozenset(literal for literal in inferred if literal.atom in fluents)
 
     def _make_program(self, about: frozenset[str]) -> str:
         refinement = self._refinement
@@ -132,12 +132,12 @@ def _facts(known: Known, seen: Iterable[Collection[str]]) -> Iterator[Symbol]:
 
 
 def _read(model: Iterable[Symbol]) -> Inferred:
-    found: dict[str, set[str]] = {"true": set(), "false": set(), "possible": set()}
-    coarse: set[str] = set()
+    found: dict[str, set[Fluent]] = {"true": set(), "false": set(), "possible": set()}
+    coarse: set[Literal] = set()
     for symbol in model:
-        fluent = str(symbol.arguments[0])
+        fluent = literal_of(symbol.arguments[0])
         if symbol.name == "coarse":
-            coarse.add(fluent if str(symbol.arguments[1]) == "true" else f"-{fluent}")
+            coarse.add(fluent if str(symbol.arguments[1]) == "true" else fluent.complement)
         else:
             found[symbol.name].add(fluent)
     known = Known(frozenset(found["true"]), frozenset(found["false"]))

@@ -13,8 +13,14 @@ from itertools import chain, product
 import clingo
 from clingo import Number, Symbol
 
-from asp.language import Literal, Signature, arguments, atom, is_positive, renamed, syntax
-from asp.solving import fact, ground, preparation, solving, theory
+from asp.language import (
+    Action,
+    Fluent,
+    Literal,
+    Signature,
+    syntax,
+)
+from asp.solving import fact, ground, literal_of, preparation, solving, theory
 from asp.translation import Part, Rule, compact
 
 
@@ -71,17 +77,17 @@ class CompactPart:
         self._facts = facts
         self._back = {new: old for old, new in names.items()}
 
-    def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
+    def seen(self, literals: Iterable[Literal]) -> tuple[Literal, ...]:
         """Those of the literals that name nothing else, in canonical names."""
         return tuple(
-            renamed(literal, self.names)
+            literal.renamed(self.names)
             for literal in literals
-            if all(constant in self.names for constant in arguments(literal))
+            if all(constant in self.names for constant in literal.arguments)
         )
 
-    def back(self, actions: Iterable[str]) -> tuple[str, ...]:
+    def back(self, actions: Iterable[Action]) -> tuple[Literal, ...]:
         """Actions in the names of the description."""
-        return tuple(renamed(action, self._back) for action in actions)
+        return tuple(action.renamed(self._back) for action in actions)
 
     @cached_property
     def rules(self) -> Sequence[Rule]:
@@ -89,7 +95,7 @@ class CompactPart:
         return [rule for rule in self._whole.rules if rule.constants <= self.names.keys()]
 
     @cached_property
-    def actions(self) -> Sequence[str]:
+    def actions(self) -> Sequence[Action]:
         """The agent actions in the order of declaration, in canonical names."""
         return [
             Literal.of(symbol.name, chosen)
@@ -127,7 +133,7 @@ class Horizon:
     of decisions apart: actions beyond step 32,767 / (number of actions) come in any order.
     """
 
-    def __init__(self, program: str, actions: Sequence[str], length: int) -> None:
+    def __init__(self, program: str, actions: Sequence[Action], length: int) -> None:
         """`actions` are the agent actions in the order of declaration."""
         self._length = length
         ranks = [fact("rank", a, n) for n, a in enumerate(actions)]
@@ -144,7 +150,9 @@ class Horizon:
                 pass
         self._goals: dict[str, int | None] = {}
 
-    def start(self, true: frozenset[str], candidates: Mapping[str, Sequence[str]]) -> list[int]:
+    def start(
+        self, true: frozenset[Fluent], candidates: Mapping[Fluent, Sequence[Fluent]]
+    ) -> list[int]:
         """Assumptions that make these fluents true at step 0 and leave the candidates open.
 
         Of the candidates for the value of each function (`fine_loc(box)`) one is true; all other
@@ -158,19 +166,19 @@ class Horizon:
         ]
         return [*assumed, *(self._placed[function] for function in candidates)]
 
-    def plan(self, start: Sequence[int], goal: Iterable[str]) -> tuple[str, ...] | None:
+    def plan(self, start: Sequence[int], goal: Iterable[Literal]) -> tuple[Action, ...] | None:
         """The first plan of exactly this length, or None. Raises LimitError."""
         assumptions = [*start]
         for literal in goal:
-            number = self._wanted(atom(literal))
+            number = self._wanted(literal.atom)
             if number is not None:
-                assumptions.append(number if is_positive(literal) else -number)
-            elif is_positive(literal):
+                assumptions.append(number if literal.is_positive else -number)
+            elif literal.is_positive:
                 return None
         with solving(self.control, assumptions) as model:
             return None if model is None else read(model)
 
-    def _wanted(self, fluent: str) -> int | None:
+    def _wanted(self, fluent: Fluent) -> int | None:
         """The solver's literal of a fluent at the last step; None if it cannot hold."""
         if fluent not in self._goals:
             holds = fact("holds", fluent, self._length)
@@ -195,7 +203,8 @@ def parts(length: int) -> list[tuple[str, list[Symbol]]]:
     return parts
 
 
-def read(model: clingo.Model) -> tuple[str, ...]:
+def read(model: clingo.Model) -> tuple[Action, ...]:
     """The actions that occur in a model, in order."""
-    steps = sorted((s.arguments[1].number, str(s.arguments[0])) for s in model.symbols(shown=True))
+    shown = (each.arguments for each in model.symbols(shown=True))
+    steps = sorted((step.number, literal_of(action)) for action, step in shown)
     return tuple(action for _, action in steps)

@@ -10,11 +10,11 @@ from functools import cached_property, lru_cache
 from itertools import chain
 
 from asp.language import (
+    Fluent,
     Function,
+    Literal,
     Signature,
-    arguments,
     functions,
-    ground,
     syntax,
     without_exogenous,
 )
@@ -106,7 +106,7 @@ class IncrementalFinePlanner:
     def plan(
         self,
         start: FineStart,
-        goal: tuple[str, ...],
+        goal: tuple[Literal, ...],
         limit: int,
         constants: frozenset[str] | None = None,
     ) -> FinePlan | NoPlan:
@@ -121,7 +121,7 @@ class IncrementalFinePlanner:
             return NoPlan.OUT_OF_REACH
         kept = self._constants if constants is None else constants
         for literal in goal:
-            if not kept.issuperset(arguments(literal)):
+            if not kept.issuperset(literal.arguments):
                 raise ValueError(f"{literal}: not about what is planned for")
         kept -= self._relevance.spare(chain(start.true, *start.candidates), goal)
         names = self._narrowed(kept)
@@ -163,12 +163,12 @@ class IncrementalFinePlanner:
 
         return self._horizons.get((part, length), made, length * part.size)
 
-    def _problem(self, part: CompactPart, start: FineStart, goal: tuple[str, ...]) -> Problem:
+    def _problem(self, part: CompactPart, start: FineStart, goal: tuple[Literal, ...]) -> Problem:
         """The problem in canonical names. Raises NotCandidatesError."""
-        candidates: dict[str, tuple[str, ...]] = {}
+        candidates: dict[Fluent, tuple[Fluent, ...]] = {}
         for group in map(part.seen, start.candidates):
             function, *others = function_of(group, self._functions)
-            candidates[ground(function, others)] = group
+            candidates[Literal.of(function, others)] = group
         return Problem(frozenset(part.seen(start.true)), candidates, part.seen(goal))
 
 

@@ -11,19 +11,21 @@ from typing import Protocol
 from clingo import Symbol
 
 from asp.language import (
+    Action,
+    Fluent,
     Function,
+    Literal,
     Signature,
     functions,
-    literals,
     narrowed,
     restrict,
     subject,
     syntax,
 )
-from asp.solving import fact, first_model, ground, select, theory
+from asp.solving import fact, first_model, ground, literal_of, select, theory
 from asp.translation import translate_source
 
-FinePlan = tuple[str, ...]
+FinePlan = tuple[Action, ...]
 """Concrete actions, in order."""
 
 _TEST, _OBSERVED = "test_", "observed_"
@@ -48,12 +50,12 @@ class FineStart:
     other inertial fluents are false. A group without members is a contradiction.
     """
 
-    true: frozenset[str]
-    candidates: tuple[tuple[str, ...], ...] = ()
+    true: frozenset[Fluent]
+    candidates: tuple[tuple[Fluent, ...], ...] = ()
 
     def within(self, constants: frozenset[str]) -> FineStart:
         """What it says of these constants only."""
-        true = (f for f in self.true if constants.issuperset(literals.arguments(f)))
+        true = (f for f in self.true if constants.issuperset(f.arguments))
         groups = (_within(group, constants) for group in self.candidates)
         return FineStart(frozenset(true), tuple(group for group in groups if group))
 
@@ -64,7 +66,7 @@ class FinePlanner(Protocol):
     def plan(
         self,
         start: FineStart,
-        goal: tuple[str, ...],
+        goal: tuple[Literal, ...],
         limit: int,
         constants: frozenset[str] | None = None,
     ) -> FinePlan | NoPlan:
@@ -86,7 +88,7 @@ class LiteralProblem:
     """
 
     def __init__(
-        self, source: syntax.Source, signature: Signature, start: FineStart, goal: Iterable[str]
+        self, source: syntax.Source, signature: Signature, start: FineStart, goal: Iterable[Literal]
     ) -> None:
         self._texts = (
             translate_source(source, signature),
@@ -102,8 +104,7 @@ class LiteralProblem:
         if any(symbol.startswith(_TEST) for symbol in signature.symbols):
             self._facts += _dealing(start, actions, functions(source, signature))
         self._facts += (
-            fact("wanted" if literals.is_positive(literal) else "unwanted", literals.atom(literal))
-            for literal in goal
+            fact("wanted" if literal.is_positive else "unwanted", literal.atom) for literal in goal
         )
 
     def plan(self, length: int) -> FinePlan | None:
@@ -112,7 +113,7 @@ class LiteralProblem:
         if model is None:
             return None
         steps = sorted(select(model, "occurs", 2), key=lambda pair: pair[1])
-        return tuple(str(action) for action, _ in steps)
+        return tuple(literal_of(action) for action, _ in steps)
 
 
 class ReferenceFinePlanner:
@@ -126,7 +127,7 @@ class ReferenceFinePlanner:
     def plan(
         self,
         start: FineStart,
-        goal: tuple[str, ...],
+        goal: tuple[Literal, ...],
         limit: int,
         constants: frozenset[str] | None = None,
     ) -> FinePlan | NoPlan:
@@ -148,12 +149,12 @@ class ReferenceFinePlanner:
         return NoPlan.BEYOND_LIMIT
 
 
-def _within(group: tuple[str, ...], constants: frozenset[str]) -> tuple[str, ...]:
-    first, last = literals.arguments(group[0]), literals.arguments(group[-1])
+def _within(group: tuple[Literal, ...], constants: frozenset[str]) -> tuple[Literal, ...]:
+    first, last = group[0].arguments, group[-1].arguments
     # What two candidates share, all do.
     if not constants.issuperset(a for a, b in zip(first, last, strict=True) if a == b):
         return ()
-    return tuple(f for f in group if constants.issuperset(literals.arguments(f)))
+    return tuple(f for f in group if constants.issuperset(f.arguments))
 
 
 def _tests(signature: Signature) -> Iterator[str]:
@@ -166,8 +167,8 @@ def _tests(signature: Signature) -> Iterator[str]:
         given = [f"X{number}" for number, _ in enumerate(symbol.sorts)]
         # The robot that tests comes first; where the fluent is about this robot, only once.
         about = given[len(given) - len(tested.sorts) :]
-        test, fluent = literals.ground(symbol.name, given), literals.ground(tested.name, about)
-        found = literals.ground(_OBSERVED + tested.name, [*given, outcomes[0]])
+        test, fluent = Literal.of(symbol.name, given), Literal.of(tested.name, about)
+        found = Literal.of(_OBSERVED + tested.name, [*given, outcomes[0]])
         yield f"tests_fluent({test},{fluent},{found}) :- agent_action({test})."
 
 
@@ -177,10 +178,10 @@ def _changes(source: syntax.Source) -> Iterator[str]:
         yield f"changes({action},{fluent}) :- agent_action({action}), inertial({fluent})."
 
 
-def _concrete_actions(signature: Signature) -> list[str]:
+def _concrete_actions(signature: Signature) -> list[Action]:
     """The agent actions that are no tests, in the order of declaration."""
     return [
-        literals.ground(symbol.name, members)
+        Literal.of(symbol.name, members)
         for symbol in signature.symbols.values()
         if symbol.kind == "agent" and not symbol.name.startswith(_TEST)
         for members in product(*(signature.sorts[sort.name] for sort in symbol.sorts))
@@ -188,16 +189,16 @@ def _concrete_actions(signature: Signature) -> list[str]:
 
 
 def _dealing(
-    start: FineStart, actions: Iterable[str], known: Mapping[str, Function]
+    start: FineStart, actions: Iterable[Action], known: Mapping[str, Function]
 ) -> Iterator[Symbol]:
     """deals_with(A,G): the actions that name what a group of candidates is about."""
     about = [frozenset(function_of(group, known)[1:]) for group in start.candidates]
     for action in actions:
-        named = frozenset(literals.arguments(action))
+        named = frozenset(action.arguments)
         yield from (fact("deals_with", action, n) for n, some in enumerate(about) if some <= named)
 
 
-def function_of(group: Sequence[str], known: Mapping[str, Function]) -> tuple[str, ...]:
+def function_of(group: Sequence[Literal], known: Mapping[str, Function]) -> tuple[str, ...]:
     """The function, with its other arguments, that candidates are values of.
 
     Raises NotCandidatesError for a group that is not made of values of one total function.

@@ -9,12 +9,12 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from asp.language import (
+    Action,
     Description,
+    Literal,
     analyse,
-    arguments,
     ground_description,
     narrowed,
-    renamed,
     restrict,
     without_exogenous,
 )
@@ -53,7 +53,9 @@ class IncrementalPlanner:
         self._classes = interchangeable(source, self._signature)
         self._parts: Recent[frozenset[str], ShortestPlans] = Recent(MOST_PARTS)
 
-    def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
+    def shortest(
+        self, state: State, goal: tuple[Literal, ...], limit: int
+    ) -> tuple[Action, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
         Earlier actions count before later ones, at one step the action declared first. Raises
@@ -63,12 +65,12 @@ class IncrementalPlanner:
         plan = self._part(view.dropped).shortest(view.state, view.goal, limit)
         return None if plan is None else view.back(plan)
 
-    def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
+    def succeeds(self, state: State, goal: tuple[Literal, ...], plan: tuple[Action, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         view = _View(self._relevance, self._classes, state, (*goal, *plan))
         return self._part(view.dropped).succeeds(view.state, view.seen(goal), view.seen(plan))
 
-    def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
+    def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
         """Whether a plan of any length succeeds; None where there is too much to look at.
 
         Raises LimitError.
@@ -107,7 +109,7 @@ class _View:
         relevance: Relevance,
         classes: Iterable[tuple[str, ...]],
         state: State,
-        goal: tuple[str, ...],
+        goal: tuple[Literal, ...],
     ) -> None:
         self._spare = relevance.spare(state, goal)
         self._names: dict[str, str] = {}
@@ -122,15 +124,15 @@ class _View:
         self.state = frozenset(self.seen(state))
         self.goal = self.seen(goal)
 
-    def seen(self, literals: Iterable[str]) -> tuple[str, ...]:
+    def seen(self, literals: Iterable[Literal]) -> tuple[Literal, ...]:
         """Those of the literals or actions that the problem is left with, in its names."""
         return tuple(
-            renamed(literal, self._names)
+            literal.renamed(self._names)
             for literal in literals
-            if self._spare.isdisjoint(arguments(literal))
+            if self._spare.isdisjoint(literal.arguments)
         )
 
-    def back(self, plan: tuple[str, ...]) -> tuple[str, ...]:
+    def back(self, plan: tuple[Action, ...]) -> tuple[Literal, ...]:
         """The plan in the names of the problem."""
         back = {new: old for old, new in self._names.items()}
-        return tuple(renamed(action, back) for action in plan)
+        return tuple(action.renamed(back) for action in plan)

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterable, Iterator
 
 from clingo import Symbol
 
-from asp.language import Causal, Constraint, Description, atom, is_positive
+from asp.language import Causal, Constraint, Description, Literal
 from asp.reasoning.successors import Transitions
 from asp.solving import Answers, State, fact, first_model, ground, theory
 
 _MOST_STATES = 2_000
 
-Searched = Callable[[State, tuple[str, ...]], bool | None]
+Searched = Callable[[State, tuple[Literal, ...]], bool | None]
 """Whether a state that satisfies a goal can be reached; None: not known."""
 
 MOST_ANSWERS = 1_000
@@ -36,31 +36,33 @@ class Reachability:
         self._laws = list(_laws(description))
         self._transitions = transitions
         self._searched = searched
-        self._answers: Answers[tuple[State, tuple[str, ...]], bool | None] = Answers(MOST_ANSWERS)
+        self._answers: Answers[tuple[State, tuple[Literal, ...]], bool | None] = Answers(
+            MOST_ANSWERS
+        )
 
-    def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
+    def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
         """Whether some plan, of any length, leads from the state to the goal; None: not known.
 
         Raises LimitError.
         """
         return self._answers.get((state, goal), lambda: self._decide(state, goal))
 
-    def _decide(self, state: State, goal: tuple[str, ...]) -> bool | None:
+    def _decide(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
         if not self._transitions.satisfiable(goal) or self._relaxed(state, goal):
             return False
         reachable = self._searched(state, goal)
         return self._explored(state, goal) if reachable is None else reachable
 
-    def _relaxed(self, state: State, goal: tuple[str, ...]) -> bool:
+    def _relaxed(self, state: State, goal: tuple[Literal, ...]) -> bool:
         """Whether some literal of a goal can never become true, however little laws ask for."""
         facts = [fact("wanted", _term(literal)) for literal in goal]
         facts += (
-            fact("initially", _term(fluent if fluent in state else f"-{fluent}"))
+            fact("initially", _term(fluent if fluent in state else fluent.complement))
             for fluent in self._fluents
         )
         return bool(first_model(ground([theory("reach")], {}, [*self._laws, *facts])))
 
-    def _explored(self, state: State, goal: tuple[str, ...]) -> bool | None:
+    def _explored(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
         """Whether a state that can be reached satisfies a goal; None where these are too many."""
         found, left = {state}, [state]
         while left:
@@ -69,7 +71,7 @@ class Reachability:
             left += new
             if len(found) > _MOST_STATES:
                 return None
-        return any(all((atom(each) in one) == is_positive(each) for each in goal) for one in found)
+        return any(all((each.atom in one) == each.is_positive for each in goal) for one in found)
 
 
 def _laws(description: Description) -> Iterator[Symbol]:
@@ -92,9 +94,9 @@ def _laws(description: Description) -> Iterator[Symbol]:
             yield from _conditions("while", number, condition.body)
 
 
-def _conditions(predicate: str, number: int, body: Iterable[str]) -> Iterator[Symbol]:
+def _conditions(predicate: str, number: int, body: Iterable[Literal]) -> Iterator[Symbol]:
     return (fact(predicate, number, _term(literal)) for literal in body)
 
 
-def _term(literal: str) -> Symbol:
-    return fact("yes" if is_positive(literal) else "no", atom(literal))
+def _term(literal: Literal) -> Symbol:
+    return fact("yes" if literal.is_positive else "no", literal.atom)

@@ -13,7 +13,7 @@ from itertools import chain, product, repeat
 import clingo
 from clingo import Symbol
 
-from asp.language import Description
+from asp.language import Action, Description, Literal
 from asp.reasoning.planning.large.search import Search, StateSpace
 from asp.solving import (
     LimitError,
@@ -44,7 +44,7 @@ _LEAST_HORIZON = 8
 class _Question:
     """A problem that is not answered yet; no plan is shorter than `length`."""
 
-    asked: tuple[State, tuple[str, ...]]
+    asked: tuple[State, tuple[Literal, ...]]
     search: Search | None
     length: int = 1
 
@@ -67,7 +67,9 @@ class ShortestPlans:
         self._following: Recent[int, Session] = Recent(MOST_LENGTHS)
         self._open: _Question | None = None
 
-    def shortest(self, state: State, goal: tuple[str, ...], limit: int) -> tuple[str, ...] | None:
+    def shortest(
+        self, state: State, goal: tuple[Literal, ...], limit: int
+    ) -> tuple[Action, ...] | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
         Raises LimitError; asked again, it goes on where it was.
@@ -81,7 +83,7 @@ class ShortestPlans:
             self._open = question
             raise
 
-    def succeeds(self, state: State, goal: tuple[str, ...], plan: tuple[str, ...]) -> bool:
+    def succeeds(self, state: State, goal: tuple[Literal, ...], plan: tuple[Action, ...]) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         if self._space is not None:
             return self._space.succeeds(state, goal, plan)
@@ -93,7 +95,7 @@ class ShortestPlans:
         start = session.assume_state(state, 0)
         return start is not None and is_satisfiable(session.control, start)
 
-    def reachable(self, state: State, goal: tuple[str, ...]) -> bool | None:
+    def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
         """Whether some state that can be reached satisfies the goal; None where nothing is said.
 
         Raises LimitError.
@@ -103,10 +105,10 @@ class ShortestPlans:
             None if search is None else search.distance(None, current().take_expansions) is not None
         )
 
-    def _search(self, state: State, goal: tuple[str, ...]) -> Search | None:
+    def _search(self, state: State, goal: tuple[Literal, ...]) -> Search | None:
         return None if self._space is None else self._space.search(state, goal)
 
-    def _answer(self, question: _Question, limit: int) -> tuple[str, ...] | None:
+    def _answer(self, question: _Question, limit: int) -> tuple[Action, ...] | None:
         if question.search is not None:
             spend = current().take_expansions
             least = question.search.distance(limit, spend)
@@ -118,7 +120,7 @@ class ShortestPlans:
             question.length += 1
         return None
 
-    def _of_length(self, question: _Question) -> tuple[str, ...] | None:
+    def _of_length(self, question: _Question) -> tuple[Action, ...] | None:
         """The first plan of the question's length in the order of declaration, or None."""
         (state, goal), length = question.asked, question.length
         session = self._planning.get(length, lambda: self._session("plan", length))
@@ -133,7 +135,7 @@ class ShortestPlans:
         facts = _candidates(self._actions, steps)
         return Session(self._program, "incremental_planning", self._fluents, facts, [part], n=steps)
 
-    def _read(self, session: Session, model: clingo.Model, length: int) -> tuple[str, ...]:
+    def _read(self, session: Session, model: clingo.Model, length: int) -> tuple[Action, ...]:
         return tuple(
             next(
                 action
@@ -145,7 +147,7 @@ class ShortestPlans:
         )
 
 
-def _candidates(actions: Iterable[str], steps: int) -> Iterator[Symbol]:
+def _candidates(actions: Iterable[Action], steps: int) -> Iterator[Symbol]:
     """candidate(A,I,L): the earlier in this order, the higher the level, while there are any."""
     levels = chain(range(MOST_LEVELS, 0, -1), repeat(0))
     for (step, action), level in zip(product(range(steps), actions), levels, strict=False):

@@ -17,8 +17,7 @@ from dataclasses import dataclass, field
 from itertools import permutations
 from typing import TypeAlias
 
-from asp.language import Description
-from asp.language import literals as text
+from asp.language import Description, Fluent, Literal
 from testbed.environment.rules import Situation
 from testbed.world import World
 
@@ -90,8 +89,8 @@ def scene(world: World, now: Situation, robot: str) -> Scene:
     located = {name for place in places for name in (place.name, *place.cells)}
     present = {robot for place in places for robot in place.robots}
 
-    def is_shown(fluent: str) -> bool:
-        arguments = text.arguments(fluent)
+    def is_shown(fluent: Fluent) -> bool:
+        arguments = fluent.arguments
         if len(arguments) == 2:
             return arguments[1] in located or arguments[0] in present
         return len(arguments) == 1 and arguments[0] in located
@@ -111,7 +110,7 @@ def _place(
     name: str,
     description: Description,
     robots: Collection[str],
-    true: tuple[str, ...],
+    true: tuple[Fluent, ...],
     where: Layout,
 ) -> Place:
     # What is said of components only says in which cell their wholes are.
@@ -122,13 +121,13 @@ def _place(
     }
     here = [thing for thing, place in found if place == name]
     in_hand = {thing for things in held.values() for thing in things}
-    marks = [fluent for fluent in description.fluents if text.arguments(fluent) == (name,)]
+    marks = [fluent for fluent in description.fluents if fluent.arguments == (name,)]
     cells = where.cells.get(name, ())
     return Place(
         name=name,
         things=tuple(t for t in here if t not in in_hand and t not in held),
         robots={robot: things for robot, things in held.items() if robot in here},
-        marks={text.name(mark): mark in true for mark in marks},
+        marks={mark.name: mark in true for mark in marks},
         next_to=where.adjacent[name],
         cells=cells,
         spots={where.wholes.get(t, t): cell for t, cell in pairs(true) if cell in cells},
@@ -139,7 +138,7 @@ def layout(description: Description) -> Layout:
     """The layout of a domain; no places at all where nothing is adjacent."""
     named: dict[str, list[Pair]] = {}
     for static in sorted(description.statics):
-        named.setdefault(text.name(static), []).extend(pairs([static]))
+        named.setdefault(static.name, []).extend(pairs([static]))
     spaces = {name: _places(found, description) for name, found in named.items()}
     for fine, coarse in permutations((name for name in spaces if spaces[name]), 2):
         for relation in (name for name in named if name not in (fine, coarse)):
@@ -154,9 +153,9 @@ def layout(description: Description) -> Layout:
     return Layout(_neighbours(spaces.get(widest, ()), named.get(widest, [])))
 
 
-def pairs(atoms: Iterable[str]) -> list[Pair]:
+def pairs(atoms: Iterable[Literal]) -> list[Pair]:
     """The arguments of the two-place atoms."""
-    found = (text.arguments(atom) for atom in atoms)
+    found = (atom.arguments for atom in atoms)
     return [(args[0], args[1]) for args in found if len(args) == 2]
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from clingo import Symbol
 
-from asp.language import Description, atom, is_positive
+from asp.language import Description, Fluent, Literal
 from asp.solving import (
     BudgetError,
     Limits,
@@ -94,7 +94,7 @@ class _Step:
             self.within, self.leaves = backend.add_atom(), backend.add_atom()
             self._initially()
 
-    def fluent(self, fluent: str) -> int:
+    def fluent(self, fluent: Fluent) -> int:
         """Its mask."""
         return 1 << self._numbers[fluent]
 
@@ -112,10 +112,10 @@ class _Step:
                 own[time] |= 1 << number
         return action, tuple(Effect(variable, *own) for variable, own in sorted(values.items()))
 
-    def _literals(self, literals: Iterable[str], time: int) -> Iterator[int]:
+    def _literals(self, literals: Iterable[Literal], time: int) -> Iterator[int]:
         for literal in literals:
-            atoms = self._true if is_positive(literal) else self._false
-            yield atoms[time][self._numbers[atom(literal)]]
+            atoms = self._true if literal.is_positive else self._false
+            yield atoms[time][self._numbers[literal.atom]]
 
     def _states(self) -> None:
         """Inertial fluents are anything at first; both states are closed under the constraints."""

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.optimize import linprog  # type: ignore[import-untyped]  # scipy ships no types
 from scipy.sparse import coo_array  # type: ignore[import-untyped]  # scipy ships no types
 
-from asp.language import Description, arguments, atom, is_positive
+from asp.language import Description, Literal
 from testbed.experiment.heuristic.changes import Changes, changes
 
 Heuristic = Callable[[int], int]
@@ -46,7 +46,7 @@ class Potentials:
         }
         self._variables = variables_of(description)
 
-    def heuristic(self, state: int, goal: Iterable[str], costs: Mapping[str, int]) -> Heuristic:
+    def heuristic(self, state: int, goal: Iterable[Literal], costs: Mapping[str, int]) -> Heuristic:
         """One that is as large as possible in `state`, for it and what can be reached from it.
 
         It is admissible and consistent; `blind` where the changes are too many. What has no cost
@@ -101,7 +101,7 @@ class Potentials:
         return coo_array((signs, (rows, columns)), (len(found), len(self._columns))).tocsr()
 
     def _numbers(
-        self, changes: Changes, state: int, goal: Sequence[str], costs: Mapping[str, int]
+        self, changes: Changes, state: int, goal: Sequence[Literal], costs: Mapping[str, int]
     ) -> tuple[list[float], float] | None:
         """The potentials of the columns and what to take off their sum; None: there are none."""
         if not self._columns:
@@ -122,9 +122,9 @@ class Potentials:
         excess = max(0.0, float(np.max(self._lowering @ solved.x - most_lowered)))
         return solved.x.tolist(), ROUNDING + LONGEST * excess
 
-    def _agree(self, goal: Iterable[str], variable: int, value: int) -> bool:
+    def _agree(self, goal: Iterable[Literal], variable: int, value: int) -> bool:
         """Whether the variable can have this value where the goal holds."""
-        wanted = ((self._fluents[atom(literal)], is_positive(literal)) for literal in goal)
+        wanted = ((self._fluents[literal.atom], literal.is_positive) for literal in goal)
         return all(bool(value & own) == truth for own, truth in wanted if variable & own)
 
 
@@ -136,7 +136,7 @@ def variables_of(description: Description) -> tuple[int, ...]:
     """
     about: dict[str, list[int]] = defaultdict(list)
     for number, fluent in enumerate(description.fluents):
-        for constant in dict.fromkeys(arguments(fluent)) or (fluent,):
+        for constant in dict.fromkeys(fluent.arguments) or (fluent,):
             about[constant].append(number)
     exclusive = _exclusive(description)
     return tuple(
@@ -150,9 +150,9 @@ def _exclusive(description: Description) -> frozenset[tuple[int, int]]:
     """Pairs of fluents of which a constraint allows at most one."""
     number: dict[str, int] = {fluent: i for i, fluent in enumerate(description.fluents)}
     pairs = [
-        (number[law.body[0]], number[atom(law.head)])
+        (number[law.body[0]], number[law.head.atom])
         for law in description.constraints
-        if len(law.body) == 1 and is_positive(law.body[0]) and not is_positive(law.head)
+        if len(law.body) == 1 and law.body[0].is_positive and not law.head.is_positive
     ]
     return frozenset((*pairs, *(pair[::-1] for pair in pairs)))
 

@@ -6,7 +6,7 @@ first of them.
 
 from __future__ import annotations
 
-from asp.language import literals as text
+from asp.language import Action
 from testbed.analysis.comparison import NOTHING_TO_DO
 from testbed.experiment.record import Activity, TrialRecord
 from testbed.world import World
@@ -48,7 +48,7 @@ def _replanned(record: TrialRecord, first: Activity, world: World) -> str:
     if not record.exogenous or first.stop is None:
         return UNCLASSIFIED
     event = record.exogenous[0].action
-    if text.name(event) in _locking(world):
+    if event.name in _locking(world):
         return FAILURE_TO_EXECUTE
     effects = {law.head for law in world.description.causal if law.action == event}
     seen = world.visible(state_at(record, world, first.stop), world.description.robots[0])
@@ -58,13 +58,13 @@ def _replanned(record: TrialRecord, first: Activity, world: World) -> str:
 def _locking(world: World) -> set[str]:
     """The exogenous actions that make the robot's own fail, by the domain's scenario of that."""
     triggers = world.description.triggers
-    return {text.name(t.event) for t in triggers if t.scenario == FAILURE_TO_EXECUTE}
+    return {t.event.name for t in triggers if t.scenario == FAILURE_TO_EXECUTE}
 
 
 def state_at(record: TrialRecord, world: World, step: int) -> int:
     """The state of the world at the beginning of a step of a recorded trial."""
     state = world.state(record.initial)
-    compounds: dict[int, list[str]] = {}
+    compounds: dict[int, list[Action]] = {}
     physical = [(a.step, a.action) for a in record.actions if a.happened]
     for number, action in [*physical, *((e.step, e.action) for e in record.exogenous)]:
         compounds.setdefault(number, []).append(action)

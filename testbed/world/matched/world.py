@@ -9,6 +9,7 @@ from itertools import chain, product
 from pathlib import Path
 
 from asp.language import (
+    Action,
     Description,
     Fluent,
     Literal,
@@ -65,23 +66,23 @@ class MatchedWorld(World):
         ground = ground_description(source, signature, self.description.name)
         return CompiledWorld(ground).states()
 
-    def adjusted(self, state: int, literals: Iterable[str]) -> tuple[int, ...]:
+    def adjusted(self, state: int, literals: Iterable[Literal]) -> tuple[int, ...]:
         return self._changed(state, self._read(literals))
 
-    def _completions(self, literals: tuple[str, ...]) -> Iterable[int]:
+    def _completions(self, literals: tuple[Literal, ...]) -> Iterable[int]:
         return self._outcomes(0, self._described(literals))
 
-    def _broken(self, literals: tuple[str, ...]) -> Law | None:
+    def _broken(self, literals: tuple[Literal, ...]) -> Law | None:
         law = self._described(literals).conflict()
         return None if law is None else ((law.head,), law.body)
 
-    def _describe(self, literals: tuple[str, ...]) -> Change:
+    def _describe(self, literals: tuple[Literal, ...]) -> Change:
         """What the literals make of a state in which nothing is true."""
         nothing = self.facts(0)
         seeds = (head for law in self._laws.groundless for head in law.heads((), nothing))
         return Change(self._laws, nothing, self._read(literals), seeds)
 
-    def _transitions(self, state: int, compound: frozenset[str]) -> tuple[int, ...]:
+    def _transitions(self, state: int, compound: frozenset[Action]) -> tuple[int, ...]:
         if self._forbidding(state, compound) is not None:
             return ()
         effects = (
@@ -105,7 +106,7 @@ class MatchedWorld(World):
         )
         return tuple(sorted(found))
 
-    def _forbidding(self, state: int, compound: frozenset[str]) -> Law | None:
+    def _forbidding(self, state: int, compound: frozenset[Action]) -> Law | None:
         by_name: dict[str, list[Literal]] = {}
         for action in map(Literal.parse, sorted(compound)):
             by_name.setdefault(action.name, []).append(action)
@@ -126,7 +127,7 @@ class MatchedWorld(World):
     def _mask(self, atoms: Iterable[Fluent]) -> int:
         return sum(1 << self._numbers[atom][0] for atom in atoms)
 
-    def _read(self, literals: Iterable[str]) -> list[Literal]:
+    def _read(self, literals: Iterable[Literal]) -> list[Literal]:
         """The literals, each once. Raises UnknownFluentError."""
         numbered = dict.fromkeys(map(self._numbered, literals))
         return [

@@ -11,8 +11,9 @@ from asp.domains.levels import level_text
 from asp.refinement import load
 from testbed.environment import FINISH, NONE, Rules, fine_core
 from tests.greenhouse import GREENHOUSE
+from tests.literals import parsed
 
-EVENTS = [f"take({thing},{place})" for thing in "abc" for place in "wxyz"]
+EVENTS = parsed([f"take({thing},{place})" for thing in "abc" for place in "wxyz"])
 
 
 NOWHERE = parse_description(GREENHOUSE, "pots.al")
@@ -42,7 +43,7 @@ def test_it_draws_a_thing_first_and_then_what_is_done_to_it() -> None:
     # a and c alike, whatever can be done to them; of each as many draws at 1/2, 1/6.
     assert drawn.keys() == set(legal) - {NONE}
     assert drawn["take(a,w)"] == pytest.approx(1500, abs=140)
-    for event in ("take(c,w)", "take(c,x)", "take(c,y)"):
+    for event in parsed(["take(c,w)", "take(c,x)", "take(c,y)"]):
         assert drawn[event] == pytest.approx(500, abs=110)
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from agents.adversary import AdversaryView, Game, Script, Triggered
 from asp import load_description
-from asp.language import literals as text
+from asp.language import Literal
 from testbed.environment import FINISH, NONE, WAIT, Core, Rules
 from testbed.world import world_of
 
@@ -22,7 +22,8 @@ def triggered(scenario: str) -> Triggered:
 
 def view(core: Core, robot_action: str) -> AdversaryView:
     true = frozenset(core.world.true_atoms(core.situation.state))
-    return AdversaryView(core.situation.step, true, robot_action, core.events(robot_action))
+    action = Literal.parse(robot_action)
+    return AdversaryView(core.situation.step, true, action, core.events(action))
 
 
 def asked(scenario: str, initial: list[str], action: str, seed: int = 0) -> str:
@@ -202,7 +203,7 @@ def test_the_random_event_comes_with_the_stated_probability() -> None:
     drawn = [asked("random", state, "move(rob1,office2)", seed) for seed in range(600)]
     share = sum(event != NONE for event in drawn) / len(drawn)
     assert 0.88 < share < 0.96  # 0.92; the standard deviation of 600 draws is 0.011
-    kinds = [text.arguments(event)[0] for event in drawn if event != NONE]
+    kinds = [event.arguments[0] for event in drawn if event != NONE]
     assert all(0.26 < kinds.count(kind) / len(kinds) < 0.41 for kind in ("library", *BOOKS))
 
 

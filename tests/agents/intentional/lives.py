@@ -11,6 +11,7 @@ from msgspec import structs
 from asp.language import load_description, read_domain
 from testbed.protocol import Decision, Event, Percept, Robot, Task
 from testbed.world import World, world_of
+from tests.literals import parsed
 
 
 @dataclass(frozen=True)
@@ -45,13 +46,10 @@ GOAL_LITERALS = [
     literal
     for fluent in WORLD.fluents
     if not fluent.startswith("locked")
-    for literal in (fluent, f"-{fluent}")
+    for literal in (fluent, fluent.complement)
 ]
-BOTH_IN_THE_LIBRARY = (
-    "loc(book1,library)",
-    "loc(book2,library)",
-    "-in_hand(rob1,book1)",
-    "-in_hand(rob1,book2)",
+BOTH_IN_THE_LIBRARY = parsed(
+    ["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book1)", "-in_hand(rob1,book2)"]
 )
 
 
@@ -96,7 +94,7 @@ def live(
 
     At the steps in `failing` the execution of an attempt fails, whether it is possible or not.
     """
-    states = [initial]
+    goal, states = parsed(goal), [initial]
     state, decisions, news = initial, list[Decision](), list[tuple[int, Event]]()
     robot.begin(_task(initial, goal, where))
     percept = _percept(where, state, 1)

@@ -12,9 +12,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
-from asp.language import complement
+from asp.language import Action, Literal
 from asp.reasoning.diagnosis import (
     GOAL,
+    SELECT,
     Explanation,
     InconsistentHistoryError,
     cannot_hold,
@@ -22,10 +23,11 @@ from asp.reasoning.diagnosis import (
 )
 from asp.reasoning.knowledge import goal_facts, knowledge
 from tests.agents.intentional.test_joint_lives import ONE_BOOK, WORLD
+from tests.literals import parsed
 
 OFFICE = knowledge("office", ONE_BOOK)
 ROBOT = WORLD.description.robots[0]
-WANTED = ("loc(book1,library)",)
+WANTED = parsed(["loc(book1,library)"])
 STEPS = 3
 STATES = list(WORLD.initial_states())
 
@@ -35,7 +37,7 @@ class Statement:
     """obs(LITERAL) or hpd(LITERAL) at a step; of a result the literal is the attempted action."""
 
     kind: str
-    literal: str
+    literal: Literal
     step: int
 
     def __str__(self) -> str:
@@ -43,26 +45,26 @@ class Statement:
 
     @property
     def reversed(self) -> Statement:
-        return Statement(self.kind, complement(self.literal), self.step)
+        return Statement(self.kind, self.literal.complement, self.step)
 
 
 @dataclass(frozen=True)
 class Account:
     """What a robot that knew only what it saw did, and what it says of it."""
 
-    attempts: tuple[str, ...]
+    attempts: tuple[Action, ...]
     statements: tuple[Statement, ...]
 
     def history(self) -> History:
         history = History(step=STEPS)
-        history.happened(f"select({GOAL})", True, 0)
+        history.happened(SELECT, True, 0)
         for step, action in enumerate(self.attempts, start=1):
             history.attempt(action, step)
         for said in self.statements:
             if said.kind == "obs":
                 history.observe([said.literal], said.step)
             else:
-                history.happened(said.literal.lstrip("-"), said.literal[0] != "-", said.step)
+                history.happened(said.literal.atom, said.literal.is_positive, said.step)
         return history
 
     def can_hold(self, statements: Collection[Statement]) -> bool:
@@ -73,7 +75,7 @@ class Account:
             states = frozenset(state for state in states if _agrees(state, at))
             if step < STEPS:
                 attempt = self.attempts[step - 1] if step else None
-                results = {said.literal[0] != "-" for said in at if said.kind == "hpd"}
+                results = {said.literal.is_positive for said in at if said.kind == "hpd"}
                 states = frozenset[int]().union(
                     *(
                         _after(state, attempt)
@@ -86,8 +88,8 @@ class Account:
 
 def _agrees(state: int, statements: Collection[Statement]) -> bool:
     return all(
-        WORLD.satisfies(state, WANTED) != said.literal.startswith("-")
-        if said.literal.lstrip("-") == GOAL
+        WORLD.satisfies(state, WANTED) == said.literal.is_positive
+        if said.literal.atom == GOAL
         else WORLD.holds(state, said.literal)
         for said in statements
         if said.kind == "obs"
@@ -121,12 +123,12 @@ def accounts(draw: st.DrawFn) -> Account:
     for step in range(STEPS):
         attempt = attempts[step - 1] if step else None
         if attempt is not None:
-            sign = "" if _succeeds(state, attempt) else "-"
-            said.append(Statement("hpd", sign + attempt, step))
+            told_of = attempt if _succeeds(state, attempt) else attempt.complement
+            said.append(Statement("hpd", told_of, step))
         state = draw(st.sampled_from(sorted(_after(state, attempt))))
         said += [Statement("obs", one, step + 1) for one in WORLD.visible(state, ROBOT)]
     holds = WORLD.satisfies(state, WANTED)
-    said.append(Statement("obs", GOAL if holds else f"-{GOAL}", STEPS))
+    said.append(Statement("obs", GOAL if holds else GOAL.complement, STEPS))
     false = draw(st.sets(st.integers(0, len(said) - 1), min_size=1, max_size=4))
     told = (one.reversed if number in false else one for number, one in enumerate(said))
     return Account(attempts, tuple(told))

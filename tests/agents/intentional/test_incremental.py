@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Intention
-from asp.reasoning.diagnosis import GOAL, Compression, Diagnosis, Explanation, incremental
+from asp.reasoning.diagnosis import SELECT, Compression, Diagnosis, Explanation, incremental
 from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import (
@@ -21,6 +21,7 @@ from tests.agents.intentional.lives import (
     Wish,
     live,
 )
+from tests.literals import parsed
 
 
 class Both:
@@ -97,13 +98,15 @@ def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish
 def test_as_many_events_as_are_needed_at_one_step_and_no_more(gone: int) -> None:
     """A robot sees so many books in its room, and at the next step none."""
     large = knowledge("office", office(gone))
-    true = {"loc(rob1,kitchen)", *(f"loc({book},kitchen)" for book in book_names(gone))}
+    true = {"loc(rob1,kitchen)", *parsed(f"loc({book},kitchen)" for book in book_names(gone))}
     history = History(step=1)
-    history.observe([f if f in true else f"-{f}" for f in large.description.fluents], 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.observe(
+        parsed([f if f in true else f.complement for f in large.description.fluents]), 0
+    )
+    history.happened(SELECT, True, 0)
     history.step = 2
-    history.observe([f"-loc({book},kitchen)" for book in book_names(gone)], 2)
-    both = Both(large, ("loc(rob1,library)",), 9)
+    history.observe(parsed([f"-loc({book},kitchen)" for book in book_names(gone)]), 2)
+    both = Both(large, parsed(["loc(rob1,library)"]), 9)
     explained = both.diagnose(history, Explanation())
     assert explained.explanation.size == gone
     both.intend(history, explained)

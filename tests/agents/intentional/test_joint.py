@@ -10,13 +10,15 @@ from agents.intentional.controller import IntentionalRobot
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import Activity, History, ReferenceReasoner
 from agents.shared.thought import Intention
-from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, Happening
+from asp.language import Literal
+from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation, Happening
 from asp.reasoning.knowledge import knowledge
 from testbed.config import load_config
 from testbed.experiment.resume import play_missing
 from testbed.experiment.store import read_records
 from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_joint_lives import BesideAti
+from tests.literals import parsed
 
 OFFICE = knowledge(DOMAIN, SOURCE)
 
@@ -34,8 +36,8 @@ class Unique(BesideAti):
     "wishes", [{2: Wish(0)}, {2: Wish(4)}, {1: Wish(5), 3: Wish(3)}, {3: Wish(1)}]
 )
 def test_its_explanations_are_as_small_as_those_of_ati(wishes: dict[int, Wish]) -> None:
-    initial = WORLD.state(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
-    life = live(IntentionalRobot(Unique), initial, ["loc(book2,library)"], wishes)
+    initial = WORLD.state(parsed(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"]))
+    life = live(IntentionalRobot(Unique), initial, parsed(["loc(book2,library)"]), wishes)
     assert life.achieved
 
 
@@ -49,24 +51,24 @@ def test_it_achieves_the_six_published_scenarios(tmp_path: Path) -> None:
 def test_of_all_explanations_the_one_with_the_shortest_plan_counts() -> None:
     """Book2 is gone from the kitchen, to a room next to it or to the one beyond."""
     history = History(step=3)
-    start = WORLD.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
+    start = WORLD.state(parsed(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]))
     history.observe(WORLD.literals(start), 0)
-    history.happened(f"select({GOAL})", True, 0)
-    history.activities.append(Activity(1, ("pickup(rob1,book2)",)))
+    history.happened(SELECT, True, 0)
+    history.activities.append(Activity(1, parsed(["pickup(rob1,book2)"])))
     for step, mental in ((1, "start(1)"), (2, "stop(1)")):
         history.attempt(mental, step)
         history.happened(mental, True, step)
-    history.observe(["-loc(book2,kitchen)"], 2)
-    goal = ("in_hand(rob1,book2)",)
+    history.observe(parsed(["-loc(book2,kitchen)"]), 2)
+    goal = parsed(["in_hand(rob1,book2)"])
 
     def planned(room: str) -> int:
-        event = Happening(1, f"exo_move(book2,{room})")
+        event = Happening(1, Literal.parse(f"exo_move(book2,{room})"))
         explained = Diagnosis(Explanation(unobserved=(event,)))
         return len(ReferenceReasoner(OFFICE, goal, 9).intend(history, explained).plan)
 
     assert (planned("library"), planned("office2"), planned("office1")) == (2, 2, 3)
     for room in ("office1", "office2", "library"):
-        event = Happening(1, f"exo_move(book2,{room})")
+        event = Happening(1, Literal.parse(f"exo_move(book2,{room})"))
         first = Diagnosis(Explanation(unobserved=(event,)))
         intention = JointReasoner(OFFICE, goal, 9).intend(history, first)
         assert (intention.action, len(intention.plan)) == ("start(2)", 2)
@@ -93,16 +95,16 @@ laws
 
 def test_an_explanation_that_news_makes_needless_is_not_kept() -> None:
     """ATI keeps what agrees with the news; TI considers only explanations that are smallest."""
-    goal = ("-here(rob)",)
+    goal = parsed(["-here(rob)"])
     sizes = dict[type[ReferenceReasoner], list[int]]()
     for make in (ReferenceReasoner, JointReasoner):
         reasoner = make(knowledge("lamp", LAMP), goal, 3)
         history = History(step=3)
-        history.observe(["-lit", "here(rob)"], 0)
-        history.happened(f"select({GOAL})", True, 0)
-        history.observe(["lit"], 3)
+        history.observe(parsed(["-lit", "here(rob)"]), 0)
+        history.happened(SELECT, True, 0)
+        history.observe(parsed(["lit"]), 3)
         first = reasoner.diagnose(history, Explanation()).explanation
-        history.happened("strike", True, 1)
+        history.happened(Literal.parse("strike"), True, 1)
         second = reasoner.diagnose(history, first).explanation
         sizes[make] = [first.size, second.size]
     assert sizes == {ReferenceReasoner: [1, 1], JointReasoner: [1, 0]}
@@ -129,14 +131,14 @@ laws
 @pytest.mark.parametrize("make", [JointReasoner, JointReferenceReasoner])
 def test_it_goes_on_where_some_smallest_explanation_lets_it(make: type[ReferenceReasoner]) -> None:
     """There was a noise: with or without light, which is the goal."""
-    reasoner = make(knowledge("noise", NOISE), ("lit",), 3)
+    reasoner = make(knowledge("noise", NOISE), parsed(["lit"]), 3)
     history = History(step=2)
-    history.observe(["-lit", "-noise"], 0)
-    history.happened(f"select({GOAL})", True, 0)
-    history.activities.append(Activity(1, ("light(rob)",)))
-    history.attempt("start(1)", 1)
-    history.happened("start(1)", True, 1)
-    history.observe(["noise"], 2)
+    history.observe(parsed(["-lit", "-noise"]), 0)
+    history.happened(SELECT, True, 0)
+    history.activities.append(Activity(1, parsed(["light(rob)"])))
+    history.attempt(Literal.parse("start(1)"), 1)
+    history.happened(Literal.parse("start(1)"), True, 1)
+    history.observe(parsed(["noise"]), 2)
     intention = reasoner.intend(history, reasoner.diagnose(history, Explanation()))
     assert intention.action == "light(rob)"
     assert intention.under is not None

@@ -15,6 +15,7 @@ from asp.reasoning.knowledge import Knowledge
 from benchmarks.offices import office
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
+from tests.literals import parsed
 
 DEFAULTS = """
 defaults
@@ -108,15 +109,24 @@ def test_among_books_it_explains_as_ati_and_plans_no_longer(
     data: st.DataObject, where: Place, wishes: dict[int, Wish]
 ) -> None:
     initial = data.draw(st.sampled_from(list(where.world.initial_states())))
-    goal = data.draw(st.sampled_from([("loc(book1,office2)",), ("in_hand(rob1,book2)",)]))
+    goal = data.draw(
+        st.sampled_from([parsed(["loc(book1,office2)"]), parsed(["in_hand(rob1,book2)"])])
+    )
     live(IntentionalRobot(BesideAti), initial, goal, wishes, steps=9, where=where)
 
 
 def test_ti_to_the_letter_looks_for_a_book_where_a_default_says() -> None:
     start = LIBRARY.world.state(
-        ["loc(rob1,kitchen)", "loc(book1,library)", "loc(book2,office1)", "loc(cookbook1,kitchen)"]
+        parsed(
+            [
+                "loc(rob1,kitchen)",
+                "loc(book1,library)",
+                "loc(book2,office1)",
+                "loc(cookbook1,kitchen)",
+            ]
+        )
     )
-    goal = ("in_hand(rob1,book1)",)
+    goal = parsed(["in_hand(rob1,book1)"])
     life = live(IntentionalRobot(BesideTheLetter), start, goal, steps=6, where=LIBRARY)
     actions = [d.action for d in life.decisions]
     assert actions == ["wait", "move(rob1,library)", "pickup(rob1,book1)", "finish"]

@@ -14,6 +14,7 @@ from testbed.protocol import Decision
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
 from tests.agents.intentional.test_incremental import Both
+from tests.literals import parsed
 
 LIBRARY = place("library", dark=True)
 OFFICE = place("office", dark=True)
@@ -21,7 +22,7 @@ BRIGHT = place("library")
 LIBRARY_STATES = list(LIBRARY.world.initial_states())
 OFFICE_STATES = list(OFFICE.world.initial_states())
 LITERALS = [literal for fluent in LIBRARY.world.fluents for literal in (fluent, f"-{fluent}")]
-DELIVERED = ("loc(book1,office2)", "loc(cookbook1,office2)", "-in_hand(rob1,cookbook1)")
+DELIVERED = parsed(["loc(book1,office2)", "loc(cookbook1,office2)", "-in_hand(rob1,cookbook1)"])
 
 wishes = st.dictionaries(
     st.integers(1, 15),
@@ -42,7 +43,7 @@ def test_both_ways_agree_where_defaults_say_where_things_are(
 @slow
 @given(initial=st.sampled_from(OFFICE_STATES), wishes=wishes)
 def test_both_ways_agree_where_nothing_does(initial: int, wishes: dict[int, Wish]) -> None:
-    goal = ("loc(book1,office2)", "loc(book2,office1)")
+    goal = parsed(["loc(book1,office2)", "loc(book2,office1)"])
     live(IntentionalRobot(Both), initial, goal, wishes, steps=18, where=OFFICE)
 
 
@@ -71,7 +72,7 @@ def test_a_robot_goes_where_defaults_say_and_finds_what_it_wants() -> None:
     start = _initial(
         "loc(rob1,office2)", "loc(book1,library)", "loc(book2,library)", "loc(cookbook1,kitchen)"
     )
-    life = live(IntentionalRobot(), start, ("in_hand(rob1,book1)",), where=LIBRARY)
+    life = live(IntentionalRobot(), start, parsed(["in_hand(rob1,book1)"]), where=LIBRARY)
     assert _actions(list(life.decisions)) == [
         "move(rob1,kitchen)",
         "move(rob1,library)",
@@ -85,7 +86,7 @@ def test_a_robot_that_sees_otherwise_goes_where_the_next_default_says() -> None:
     start = _initial(
         "loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,library)", "loc(cookbook1,kitchen)"
     )
-    life = live(IntentionalRobot(), start, ("loc(book1,kitchen)",), where=LIBRARY)
+    life = live(IntentionalRobot(), start, parsed(["loc(book1,kitchen)"]), where=LIBRARY)
     assert _actions(list(life.decisions)) == [
         "move(rob1,library)",
         "move(rob1,kitchen)",
@@ -104,7 +105,7 @@ def test_a_cookbook_is_looked_for_in_the_kitchen() -> None:
     start = _initial(
         "loc(rob1,office2)", "loc(book1,library)", "loc(book2,library)", "loc(cookbook1,kitchen)"
     )
-    life = live(IntentionalRobot(), start, ("in_hand(rob1,cookbook1)",), where=LIBRARY)
+    life = live(IntentionalRobot(), start, parsed(["in_hand(rob1,cookbook1)"]), where=LIBRARY)
     assert _actions(list(life.decisions)) == ["move(rob1,kitchen)", "pickup(rob1,cookbook1)"]
 
 
@@ -113,9 +114,11 @@ def test_without_defaults_what_must_be_somewhere_is_where_comes_first(
     reasoner: type[ReferenceReasoner] | None,
 ) -> None:
     """From office2 the robot sees neither book, and assumes the first room of all."""
-    start = OFFICE.world.state(["loc(rob1,office2)", "loc(book1,library)", "loc(book2,library)"])
+    start = OFFICE.world.state(
+        parsed(["loc(rob1,office2)", "loc(book1,library)", "loc(book2,library)"])
+    )
     robot = IntentionalRobot() if reasoner is None else IntentionalRobot(reasoner)
-    life = live(robot, start, ("loc(book1,office2)",), where=OFFICE, steps=2)
+    life = live(robot, start, parsed(["loc(book1,office2)"]), where=OFFICE, steps=2)
     assert {"loc(book1,kitchen)", "loc(book2,kitchen)"} <= set(life.decisions[0].trace.belief)
     assert "locked(library)" not in life.decisions[0].trace.belief
 
@@ -131,9 +134,9 @@ def test_a_defined_fluent_that_is_seen_at_the_start_needs_its_reason(locked: boo
     source = SIGNAL + "sees\n  R sees signal if robot(R).\n"
     world = world_of(parse_description(source, "office.al"))
     where = Place("office", world, source, dark=True)
-    true = ["loc(rob1,office1)", "loc(book1,office1)", "loc(book2,office1)"]
-    start = world.state([*true, *["locked(library)"] * locked])
-    life = live(IntentionalRobot(Both), start, ("loc(book1,office2)",), steps=3, where=where)
+    true = parsed(["loc(rob1,office1)", "loc(book1,office1)", "loc(book2,office1)"])
+    start = world.state(parsed([*true, *["locked(library)"] * locked]))
+    life = live(IntentionalRobot(Both), start, parsed(["loc(book1,office2)"]), steps=3, where=where)
     assert ("locked(library)" in life.decisions[0].trace.belief) is locked
 
 
@@ -142,7 +145,7 @@ def test_an_exception_is_assumed_rather_than_an_event_that_would_do() -> None:
     start = _initial(
         "loc(rob1,office1)", "loc(book1,library)", "loc(book2,kitchen)", "loc(cookbook1,kitchen)"
     )
-    goal = ("loc(book2,office1)",)
+    goal = parsed(["loc(book2,office1)"])
     life = live(IntentionalRobot(), start, goal, where=LIBRARY)
     explanations = [d.trace.explanation for d in life.decisions if d.trace.explanation]
     assert explanations[-1].exceptions == ["-loc(book2,library)", "-loc(book2,office1)"]
@@ -154,7 +157,7 @@ def test_a_robot_that_checks_does_not_finish_on_a_default(room: str) -> None:
     start = _initial(
         "loc(rob1,office2)", f"loc(book1,{room})", "loc(book2,library)", "loc(cookbook1,kitchen)"
     )
-    goal = ("loc(book1,library)",)
+    goal = parsed(["loc(book1,library)"])
     trusting = live(IntentionalRobot(), start, goal, where=LIBRARY, feedback=False)
     assert [d.action for d in trusting.decisions] == ["finish"]
     checking = live(CheckingRobot(), start, goal, where=LIBRARY, feedback=False)

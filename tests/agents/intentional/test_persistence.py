@@ -9,7 +9,8 @@ import pytest
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import Activity, History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
-from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.language import Literal
+from asp.reasoning.diagnosis import GOAL, SELECT, Explanation
 from asp.reasoning.knowledge import knowledge
 from tests.agents.intentional.lives import (
     DOMAIN,
@@ -18,11 +19,12 @@ from tests.agents.intentional.lives import (
     Wish,
     live,
 )
+from tests.literals import parsed
 from tests.oracle import minimal_actions
 
 STATES = list(WORLD.initial_states())
-GOAL_OF_ONE = ("loc(book2,office2)",)
-PLAN = ("move(rob1,office2)", "move(rob1,kitchen)", "pickup(rob1,book2)")
+GOAL_OF_ONE = parsed(["loc(book2,office2)"])
+PLAN = parsed(["move(rob1,office2)", "move(rob1,kitchen)", "pickup(rob1,book2)"])
 
 
 def _history(stopped: bool) -> History:
@@ -31,17 +33,17 @@ def _history(stopped: bool) -> History:
     The robot is told so late that it has an activity for the goal, or has had one.
     """
     history = History()
-    start = {"loc(book2,kitchen)", "loc(book1,kitchen)", "loc(rob1,office1)"}
-    history.observe([f if f in start else f"-{f}" for f in WORLD.fluents], 0)
-    history.happened(f"select({GOAL})", True, 0)
+    start = parsed({"loc(book2,kitchen)", "loc(book1,kitchen)", "loc(rob1,office1)"})
+    history.observe(parsed([f if f in start else f.complement for f in WORLD.fluents]), 0)
+    history.happened(SELECT, True, 0)
     history.activities.append(Activity(1, PLAN))
-    history.attempt("start(1)", 1)
-    history.happened("start(1)", True, 1)
-    history.happened("exo_move(book2,office2)", True, 2)
-    history.happened("exo_move(book2,library)", True, 3)
+    history.attempt(Literal.parse("start(1)"), 1)
+    history.happened(Literal.parse("start(1)"), True, 1)
+    history.happened(Literal.parse("exo_move(book2,office2)"), True, 2)
+    history.happened(Literal.parse("exo_move(book2,library)"), True, 3)
     if stopped:
-        history.attempt("stop(1)", 4)
-        history.happened("stop(1)", True, 4)
+        history.attempt(Literal.parse("stop(1)"), 4)
+        history.happened(Literal.parse("stop(1)"), True, 4)
     history.step = 5
     return history
 

@@ -8,13 +8,15 @@ import pytest
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
-from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation
+from asp.language import Literal
+from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge
 from tests.agents.intentional.lives import OFFICE, Place, place
+from tests.literals import parsed
 
 LIBRARY = place("library")
-WANTED = ("loc(book1,office2)", "loc(cookbook1,office2)")
-HERE = ("loc(rob1,office2)", "-in_hand(rob1,book1)", "-in_hand(rob1,book2)")
+WANTED = parsed(["loc(book1,office2)", "loc(cookbook1,office2)"])
+HERE = parsed(["loc(rob1,office2)", "-in_hand(rob1,book1)", "-in_hand(rob1,book2)"])
 ALONE = (*HERE, "-in_hand(rob1,cookbook1)")
 
 Make = Callable[[Knowledge, tuple[str, ...], int], Reasoner]
@@ -33,17 +35,17 @@ class Watching:
         domain = knowledge(where.domain, where.source)
         self._reasoner = make(domain, WANTED if where is LIBRARY else WANTED[:1], 20)
         self._history = History()
-        self._history.observe(initial, 0)
-        self._history.happened(f"select({GOAL})", True, 0)
+        self._history.observe(parsed(initial), 0)
+        self._history.happened(SELECT, True, 0)
         self.adopted = Explanation()
 
     def told(self, event: str, step: int) -> None:
-        self._history.happened(event, True, step)
+        self._history.happened(Literal.parse(event), True, step)
 
     def sees(self, step: int, *literals: str) -> Diagnosis:
         """The explanation after it looked at this step."""
         self._history.step = step
-        self._history.observe(literals, step)
+        self._history.observe(parsed(literals), step)
         explained = self._reasoner.diagnose(self._history, self.adopted)
         self.adopted = explained.explanation
         return explained
@@ -76,43 +78,45 @@ def test_where_nothing_speaks_against_them_defaults_hold(make: Make) -> None:
 
 
 def test_where_one_default_fails_the_next_one_holds(make: Make) -> None:
-    explained = _after(make, {2: ("-loc(book1,library)",)})
+    explained = _after(make, {2: parsed(["-loc(book1,library)"])})
     assert _of(explained) == (["shelved(book1)"], [])
     assert "loc(book1,office1)" in explained.explanation.initial
 
 
 def test_two_exceptions_are_preferred_to_one_event(make: Make) -> None:
     """One event alone would do: somebody took the book from the library at step 1."""
-    explained = _after(make, {2: ("-loc(book1,library)",), 4: ("-loc(book1,office1)",)})
+    explained = _after(
+        make, {2: parsed(["-loc(book1,library)"]), 4: parsed(["-loc(book1,office1)"])}
+    )
     assert _of(explained) == (["lent(book1)", "shelved(book1)"], [])
 
 
 def test_four_exceptions_are_preferred_to_two_events(make: Make) -> None:
-    explained = _after(make, {2: ("loc(book1,kitchen)", "loc(book2,kitchen)")})
+    explained = _after(make, {2: parsed(["loc(book1,kitchen)", "loc(book2,kitchen)"])})
     exceptions, events = _of(explained)
     assert exceptions == ["lent(book1)", "lent(book2)", "shelved(book1)", "shelved(book2)"]
     assert events == []
 
 
 def test_a_stated_exception_is_none(make: Make) -> None:
-    assert _of(_after(make, {2: ("-loc(cookbook1,library)",)})) == ([], [])
+    assert _of(_after(make, {2: parsed(["-loc(cookbook1,library)"])})) == ([], [])
 
 
 def test_where_exceptions_do_not_suffice_there_was_an_event(make: Make) -> None:
-    seen = {1: ("loc(book1,library)",), 3: ("loc(book1,kitchen)",)}
+    seen = {1: parsed(["loc(book1,library)"]), 3: parsed(["loc(book1,kitchen)"])}
     assert _of(_after(make, seen)) == ([], [(2, "exo_move(book1,kitchen)")])
 
 
 def test_as_few_events_as_possible_even_if_that_takes_exceptions(make: Make) -> None:
     """Two events and no exception would do, or one event with two exceptions."""
-    seen = {2: ("loc(book1,kitchen)",), 4: ("loc(book1,office2)",)}
+    seen = {2: parsed(["loc(book1,kitchen)"]), 4: parsed(["loc(book1,office2)"])}
     explained = _after(make, seen)
     assert _of(explained) == (["lent(book1)", "shelved(book1)"], [(3, "exo_move(book1,office2)")])
 
 
 def test_beside_an_event_that_is_needed_as_few_exceptions_as_possible(make: Make) -> None:
     """The event might as well have brought book2 to where it is seen from elsewhere."""
-    seen = {2: ("-loc(book2,kitchen)",), 4: ("loc(book2,kitchen)",)}
+    seen = {2: parsed(["-loc(book2,kitchen)"]), 4: parsed(["loc(book2,kitchen)"])}
     assert _of(_after(make, seen)) == ([], [(3, "exo_move(book2,kitchen)")])
 
 
@@ -156,12 +160,14 @@ def test_one_exception_more_is_preferred_to_an_event_since(make: Make) -> None:
 def test_what_is_known_from_the_start_may_be_an_exception(make: Make) -> None:
     initial = LIBRARY.world.literals(
         LIBRARY.world.state(
-            [
-                "loc(rob1,office2)",
-                "loc(book1,office2)",
-                "loc(book2,library)",
-                "loc(cookbook1,office1)",
-            ]
+            parsed(
+                [
+                    "loc(rob1,office2)",
+                    "loc(book1,office2)",
+                    "loc(book2,library)",
+                    "loc(cookbook1,office1)",
+                ]
+            )
         )
     )
     robot = Watching(make, initial)
@@ -174,7 +180,7 @@ def test_what_is_known_from_the_start_may_be_an_exception(make: Make) -> None:
 
 def test_what_is_in_the_hand_is_no_exception(make: Make) -> None:
     initial = (*(h for h in ALONE if h != "-in_hand(rob1,book1)"), "in_hand(rob1,book1)")
-    assert _of(_after(make, {1: ("loc(book1,office2)",)}, initial)) == ([], [])
+    assert _of(_after(make, {1: parsed(["loc(book1,office2)"])}, initial)) == ([], [])
 
 
 def test_without_defaults_there_is_nothing_to_explain_until_something_moves(make: Make) -> None:
@@ -183,8 +189,8 @@ def test_without_defaults_there_is_nothing_to_explain_until_something_moves(make
         {literal for literal in robot.sees(step, *seen).explanation.initial if literal[0] == "l"}
         for step, seen in (
             (1, ()),
-            (2, ("-loc(book1,kitchen)",)),
-            (3, ("-loc(book1,office1)", "locked(library)")),
+            (2, parsed(["-loc(book1,kitchen)"])),
+            (3, parsed(["-loc(book1,office1)", "locked(library)"])),
         )
     ]
     assert assumed == [

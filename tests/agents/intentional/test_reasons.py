@@ -13,7 +13,8 @@ from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared.sessions import sessions_of
-from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, Happening
+from asp.language import Literal
+from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation, Happening
 from asp.reasoning.knowledge import knowledge
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.solving import Limits, ground, select, theory
@@ -21,10 +22,11 @@ from testbed.protocol import Decision, Event, Percept, Task
 from testbed.world import World, world_of
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_reports import CART
+from tests.literals import parsed
 
 OFFICE = knowledge(DOMAIN, SOURCE)
-START = WORLD.state(["loc(rob1,office2)", "in_hand(rob1,book1)", "loc(book2,kitchen)"])
-LITERALS = [literal for fluent in WORLD.fluents for literal in (fluent, f"-{fluent}")]
+START = WORLD.state(parsed(["loc(rob1,office2)", "in_hand(rob1,book1)", "loc(book2,kitchen)"]))
+LITERALS = [literal for fluent in WORLD.fluents for literal in (fluent, fluent.complement)]
 
 
 def _contrary(decision: Decision) -> list[tuple[int, str, str]]:
@@ -56,7 +58,7 @@ def test_a_book_that_is_gone() -> None:
 
 def test_a_plan_whose_end_misses_the_goal() -> None:
     """The book is put where it should be, and another one is not there any more."""
-    goal = ("loc(book1,kitchen)", "loc(book2,kitchen)", "-in_hand(rob1,book1)")
+    goal = parsed(["loc(book1,kitchen)", "loc(book2,kitchen)", "-in_hand(rob1,book1)"])
     for wish in range(4):
         life = live(IntentionalRobot(), START, goal, {2: Wish(wish)})
         stops = [d for d in life.decisions if d.trace.mental == "stop(1)"]
@@ -70,9 +72,9 @@ def test_a_plan_whose_end_misses_the_goal() -> None:
 def test_news_that_cannot_be_true_contradicts_what_makes_it_impossible() -> None:
     history = History()
     history.observe(WORLD.literals(START), 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.happened(SELECT, True, 0)
     history.step = 2
-    history.happened("exo_move(book1,office1)", True, 1)
+    history.happened(Literal.parse("exo_move(book1,office1)"), True, 1)
     reasons = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20)
     (found,) = reasons.contradictions(history, Explanation(), frozenset(WORLD.true_atoms(START)), 1)
     assert (found.step, found.observed, found.believed) == (
@@ -87,9 +89,9 @@ def test_news_that_cannot_be_true_contradicts_what_makes_it_impossible() -> None
     steps=st.integers(1, 4),
     seen=st.sampled_from(
         [
-            ("loc(book2,office1)",),
-            ("-loc(book2,kitchen)",),
-            ("loc(book2,library)", "locked(library)"),
+            parsed(["loc(book2,office1)"]),
+            parsed(["-loc(book2,kitchen)"]),
+            parsed(["loc(book2,library)", "locked(library)"]),
         ]
     ),
     told=st.booleans(),
@@ -99,10 +101,10 @@ def test_alternatives_are_all_explanations_of_the_plain_theory(
 ) -> None:
     history = History()
     history.observe(WORLD.literals(START), 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.happened(SELECT, True, 0)
     history.step = steps
     if told:
-        history.happened("exo_move(book2,office2)", True, 1)
+        history.happened(Literal.parse("exo_move(book2,office2)"), True, 1)
     history.observe(seen, steps)
     plain = _smallest_in_the_plain_theory(history)
     if plain is None:
@@ -162,9 +164,9 @@ def test_no_more_time_than_for_a_decision_is_spent_on_alternatives(
 ) -> None:
     history = History()
     history.observe(WORLD.literals(START), 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.happened(SELECT, True, 0)
     history.step = 3
-    history.observe(["-loc(book2,kitchen)"], 3)
+    history.observe(parsed(["-loc(book2,kitchen)"]), 3)
     explained = reasoner(OFFICE, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Explanation())
     assert IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, explained)[0]
     hurried = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20, limits=Limits(0))
@@ -174,10 +176,10 @@ def test_no_more_time_than_for_a_decision_is_spent_on_alternatives(
 def test_more_alternatives_than_are_listed_are_said_to_be_there() -> None:
     history = History()
     history.observe(WORLD.literals(START), 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.happened(SELECT, True, 0)
     history.step = 30
-    history.observe(["loc(book2,office1)"], 30)
-    diagnosis = Explanation((Happening(29, "exo_move(book2,office1)"),))
+    history.observe(parsed(["loc(book2,office1)"]), 30)
+    diagnosis = Explanation((Happening(29, Literal.parse("exo_move(book2,office1)")),))
     others, more = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
         history, Diagnosis(diagnosis)
     )
@@ -209,7 +211,7 @@ def test_out_of_reach_is_what_no_search_finds(start: int, goal: list[str]) -> No
 
 def test_nor_where_some_fluents_are_defined() -> None:
     world, reach = world_of(CART.description), sessions_of(CART).reach
-    literals = [literal for fluent in world.fluents for literal in (fluent, f"-{fluent}")]
+    literals = [literal for fluent in world.fluents for literal in (fluent, fluent.complement)]
     for start in world.initial_states():
         reachable = _reachable(world, start)
         for goal in combinations(literals, 2):
@@ -222,7 +224,7 @@ def test_nor_where_some_fluents_are_defined() -> None:
     ("goal", "provable"),
     [
         (("shut",), True),  # only others shut the gate
-        (("at(left)", "at(right)"), True),  # no state has the cart on both sides
+        (parsed(["at(left)", "at(right)"]), True),  # no state has the cart on both sides
         (("at(right)", "lit"), False),  # achievable
         (("at(right)", "safe"), False),
     ],
@@ -233,7 +235,7 @@ def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     plans = IncrementalPlanner(CART.description.source, "cart.al")
     reach = Reachability(CART.description, sessions_of(CART).transitions, plans.reachable)
-    assert (reach.reachable(frozenset(["at(left)"]), goal) is False) is provable
+    assert (reach.reachable(frozenset(parsed(["at(left)"])), parsed(goal)) is False) is provable
 
 
 def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -241,14 +243,18 @@ def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) 
     moved = knowledge("cart", CART.description.source.replace("if lit, -shut", "if at(left)"))
     plans = IncrementalPlanner(moved.description.source, "cart.al")
     reach = Reachability(moved.description, sessions_of(moved).transitions, plans.reachable)
-    assert reach.reachable(frozenset(["at(left)", "safe"]), ("-safe",)) is not False
+    assert reach.reachable(frozenset(parsed(["at(left)", "safe"])), parsed(["-safe"])) is not False
 
 
 @pytest.mark.parametrize(
     ("goal", "limit", "reason"),
     [
-        (["in_hand(rob1,book1)", "in_hand(rob1,book2)"], 20, "out of reach: no plan of any length"),
-        (["loc(book2,office1)"], 3, "no plan of at most 3 actions achieves the goal"),
+        (
+            parsed(["in_hand(rob1,book1)", "in_hand(rob1,book2)"]),
+            20,
+            "out of reach: no plan of any length",
+        ),
+        (parsed(["loc(book2,office1)"]), 3, "no plan of at most 3 actions achieves the goal"),
     ],
 )
 def test_giving_up_says_whether_it_is_the_limit(goal: list[str], limit: int, reason: str) -> None:
@@ -261,7 +267,7 @@ def test_giving_up_says_whether_it_is_the_limit(goal: list[str], limit: int, rea
 def test_where_the_time_runs_out_the_robot_waits_and_goes_on() -> None:
     robot = IntentionalRobot()
     waiting = _first_decision(robot, list(BOTH_IN_THE_LIBRARY), 20, decision_s=1e-9)
-    assert (waiting.action, waiting.trace.intention) == ("wait", "")
+    assert (waiting.action, waiting.trace.intention) == ("wait", None)
     assert waiting.trace.reason == "the time for a decision ran out"
     robot._limits = Limits()
     decision = robot.act(_percept(2))

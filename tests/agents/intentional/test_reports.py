@@ -9,9 +9,11 @@ import pytest
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared.thought import Reasoner
-from asp.reasoning.diagnosis import GOAL, Explanation
+from asp.language import Literal
+from asp.reasoning.diagnosis import SELECT, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import LimitError, Limits, deciding
+from tests.literals import parsed
 
 SOURCE = (Path(__file__).parents[2] / "asp" / "reasoning" / "cart.al").read_text(encoding="utf-8")
 CART = knowledge("cart", SOURCE)
@@ -32,17 +34,17 @@ class Mind:
         goal: tuple[str, ...] = ("at(right)", "lit"),
     ) -> None:
         self.history = History()
-        self.history.observe(start, 0)
-        self.history.happened(f"select({GOAL})", True, 0)
-        self._reasoner = reasoner(CART, goal, 3)
+        self.history.observe(parsed(start), 0)
+        self.history.happened(SELECT, True, 0)
+        self._reasoner = reasoner(CART, parsed(goal), 3)
         self.held = Explanation()
         self.kept = True
 
     def next(self, news: Sequence[Happening] = (), seen: Sequence[str] = ()) -> None:
         for step, event in news:
-            self.history.happened(event, True, step)
+            self.history.happened(Literal.parse(event), True, step)
         self.history.step += 1
-        self.history.observe(seen, self.history.step)
+        self.history.observe(parsed(seen), self.history.step)
         explained = self._reasoner.diagnose(self.history, self.held)
         self.kept = explained.explanation == self.held.left(self.history)
         self.held = explained.explanation
@@ -80,8 +82,8 @@ def test_what_is_told_of_a_defined_goal_is_explained(
     mind = Mind(reasoner, ["at(left)", "-at(right)", "lit", start], (goal,))
     mind.next()
     if start == "shut":
-        mind.history.attempt("open", 1)
-        mind.history.happened("open", True, 1)
+        mind.history.attempt(Literal.parse("open"), 1)
+        mind.history.happened(Literal.parse("open"), True, 1)
     mind.next()
     mind.next(seen=[told])
     assert mind.assumed == ([(2, "shut_gate")], [])
@@ -112,7 +114,7 @@ def test_where_an_event_explains_as_well_the_report_is_believed(reasoner: Make) 
     mind = Mind(reasoner)
     mind.next()
     mind.next(news=[(1, "push(right)")])
-    mind.next(seen=["at(left)"])
+    mind.next(seen=parsed(["at(left)"]))
     assert mind.assumed == ([(2, "push(left)")], [])
 
 
@@ -121,8 +123,8 @@ def test_one_false_report_is_preferred_to_two_events(reasoner: Make) -> None:
     """It was told that the cart went right and back again, and sees it on the right."""
     mind = Mind(reasoner)
     mind.next()
-    mind.next(news=[(1, "push(right)")], seen=["at(right)"])
-    mind.next(news=[(2, "push(left)")], seen=["at(right)"])
+    mind.next(news=[(1, "push(right)")], seen=parsed(["at(right)"]))
+    mind.next(news=[(2, "push(left)")], seen=parsed(["at(right)"]))
     assert mind.assumed == ([], [(2, "push(left)")])
 
 
@@ -140,7 +142,7 @@ def test_late_news_replaces_what_was_assumed(reasoner: Make) -> None:
     mind = Mind(reasoner)
     mind.next()
     mind.next(seen=["shut"])
-    mind.next(seen=["at(right)"])
+    mind.next(seen=parsed(["at(right)"]))
     assert mind.assumed == ([(1, "shut_gate"), (2, "push(right)")], [])
     mind.next(news=[(1, "shut_gate")])
     assert mind.assumed == ([(2, "push(right)")], [])
@@ -152,7 +154,7 @@ def test_late_news_is_not_forgotten_where_the_time_for_it_ran_out(reasoner: Make
     mind = Mind(reasoner)
     mind.next()
     mind.next(seen=["shut"])
-    mind.next(seen=["at(right)"])
+    mind.next(seen=parsed(["at(right)"]))
     with pytest.raises(LimitError), deciding(Limits(0)):
         mind.next(news=[(1, "shut_gate")])
     mind.next()
@@ -223,28 +225,30 @@ laws
 @both
 def test_a_report_is_believed_again_where_later_news_needs_it(reasoner: Make) -> None:
     """Only what was latched is unlatched: the gate was shut, and then opened."""
-    gate = reasoner(knowledge("gate", GATE), ("shut",), 3)
+    gate = reasoner(knowledge("gate", GATE), parsed(["shut"]), 3)
     history = History(step=4)
-    history.observe(["-shut", "-latched"], 0)
-    history.happened(f"select({GOAL})", True, 0)
-    history.happened("shut_gate", True, 1)
-    history.observe(["-shut"], 4)
+    history.observe(parsed(["-shut", "-latched"]), 0)
+    history.happened(SELECT, True, 0)
+    history.happened(Literal.parse("shut_gate"), True, 1)
+    history.observe(parsed(["-shut"]), 4)
     first = gate.diagnose(history, Explanation()).explanation
     assert [(e.step, e.action) for e in first.distrusted] == [(1, "shut_gate")]
-    history.happened("unlatch", True, 2)
-    history.happened("swing_open", True, 3)
+    history.happened(Literal.parse("unlatch"), True, 2)
+    history.happened(Literal.parse("swing_open"), True, 3)
     explained = gate.diagnose(history, first)
     assert explained.explanation == Explanation()
 
 
 @both
-@pytest.mark.parametrize(("goal", "then"), [("at(right)", "go(right)"), ("safe", "switch_on")])
+@pytest.mark.parametrize(
+    ("goal", "then"), [parsed(["at(right)", "go(right)"]), ("safe", "switch_on")]
+)
 def test_what_is_assumed_of_the_start_is_planned_from(goal: str, then: str, reasoner: Make) -> None:
     """By default the gate is shut; the lamp is unknown, and assumed to be dark."""
-    mind = reasoner(knowledge("cart", f"{SOURCE}\ndefaults\n  gate: shut.\n"), (goal,), 3)
+    mind = reasoner(knowledge("cart", f"{SOURCE}\ndefaults\n  gate: shut.\n"), parsed([goal]), 3)
     history = History(step=1)
-    history.observe(["at(left)", "-at(right)"], 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.observe(parsed(["at(left)", "-at(right)"]), 0)
+    history.happened(SELECT, True, 0)
     intention = mind.intend(history, mind.diagnose(history, Explanation()))
     assert (intention.action, intention.plan) == ("start(1)", ("open", then))
 
@@ -253,7 +257,7 @@ def test_what_is_assumed_of_the_start_is_planned_from(goal: str, then: str, reas
 def test_a_goal_that_was_finished_is_a_past_like_others(reasoner: Make) -> None:
     mind = Mind(reasoner)
     mind.next()
-    mind.history.attempt("finish", 1)
-    mind.history.happened("finish", True, 1)
+    mind.history.attempt(Literal.parse("finish"), 1)
+    mind.history.happened(Literal.parse("finish"), True, 1)
     mind.next(seen=["at(left)", "shut"])
     assert mind.assumed == ([(1, "shut_gate")], [])

@@ -14,6 +14,7 @@ from benchmarks.offices import book_names, office
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live
 from tests.agents.intentional.test_incremental import Both, wishes
+from tests.literals import parsed
 
 
 def made(books: int, rooms: int, shape: str, secure: int = 1) -> Place:
@@ -31,8 +32,8 @@ def some_state(place: Place, seed: int) -> int:
     """A state drawn with the seed: things anywhere, locks locked or not, nothing in the hand."""
     rng = random.Random(seed)
     sorts = place.world.description.sorts
-    true = [f"loc({thing},{rng.choice(sorts['room'])})" for thing in sorts["thing"]]
-    true += [f"locked({room})" for room in sorts["secure_room"] if rng.random() < 0.5]
+    true = parsed([f"loc({thing},{rng.choice(sorts['room'])})" for thing in sorts["thing"]])
+    true += parsed([f"locked({room})" for room in sorts["secure_room"] if rng.random() < 0.5])
     return place.world.state(true)
 
 
@@ -44,5 +45,5 @@ def test_every_decision_is_the_same_in_any_office(
 ) -> None:
     books = book_names(len(place.world.description.sorts["book"]))[:wanted]
     locks = place.world.description.sorts["secure_room"]
-    goal = [f"loc({book},{locks[-1]})" for book in books]
+    goal = parsed([f"loc({book},{locks[-1]})" for book in books])
     live(IntentionalRobot(Both), some_state(place, seed), goal, wishes, steps=16, where=place)

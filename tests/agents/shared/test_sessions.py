@@ -17,13 +17,19 @@ from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent, Session
 from testbed.protocol import Task
 from tests.agents.intentional.lives import OFFICE, live
+from tests.literals import parsed
 
 T = TypeVar("T")
 
 DOMAIN, SOURCE, WORLD = OFFICE.domain, OFFICE.source, OFFICE.world
-INITIAL = WORLD.state(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
-OUT_OF_REACH = ["loc(book1,library)", "loc(book1,office1)"]
-GOALS = (["loc(rob1,office2)"], ["loc(book1,library)"], OUT_OF_REACH, ["loc(rob1,library)"])
+INITIAL = WORLD.state(parsed(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]))
+OUT_OF_REACH = parsed(["loc(book1,library)", "loc(book1,office1)"])
+GOALS = (
+    parsed(["loc(rob1,office2)"]),
+    parsed(["loc(book1,library)"]),
+    OUT_OF_REACH,
+    parsed(["loc(rob1,library)"]),
+)
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ from agents.intentional.reasoners import History as IntentionalHistory
 from agents.shared.thought import Intention
 from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner
+from asp.language import Literal
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History, InconsistentHistoryError
 from asp.reasoning.knowledge import Knowledge, knowledge
 from tests.agents.intentional import test_reports as cart
@@ -24,6 +25,7 @@ from tests.agents.intentional.lives import (
     Wish,
     live,
 )
+from tests.literals import parsed
 
 
 class Both:
@@ -69,13 +71,13 @@ def test_what_only_an_event_at_step_0_explains_is_explained_where_no_goal_is_sel
     history = History(step=1)
     unlocked = next(state for state in STATES if WORLD.holds(state, "-locked(library)"))
     history.observe(WORLD.literals(unlocked), 0)
-    history.observe(["locked(library)"], 1)
+    history.observe(parsed(["locked(library)"]), 1)
     office = knowledge(DOMAIN, SOURCE)
     for reasoner in (IncrementalReasoner, ReferenceReasoner):
         diagnosis = reasoner(office, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Explanation())
         assert diagnosis.explanation.unobserved == ((0, "exo_lock(library)"),)
     selecting = IntentionalHistory(step=1, moments=history.moments)
-    selecting.happened("select(my_goal)", True, 0)
+    selecting.happened(Literal.parse("select(my_goal)"), True, 0)
     for intentional in (reasoners.IncrementalReasoner, reasoners.ReferenceReasoner):
         with pytest.raises(InconsistentHistoryError):
             intentional(office, BOTH_IN_THE_LIBRARY, 20).diagnose(selecting, Explanation())
@@ -86,10 +88,10 @@ def test_no_plan_begins_with_a_report_that_is_distrusted(
     reasoner: type[IncrementalReasoner] | type[ReferenceReasoner],
 ) -> None:
     history = History(step=2)
-    history.observe(cart.START, 0)
-    history.happened("shut_gate", True, 1)
-    history.observe(["-shut"], 2)
-    assert _plan(reasoner, cart.SOURCE, ("at(right)",), history).plan == ("go(right)",)
+    history.observe(parsed(cart.START), 0)
+    history.happened(Literal.parse("shut_gate"), True, 1)
+    history.observe(parsed(["-shut"]), 2)
+    assert _plan(reasoner, cart.SOURCE, parsed(["at(right)"]), history).plan == ("go(right)",)
 
 
 @pytest.mark.parametrize("reasoner", [IncrementalReasoner, ReferenceReasoner])
@@ -98,7 +100,7 @@ def test_plans_begin_where_defaults_and_the_order_of_explanations_say(
     goal: str, plan: str, reasoner: type[IncrementalReasoner] | type[ReferenceReasoner]
 ) -> None:
     history = History(step=1)
-    history.observe(["at(left)", "-at(right)"], 0)
+    history.observe(parsed(["at(left)", "-at(right)"]), 0)
     source = f"{cart.SOURCE}\ndefaults\n  gate: shut.\n"
     assert _plan(reasoner, source, (goal,), history).plan == (plan,)
 
@@ -109,5 +111,5 @@ def _plan(
     goal: tuple[str, ...],
     history: History,
 ) -> Intention:
-    reasoner = make(knowledge("cart", source), goal, 3)
+    reasoner = make(knowledge("cart", source), parsed(goal), 3)
     return reasoner.intend(history, reasoner.diagnose(history, Explanation()))

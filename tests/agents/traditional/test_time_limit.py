@@ -21,10 +21,11 @@ from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, live
+from tests.literals import parsed
 
 LATE = "the time ran out"
 
-START = WORLD.state(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
+START = WORLD.state(parsed(["loc(rob1,office2)", "loc(book1,kitchen)", "loc(book2,kitchen)"]))
 
 
 class Hurried(IncrementalReasoner):

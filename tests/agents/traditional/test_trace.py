@@ -12,8 +12,9 @@ from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Contradiction, Decision
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
+from tests.literals import parsed
 
-IN_THE_KITCHEN = ["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]
+IN_THE_KITCHEN = parsed(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"])
 
 
 def _disturbed(step: int, event: str) -> list[Decision]:

@@ -10,7 +10,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language import arguments, name
 from asp.refinement import Refinement, load
 
 TABLE = {  # objects by their parts, rooms, cells a room
@@ -32,7 +31,7 @@ def refinement(size: LevelSize) -> Refinement:
 
 def neighbours(of: Refinement, static: str) -> set[tuple[str, ...]]:
     statics = of.statics
-    return {arguments(fact) for fact in statics if name(fact) == static}
+    return {fact.arguments for fact in statics if fact.name == static}
 
 
 @pytest.mark.parametrize("level", TABLE)

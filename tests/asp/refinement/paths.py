@@ -8,7 +8,7 @@ from functools import cache
 
 import clingo
 
-from asp.language import Problems, arguments, atom, complement, is_positive, signature_of, syntax
+from asp.language import Action, Fluent, Literal, Problems, signature_of, syntax
 from asp.refinement import Refinement
 from asp.solving import first_model, ground, solving
 from asp.translation import translate_source
@@ -35,7 +35,7 @@ class Paths:
         self._literals: dict[str, int] = {}
         self._control = ground([program, _ONE_ACTION.format(kind=kind)], {"n": steps}, [])
 
-    def find(self, start: Iterable[str], end: Iterable[str]) -> list[str] | None:
+    def find(self, start: Iterable[Literal], end: Iterable[Literal]) -> list[Action] | None:
         """The actions of one path; the states are told by literals, as far as constants are known.
 
         None: there is no path.
@@ -45,7 +45,7 @@ class Paths:
             if model is None:
                 return None
             shown = [s for s in model.symbols(shown=True) if s.positive]
-        done = [(s.arguments[1].number, str(s.arguments[0])) for s in shown]
+        done = [(s.arguments[1].number, Action.parse(str(s.arguments[0]))) for s in shown]
         return [action for _, action in sorted(done)]
 
     def _literal(self, told: str) -> int:
@@ -55,34 +55,34 @@ class Paths:
             self._literals[told] = -_TRUE if atom is None else atom.literal
         return self._literals[told]
 
-    def _told(self, literals: Iterable[str], step: int) -> list[str]:
+    def _told(self, literals: Iterable[Literal], step: int) -> list[str]:
         return [
-            f"{'' if is_positive(literal) else '-'}holds({atom(literal)},{step})"
+            f"{'' if literal.is_positive else '-'}holds({literal.atom},{step})"
             for literal in literals
-            if self.constants.issuperset(arguments(literal))
+            if self.constants.issuperset(literal.arguments)
         ]
 
 
-def literals_of(refinement: Refinement, state: frozenset[str]) -> list[str]:
+def literals_of(refinement: Refinement, state: frozenset[Fluent]) -> list[Literal]:
     """The coarse state, complete."""
-    return [f if f in state else complement(f) for f in refinement.description.fluents]
+    return [f if f in state else f.complement for f in refinement.description.fluents]
 
 
 def drawn_refinement(
-    refinement: Refinement, state: frozenset[str], rng: random.Random
-) -> list[str]:
+    refinement: Refinement, state: frozenset[Fluent], rng: random.Random
+) -> list[Literal]:
     """A refinement of a state of a level: a cell for each thing, a part of what is held."""
-    rooms = dict(arguments(f) for f in state if f.startswith("loc("))
-    held = {o: r for r, o in (arguments(f) for f in state if f.startswith("in_hand("))}
+    rooms = dict(f.arguments for f in state if f.name == "loc")
+    held = {o: r for r, o in (f.arguments for f in state if f.name == "in_hand")}
     cells = {thing: rng.choice(refinement.components[room]) for thing, room in rooms.items()}
     cells |= {thing: cells[robot] for thing, robot in held.items()}
     grasped = {(robot, rng.choice(refinement.components[o])) for o, robot in held.items()}
     parts = {part: cell for thing, cell in cells.items() for part in refinement.components[thing]}
     robots = refinement.coarse_signature.sorts["robot"]
     return [
-        *(f"fine_loc({part},{cell})" for part, cell in parts.items()),
+        *(Literal.of("fine_loc", place) for place in parts.items()),
         *(
-            f"{'' if (robot, part) in grasped else '-'}fine_in_hand({robot},{part})"
+            Literal.of("fine_in_hand", (robot, part), (robot, part) in grasped)
             for robot in robots
             for part in refinement.weak_signature.sorts["part"]
         ),
@@ -97,11 +97,11 @@ def _states(refinement: Refinement) -> clingo.Control:
 
 
 def some_refinement(
-    refinement: Refinement, literals: list[str], rng: random.Random
-) -> frozenset[str]:
+    refinement: Refinement, literals: list[Literal], rng: random.Random
+) -> frozenset[Fluent]:
     """The true inertial atoms of a refinement of a coarse state, drawn literal by literal."""
     told = list(literals)
-    for literal in filter(is_positive, literals):
+    for literal in (each for each in literals if each.is_positive):
         groups = list(refinement.counterpart(literal))
         rng.shuffle(groups)
         told += next(g for g in groups if _model(refinement, [*told, *g]) is not None)
@@ -110,10 +110,10 @@ def some_refinement(
     return found
 
 
-def _model(refinement: Refinement, literals: list[str]) -> frozenset[str] | None:
+def _model(refinement: Refinement, literals: list[Literal]) -> frozenset[Fluent] | None:
     told = [
-        (clingo.parse_term(f"{'' if is_positive(literal) else '-'}holds({atom(literal)},0)"), True)
+        (clingo.parse_term(f"{'' if literal.is_positive else '-'}holds({literal.atom},0)"), True)
         for literal in literals
     ]
     model = first_model(_states(refinement), told)
-    return None if model is None else frozenset(map(str, model))
+    return None if model is None else frozenset(Literal.parse(str(each)) for each in model)

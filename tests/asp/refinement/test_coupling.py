@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from asp.language import ground
+from asp.language import Literal
 from asp.refinement import Refinement, Transition, load_refinement, relevant, zoom
 from testbed.world import world_of
 from tests.asp.refinement.levels import coarse_world, level, transitions, transitions_from
 from tests.asp.refinement.paths import Paths, drawn_refinement, literals_of, some_refinement
+from tests.literals import parsed
 
 TABLETOP = str(Path(__file__).with_name("tabletop.fine"))
 FARTHEST = {"L1": 2, "L2": 2, "L3": 3, "L4": 5, "L5": 5, "L6": 6, "L7": 7, "L8": 7}
@@ -74,7 +75,7 @@ def check_zoomed(
 
 def drawn_goal(refinement: Refinement, rng: random.Random) -> list[str]:
     sorts = refinement.coarse_signature.sorts
-    return [f"loc({rng.choice(sorts['object'])},{rng.choice(sorts['room'])})"]
+    return parsed([f"loc({rng.choice(sorts['object'])},{rng.choice(sorts['room'])})"])
 
 
 @pytest.mark.parametrize("name", ["L4", "L5", "L6", "L7", "L8"])
@@ -98,9 +99,9 @@ def sampled(refinement: Refinement, rng: random.Random, number: int) -> Iterable
     for count in range(number):
         rooms = {thing: rng.choice(sorts["room"]) for thing in sorts["thing"]}
         held = rng.choice(sorts["object"])
-        atoms = [f"in_hand(rob1,{held})"] if count % 2 else []
+        atoms = parsed([f"in_hand(rob1,{held})"]) if count % 2 else []
         rooms |= {held: rooms["rob1"]} if atoms or count % 4 == 0 else {}
-        state = world.state([*atoms, *(f"loc({t},{r})" for t, r in rooms.items())])
+        state = world.state([*atoms, *parsed(f"loc({t},{r})" for t, r in rooms.items())])
         robots = [
             transition
             for transition in transitions_from(refinement, state)
@@ -154,7 +155,7 @@ def test_a_fine_action_does_at_the_coarse_resolution_nothing_or_what_the_coarse_
 def fine_actions(refinement: Refinement) -> list[str]:
     signature = refinement.weak_signature
     return [
-        ground(symbol, args)
+        Literal.of(symbol, args)
         for symbol, declaration in signature.symbols.items()
         if declaration.kind in ("agent", "exogenous")
         for args in product(*(signature.sorts[sort.name] for sort in declaration.sorts))

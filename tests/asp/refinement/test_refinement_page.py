@@ -7,6 +7,7 @@ import pytest
 
 from asp.language import Problems, signature_of
 from asp.refinement import Transition, load_refinement, parse_fine, relevant, zoom
+from tests.literals import parsed
 
 PAGE = (Path(__file__).parents[3] / "docs" / "refinement.md").read_text(encoding="utf-8")
 OFFICE = load_refinement("office.fine")
@@ -42,10 +43,10 @@ def test_what_is_declared_for_observation_is(declared: str) -> None:
 
 
 def test_what_the_example_says_of_the_zoomed_description() -> None:
-    before = frozenset({"loc(rob1,kitchen)", "loc(book1,office2)", "loc(book2,office1)"})
+    before = frozenset(parsed({"loc(rob1,kitchen)", "loc(book1,office2)", "loc(book2,office1)"}))
     after = before ^ {"loc(rob1,kitchen)", "loc(rob1,office2)"}
     move = Transition(before, "move(rob1,office2)", after)
-    zoomed = zoom(OFFICE.strong, OFFICE, relevant(OFFICE, move, ["loc(book1,library)"]))
+    zoomed = zoom(OFFICE.strong, OFFICE, relevant(OFFICE, move, parsed(["loc(book1,library)"])))
     constants = signature_of(zoomed, Problems("zoomed")).constants
     assert not {"office1", "book2", "office1_1", "book2_cover"} & constants
     assert {"library_4", "office2_1", "book1_cover", "rob1"} <= constants

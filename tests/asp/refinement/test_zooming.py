@@ -11,14 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.language import (
+    Action,
+    Literal,
     Problems,
     Signature,
-    arguments,
-    atom,
-    complement,
-    ground,
     ground_description,
-    is_positive,
     signature_of,
     syntax,
     variable_domains,
@@ -36,6 +33,7 @@ from asp.translation import translate_source
 from testbed.world import world_of
 from tests.asp.reasoning.diagrams import warnings_of
 from tests.asp.refinement.levels import level, transitions
+from tests.literals import parsed
 
 HERE = Path(__file__).parent
 
@@ -61,19 +59,17 @@ class TestThePaperSExample:
     """The goal is to take tb1 from office1 to the library; the robot, in the kitchen, sets out."""
 
     BEFORE = frozenset(
-        {
-            *("loc(rob1,kitchen)", "loc(tb1,office1)", "loc(tb2,office2)", "loc(cup1,office2)"),
-        }
+        parsed(["loc(rob1,kitchen)", "loc(tb1,office1)", "loc(tb2,office2)", "loc(cup1,office2)"])
     )
     MOVE = Transition(
         BEFORE,
-        "move(rob1,office1)",
-        BEFORE - {"loc(rob1,kitchen)"} | {"loc(rob1,office1)"},
+        Action.parse("move(rob1,office1)"),
+        BEFORE ^ {*parsed(["loc(rob1,kitchen)", "loc(rob1,office1)"])},
     )
 
     @property
     def constants(self) -> frozenset[str]:
-        return relevant(of("assistant"), self.MOVE, ["loc(tb1,library)"])
+        return relevant(of("assistant"), self.MOVE, parsed(["loc(tb1,library)"]))
 
     def test_it_is_a_transition_of_the_domain(self) -> None:
         assert self.MOVE in acts("assistant")
@@ -110,7 +106,7 @@ class TestThePaperSExample:
     def test_without_an_object_there_is_no_pickup(self) -> None:
         """The move for a goal that is about the robot: D_f(T,G) has no action on objects."""
         refinement = of("assistant")
-        constants = relevant(refinement, self.MOVE, ["loc(rob1,office1)"])
+        constants = relevant(refinement, self.MOVE, parsed(["loc(rob1,office1)"]))
         fine = signature(zoom(refinement.strong, refinement, constants))
         assert {s for s, d in fine.symbols.items() if d.kind in ("agent", "exogenous")} == {
             *("fine_move", "test_fine_loc"),
@@ -126,11 +122,13 @@ class TestThePaperSExample:
         }
 
 
-def rules(refinement: Refinement, transition: Transition, goal: list[str]) -> dict[int, set[str]]:
+def rules(
+    refinement: Refinement, transition: Transition, goal: list[Literal]
+) -> dict[int, set[str]]:
     """What each of the five rules makes relevant, read off the definition instance by instance."""
     coarse, declared = refinement.coarse, refinement.coarse_signature
     before = {
-        fluent if fluent in transition.before else complement(fluent)
+        fluent if fluent in transition.before else fluent.complement
         for fluent in refinement.description.fluents
     }
     in_bodies = {
@@ -140,14 +138,14 @@ def rules(refinement: Refinement, transition: Transition, goal: list[str]) -> di
         if transition.action in (said(action, binding) for action in law.actions)
         for part in law.body
         if isinstance(part, syntax.Literal)
-        for literal in [("" if part.positive else "-") + said(part.atom, binding)]
+        for literal in [said(part.atom, binding, part.positive)]
     }
     return {
-        1: set(arguments(transition.action)),
-        2: {constant for literal in goal for constant in arguments(literal)},
-        3: {c for fluent in transition.before ^ transition.after for c in arguments(fluent)},
-        4: {constant for literal in in_bodies & before for constant in arguments(literal)},
-        5: {constant for literal in goal for constant in arguments(literal)},
+        1: set(transition.action.arguments),
+        2: {constant for literal in goal for constant in literal.arguments},
+        3: {c for fluent in transition.before ^ transition.after for c in fluent.arguments},
+        4: {constant for literal in in_bodies & before for constant in literal.arguments},
+        5: {constant for literal in goal for constant in literal.arguments},
     }
 
 
@@ -156,19 +154,20 @@ def bindings(law: syntax.Statement, signature: Signature) -> Iterator[dict[str, 
     return (dict(zip(domains, row, strict=True)) for row in product(*domains.values()))
 
 
-def said(atom: syntax.Atom, binding: dict[str, str]) -> str:
-    return ground(atom.name, (binding.get(term.name, term.name) for term in atom.args))
+def said(atom: syntax.Atom, binding: dict[str, str], positive: bool = True) -> Literal:
+    values = (binding.get(term.name, term.name) for term in atom.args)
+    return Literal.of(atom.name, values, positive)
 
 
 DOMAINS = ["L1", "L2", "L3", "assistant", "office", "tabletop"]
 
 
 @st.composite
-def questions(draw: st.DrawFn) -> tuple[str, Transition, list[str]]:
+def questions(draw: st.DrawFn) -> tuple[str, Transition, list[Literal]]:
     domain = draw(st.sampled_from(DOMAINS))
     transition = draw(st.sampled_from(acts(domain)))
     fluents = of(domain).description.fluents
-    literal = st.sampled_from([*fluents, *map(complement, fluents)])
+    literal = st.sampled_from([*fluents, *(each.complement for each in fluents)])
     return domain, transition, draw(st.lists(literal, max_size=2))
 
 
@@ -176,7 +175,7 @@ class TestRelevance:
     @given(questions())
     @settings(max_examples=200)
     def test_it_is_the_least_set_closed_under_the_five_rules(
-        self, question: tuple[str, Transition, list[str]]
+        self, question: tuple[str, Transition, list[Literal]]
     ) -> None:
         domain, transition, goal = question
         found = relevant(of(domain), transition, goal)
@@ -190,14 +189,23 @@ class TestRelevance:
         self,
     ) -> None:
         before = frozenset(
-            {"loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,office1)", "locked(library)"}
+            parsed(
+                ["loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,office1)", "locked(library)"]
+            )
+        )
+        unlock = Transition(
+            before, Action.parse("unlock(rob1,library)"), before - {"locked(library)"}
         )
         unlock = Transition(before, "unlock(rob1,library)", before - {"locked(library)"})
         assert relevant(of("office"), unlock, []) == {"rob1", "library", "kitchen"}
 
     def test_what_is_carried_along_is_relevant_by_its_change(self) -> None:
-        before = frozenset({"loc(rob1,room1)", "loc(object1,room1)", "in_hand(rob1,object1)"})
-        after = frozenset({"loc(rob1,room2)", "loc(object1,room2)", "in_hand(rob1,object1)"})
+        before = frozenset(
+            parsed({"loc(rob1,room1)", "loc(object1,room1)", "in_hand(rob1,object1)"})
+        )
+        after = frozenset(
+            parsed({"loc(rob1,room2)", "loc(object1,room2)", "in_hand(rob1,object1)"})
+        )
         move = Transition(before, "move(rob1,room2)", after)
         assert relevant(level("L2"), move, []) == {"rob1", "object1", "room1", "room2"}
 
@@ -206,7 +214,7 @@ class TestZoomedDescriptions:
     @given(questions())
     @settings(max_examples=60)
     def test_the_restricted_transition_is_one_of_the_zoomed_coarse_description(
-        self, question: tuple[str, Transition, list[str]]
+        self, question: tuple[str, Transition, list[Literal]]
     ) -> None:
         domain, transition, goal = question
         constants = relevant(of(domain), transition, goal)
@@ -225,7 +233,7 @@ class TestZoomedDescriptions:
     @given(questions())
     @settings(max_examples=60)
     def test_the_zoomed_fine_description_is_about_the_components_and_nothing_else(
-        self, question: tuple[str, Transition, list[str]]
+        self, question: tuple[str, Transition, list[Literal]]
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
@@ -243,7 +251,7 @@ class TestZoomedDescriptions:
     @given(questions())
     @settings(max_examples=30)
     def test_clingo_accepts_the_zoomed_programs_without_a_warning(
-        self, question: tuple[str, Transition, list[str]]
+        self, question: tuple[str, Transition, list[Literal]]
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
@@ -258,7 +266,7 @@ class TestZoomedDescriptions:
     @given(questions())
     @settings(max_examples=60)
     def test_a_comment_stays_with_what_it_was_said_of(
-        self, question: tuple[str, Transition, list[str]]
+        self, question: tuple[str, Transition, list[Literal]]
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
@@ -277,22 +285,22 @@ class TestFineGoals:
     @given(questions())
     @settings(max_examples=100)
     def test_it_says_all_that_is_so_afterwards_of_relevant_constants(
-        self, question: tuple[str, Transition, list[str]]
+        self, question: tuple[str, Transition, list[Literal]]
     ) -> None:
         domain, transition, goal = question
         constants = relevant(of(domain), transition, goal)
         found = fine_goal(of(domain), transition, constants)
         for fluent in of(domain).description.inertial:
-            if constants.issuperset(arguments(fluent)):
+            if constants.issuperset(fluent.arguments):
                 assert (fluent in found.literals) == (fluent in transition.after)
-                assert (complement(fluent) in found.literals) == (fluent not in transition.after)
+                assert (fluent.complement in found.literals) == (fluent not in transition.after)
             else:
-                assert not {fluent, complement(fluent)}.intersection(found.literals)
+                assert not {fluent, fluent.complement}.intersection(found.literals)
 
     @given(questions())
     @settings(max_examples=100)
     def test_every_change_of_an_inertial_fluent_is_an_effect(
-        self, question: tuple[str, Transition, list[str]]
+        self, question: tuple[str, Transition, list[Literal]]
     ) -> None:
         domain, transition, goal = question
         refinement = of(domain)
@@ -303,5 +311,5 @@ class TestFineGoals:
             if fluent in refinement.description.inertial
         }
         effects = fine_goal(refinement, transition, constants).effects
-        assert set(map(atom, effects)) == changed
-        assert all(is_positive(e) == (atom(e) in transition.after) for e in effects)
+        assert {each.atom for each in effects} == changed
+        assert all(e.is_positive == (e.atom in transition.after) for e in effects)

@@ -19,6 +19,7 @@ from asp.solving import (
     optimal_model,
     up_to,
 )
+from tests.literals import parsed
 
 # The solver would need hours to see that more pigeons than holes are impossible.
 PIGEONS = """
@@ -147,8 +148,8 @@ initially
 def test_a_description_with_too_many_cases_is_planned_for_without_them(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    start = frozenset({"on(c0,c1)", "on(c1,c2)", "on(c2,floor)"})
-    goal = ("on(c2,c1)", "on(c1,c0)", "on(c0,floor)")
+    start = frozenset(parsed(["on(c0,c1)", "on(c1,c2)", "on(c2,floor)"]))
+    goal = parsed(["on(c2,c1)", "on(c1,c0)", "on(c0,floor)"])
     expected = IncrementalPlanner(STACKING, "stacking.al").shortest(start, goal, 9)
     assert expected is not None
     assert len(expected) == 3

@@ -13,6 +13,7 @@ from asp.reasoning.planning import IncrementalPlanner
 from asp.reasoning.planning import incremental as plans
 from asp.reasoning.planning import shortest as shared
 from asp.solving import Recent
+from tests.literals import parsed
 
 OFFICE = read_domain("office")[1]
 # A fluent that is defined by others: no search tells the length of a plan, all are tried.
@@ -20,11 +21,11 @@ SHELVED = OFFICE.replace(
     "inertial locked(secure_room).", "inertial locked(secure_room).\n  defined shelved."
 ).replace("  % State constraints.", "  shelved if loc(book1, library).\n")
 GOALS = (
-    ("loc(book1,office1)",),
-    ("loc(rob1,office2)",),
-    ("loc(book2,kitchen)",),
-    ("loc(book1,library)", "loc(rob1,office2)"),
-    ("loc(book1,office1)",),
+    parsed(["loc(book1,office1)"]),
+    parsed(["loc(rob1,office2)"]),
+    parsed(["loc(book2,kitchen)"]),
+    parsed(["loc(book1,library)", "loc(rob1,office2)"]),
+    parsed(["loc(book1,office1)"]),
 )
 
 
@@ -74,7 +75,7 @@ def test_with_little_kept_plans_are_the_same(text: str, monkeypatch: pytest.Monk
     monkeypatch.setattr(plans, "MOST_PARTS", 1)
     monkeypatch.setattr(shared, "MOST_LENGTHS", 1)
     scarce = IncrementalPlanner(text, "office.al")
-    state = frozenset(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office1)"])
+    state = frozenset(parsed(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office1)"]))
     for goal in GOALS:
         plan = ample.shortest(state, goal, 8)
         assert scarce.shortest(state, goal, 8) == plan

@@ -10,10 +10,11 @@ from asp.reasoning.planning import IncrementalPlanner, Operator
 from asp.reasoning.planning.large import search
 from asp.reasoning.planning.large.state_sets import Space
 from asp.solving import LimitError, Limits, deciding, preparation, reasoning_clock
+from tests.literals import parsed
 
 SLOW_S = 3.0
 OFFICE = read_domain("office")[1]
-STATE = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
+STATE = frozenset(parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"]))
 
 
 class Clock:
@@ -71,15 +72,15 @@ def test_nested_it_stands_still_once(clock: Clock) -> None:
 def test_it_stands_still_while_a_space_is_made(slow_spaces: list[Space]) -> None:
     plans = IncrementalPlanner(OFFICE, "office.al")
     before = reasoning_clock()
-    assert plans.reachable(STATE, ("loc(book1,library)",))
+    assert plans.reachable(STATE, parsed(["loc(book1,library)"]))
     assert len(slow_spaces) == 1
     assert reasoning_clock().since(before).wall == pytest.approx(0.0, abs=1e-6)
 
 
 def test_the_limit_of_a_decision_counts_it_and_it_is_made_once(slow_spaces: list[Space]) -> None:
     plans = IncrementalPlanner(OFFICE, "office.al")
-    goal = ("loc(book1,library)", "loc(book2,library)")
-    assert plans.succeeds(STATE, goal, ("move(rob1,office2)",)) is False  # reads and encodes
+    goal = parsed(["loc(book1,library)", "loc(book2,library)"])
+    assert plans.succeeds(STATE, goal, parsed(["move(rob1,office2)"])) is False  # reads and encodes
     with pytest.raises(LimitError), deciding(Limits(SLOW_S / 2)):
         plans.shortest(STATE, goal, 20)
     assert len(slow_spaces) == 1

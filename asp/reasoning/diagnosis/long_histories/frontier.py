@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from asp.language import atom, is_positive
 from asp.reasoning.diagnosis.belief import BeliefTracker
 from asp.reasoning.diagnosis.encoding import Interpretation
 from asp.reasoning.diagnosis.history import Explanation, Happening, Record
@@ -156,8 +155,8 @@ class Frontier:
 
     def _observed(self, record: Record, following: Record) -> Callable[[Branch], bool]:
         """Whether a branch agrees with what was observed of a step."""
-        true = frozenset(filter(is_positive, following.observed))
-        false = frozenset(map(atom, following.observed)) - true
+        true = frozenset(each for each in following.observed if each.is_positive)
+        false = frozenset(each.atom for each in following.observed) - true
         return lambda branch: (
             (record.attempt is None or record.attempt[1] == branch.took_effect)
             and true <= branch.state

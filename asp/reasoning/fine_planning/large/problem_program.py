@@ -19,11 +19,11 @@ from dataclasses import dataclass
 import clingo
 from clingo import Number
 
-from asp.language import Function, arguments, atom, is_positive
+from asp.language import Action, Fluent, Function, Literal
 from asp.reasoning.fine_planning.compact_session import MOST_LEVELS, CompactPart, parts, read
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
 from asp.reasoning.fine_planning.large.value_pruning import Functions, Values, confined
-from asp.solving import ground, solving, theory
+from asp.solving import ground, literal_of, solving, theory
 from asp.translation import ACTION, Part, Rule
 
 
@@ -31,9 +31,9 @@ from asp.translation import ACTION, Part, Rule
 class Problem:
     """What is planned from and for: `candidates` by function, exactly one of each holds."""
 
-    true: frozenset[str]
-    candidates: Mapping[str, Sequence[str]]
-    goal: tuple[str, ...]
+    true: frozenset[Fluent]
+    candidates: Mapping[Fluent, Sequence[Fluent]]
+    goal: tuple[Literal, ...]
 
 
 class ProblemPrograms:
@@ -52,9 +52,9 @@ class ProblemPrograms:
         self._ranks = {action: rank for rank, action in enumerate(part.actions)}
         self._loose = loose(part.rules, part.sorts)
         self._known = Functions(relaxed, functions)
-        self._facts = [(f"{fact}.", frozenset(arguments(fact))) for fact in relaxed.facts]
+        self._facts = [(f"{fact}.", frozenset(fact.arguments)) for fact in relaxed.facts]
 
-    def plan(self, problem: Problem, reach: Reach, length: int) -> tuple[str, ...] | None:
+    def plan(self, problem: Problem, reach: Reach, length: int) -> tuple[Action, ...] | None:
         """The first plan of exactly so many steps, or None. Raises LimitError."""
         reach.through(length)
         steps = (
@@ -105,7 +105,7 @@ def in_play(reach: Reach, known: Functions, steps: Sequence[Values]) -> frozense
         for node, level in reach.level.items()
         if level < len(steps) and node in known.text
         if node in left or known.number.get(node) in (None, *free)
-        for constant in arguments(known.text[node])
+        for constant in known.text[node].arguments
     )
 
 
@@ -116,7 +116,7 @@ def _given(problem: Problem, confined: Mapping[str, Sequence[str]]) -> Iterator[
         left = set(confined.get(function, group))
         yield from (f"candidate({function},{fluent})" for fluent in group if fluent in left)
     for literal in problem.goal:
-        yield f"{'wanted' if is_positive(literal) else 'unwanted'}({atom(literal)})"
+        yield f"{'wanted' if literal.is_positive else 'unwanted'}({literal.atom})"
 
 
 def _within(confined: Sequence[Mapping[str, Sequence[str]]]) -> Iterator[str]:
@@ -126,10 +126,14 @@ def _within(confined: Sequence[Mapping[str, Sequence[str]]]) -> Iterator[str]:
             yield from (f"within({fluent},{step})" for fluent in fluents)
 
 
-def _prefer(control: clingo.Control, actions: Mapping[str, int]) -> None:
+def _prefer(control: clingo.Control, actions: Mapping[Action, int]) -> None:
     """Earlier steps count before later ones, and actions in the order of declaration."""
     occurring = sorted(
-        (found.symbol.arguments[1].number, actions[str(found.symbol.arguments[0])], found.literal)
+        (
+            found.symbol.arguments[1].number,
+            actions[literal_of(found.symbol.arguments[0])],
+            found.literal,
+        )
         for found in control.symbolic_atoms.by_signature("occurs", 2)
     )
     with control.backend() as backend:

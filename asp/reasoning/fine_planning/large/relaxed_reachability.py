@@ -14,8 +14,8 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 import clingo
 from clingo import Number
 
-from asp.language import is_positive
-from asp.solving import preparation, theory
+from asp.language import Action, Fluent, Literal
+from asp.solving import literal_of, preparation, theory
 
 Body = tuple[int, ...]
 
@@ -42,7 +42,7 @@ class Relaxed(clingo.Observer):
             for text in (program, theory("incremental_fine_planning")):
                 control.add("base", [], text)
             control.ground([("base", [])])
-            self.facts = [str(each.symbol) for each in control.symbolic_atoms]
+            self.facts = [literal_of(each.symbol) for each in control.symbolic_atoms]
             control.ground([("open", [])])
             self.inertial = frozenset(_atoms(control, "holds")[0])
             # What follows from what is true after a step follows before the next, too.
@@ -89,7 +89,7 @@ class Relaxed(clingo.Observer):
         others = {head for more, head in self.implied.get(node, ()) if not more}
         return {node} | {other for other in others if ((), node) in self.implied.get(other, ())}
 
-    def reach(self, possible: Iterable[str], goal: Iterable[str]) -> Reach | None:
+    def reach(self, possible: Iterable[Action], goal: Iterable[Literal]) -> Reach | None:
         """What can be reached where these fluents may be true; None if not all of the goal can.
 
         That something is false is taken to be reached. Raises ValueError for what is no inertial
@@ -98,7 +98,7 @@ class Relaxed(clingo.Observer):
         nodes, possible = self.nodes, frozenset(possible)
         if not possible <= self.inertial:
             raise ValueError(f"no inertial fluent: {min(possible - self.inertial)}")
-        positive = [literal for literal in goal if is_positive(literal)]
+        positive = [literal for literal in goal if literal.is_positive]
         if not all(literal in nodes for literal in positive):
             return None
         reach = Reach(self, [nodes[f] for f in possible], [nodes[literal] for literal in positive])
@@ -147,10 +147,10 @@ class Reach:
         self._steps = steps + 1
 
 
-def _atoms(control: clingo.Control, predicate: str) -> tuple[dict[str, int], dict[str, int]]:
+def _atoms(control: clingo.Control, predicate: str) -> tuple[dict[Fluent, int], dict[Fluent, int]]:
     """The atoms holds(F,I), or occurs(A,I), by fluent or action, of the steps 0 and 1."""
-    found: tuple[dict[str, int], dict[str, int]] = {}, {}
+    found: tuple[dict[Fluent, int], dict[Fluent, int]] = {}, {}
     for each in control.symbolic_atoms.by_signature(predicate, 2):
         what, step = each.symbol.arguments
-        found[step.number][str(what)] = each.literal
+        found[step.number][literal_of(what)] = each.literal
     return found

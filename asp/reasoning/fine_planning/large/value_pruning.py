@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import reduce
 from operator import or_
 
-from asp.language import Function, arguments, ground, name
+from asp.language import Function, Literal
 from asp.reasoning.fine_planning.large.relaxed_reachability import Body, Reach, Relaxed
 from asp.translation import ACTION
 
@@ -225,13 +225,13 @@ class Functions:
     """
 
     def __init__(self, relaxed: Relaxed, functions: Mapping[str, Function]) -> None:
-        nodes: dict[str, list[int]] = defaultdict(list)
+        nodes: dict[Literal, list[int]] = defaultdict(list)
         nodes[ACTION] = [*relaxed.actions.values()]
         for fluent, node in relaxed.nodes.items():
-            function = functions.get(name(fluent))
+            function = functions.get(fluent.name)
             if function is not None:
-                nodes[ground(name(fluent), function.others(arguments(fluent)))].append(node)
-        classes: dict[frozenset[int], list[str]] = defaultdict(list)
+                nodes[Literal.of(fluent.name, function.others(fluent.arguments))].append(node)
+        classes: dict[frozenset[int], list[Literal]] = defaultdict(list)
         for term, values in nodes.items():
             classes[frozenset(min(relaxed.same(node)) for node in values)].append(term)
         self.terms = [*classes.values()]

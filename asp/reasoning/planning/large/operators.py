@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from asp.language import Description, atom, complement, is_positive
+from asp.language import Action, Description, Fluent, Literal
 from asp.reasoning.planning.large.outcomes import Law, Laws, NotEncodableError
 
 Values = tuple[tuple[int, int], ...]
@@ -22,7 +22,7 @@ Values = tuple[tuple[int, int], ...]
 class Operator:
     """An agent action in one of its cases; `after` are the values that it changes."""
 
-    action: str
+    action: Action
     before: Values
     after: Values
 
@@ -53,7 +53,7 @@ class Encoding:
         for operator in self.operators:
             self._by_action.setdefault(operator.action, []).append(operator)
 
-    def values(self, true: Collection[str]) -> tuple[int, ...] | None:
+    def values(self, true: Collection[Fluent]) -> tuple[int, ...] | None:
         """The state in which these fluents are true, a value of each variable; None: no state."""
         state = [domain.index(None) if None in domain else -1 for domain in self.domains]
         for fluent in true:
@@ -64,7 +64,7 @@ class Encoding:
         said = {domain[value] for domain, value in zip(self.domains, state, strict=True)}
         return tuple(state) if said - {None} == set(true) and self._laws.hold(state) else None
 
-    def after(self, state: tuple[int, ...], action: str) -> tuple[int, ...] | None:
+    def after(self, state: tuple[int, ...], action: Action) -> tuple[int, ...] | None:
         """The state that an agent action leads to; None where it is impossible."""
         for operator in self._by_action.get(action, ()):
             if all(state[variable] == value for variable, value in operator.before):
@@ -72,15 +72,15 @@ class Encoding:
                 return tuple(changed.get(variable, value) for variable, value in enumerate(state))
         return None
 
-    def assignment(self, literal: str) -> tuple[int, int, bool]:
+    def assignment(self, literal: Literal) -> tuple[int, int, bool]:
         """The variable of a literal, the value it speaks of, and whether it claims or denies it."""
-        return (*self._entries[atom(literal)], is_positive(literal))
+        return (*self._entries[literal.atom], literal.is_positive)
 
-    def _law(self, head: str, body: Iterable[str]) -> Law:
+    def _law(self, head: Literal, body: Iterable[Literal]) -> Law:
         return Law(self.assignment(head), tuple(map(self.assignment, body)))
 
     def _operators(self, description: Description) -> Iterator[Operator]:
-        effects: dict[str, list[Law]] = {}
+        effects: dict[Literal, list[Law]] = {}
         for causal in description.causal:
             effects.setdefault(causal.action, []).append(self._law(causal.head, causal.body))
         hindrances: dict[str, list[tuple[tuple[int, int, bool], ...]]] = {}
@@ -104,13 +104,13 @@ def _excludes_values(law: Law) -> bool:
     )
 
 
-def _groups(description: Description) -> Iterator[list[str]]:
+def _groups(description: Description) -> Iterator[list[Fluent]]:
     """The fluents in groups of which at most one is true, by constraints `-f if g` each way."""
-    excluded: dict[str, set[str]] = {fluent: set() for fluent in description.fluents}
+    excluded: dict[Fluent, set[Fluent]] = {fluent: set() for fluent in description.fluents}
     for law in description.constraints:
-        if not is_positive(law.head) and len(law.body) == 1 and is_positive(law.body[0]):
-            excluded[atom(law.head)].add(law.body[0])
-    done: set[str] = set()
+        if not law.head.is_positive and len(law.body) == 1 and law.body[0].is_positive:
+            excluded[law.head.atom].add(law.body[0])
+    done: set[Fluent] = set()
     for fluent in description.fluents:
         if fluent not in done:
             group = _group(fluent, excluded, done)
@@ -118,7 +118,9 @@ def _groups(description: Description) -> Iterator[list[str]]:
             yield group
 
 
-def _group(fluent: str, excluded: Mapping[str, set[str]], done: set[str]) -> list[str]:
+def _group(
+    fluent: Fluent, excluded: Mapping[Fluent, set[Fluent]], done: set[Fluent]
+) -> list[Fluent]:
     order = {other: number for number, other in enumerate(excluded)}
     group = [fluent]
     for other in sorted(excluded[fluent] - done - {fluent}, key=order.__getitem__):
@@ -127,15 +129,15 @@ def _group(fluent: str, excluded: Mapping[str, set[str]], done: set[str]) -> lis
     return group
 
 
-def _domain(description: Description, group: list[str]) -> tuple[str | None, ...]:
+def _domain(description: Description, group: list[Fluent]) -> tuple[str | None, ...]:
     always_one = len(group) > 1 and _always_one(description, group)
     return (*group,) if always_one else (*group, None)
 
 
-def _always_one(description: Description, group: list[str]) -> bool:
+def _always_one(description: Description, group: list[Fluent]) -> bool:
     """Whether some fluent of the group is true at first, and none is ever made false alone."""
     members = set(group)
     heads = {law.head for law in description.causal}
     heads |= {law.head for law in description.constraints if not members.issuperset(law.body)}
     given = any(set(some) <= members for some in description.initially)
-    return given and heads.isdisjoint(map(complement, group))
+    return given and heads.isdisjoint(each.complement for each in group)

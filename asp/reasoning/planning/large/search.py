@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 from math import prod
 
+from asp.language import Action, Fluent, Literal
 from asp.reasoning.planning.large.operators import Encoding
 from asp.reasoning.planning.large.state_sets import Space, StateSet
 from asp.solving import preparation
@@ -41,7 +42,7 @@ class Search:
             self._advance()
         return len(self._reached) - 1
 
-    def first_plan(self, spend: Spend) -> tuple[str, ...]:
+    def first_plan(self, spend: Spend) -> tuple[Action, ...]:
         """The first of the shortest plans in the order of actions, whose length was found."""
         ((place, state),) = self._reached[0].items()
         plan = []
@@ -100,14 +101,16 @@ class StateSpace:
         self._sizes = [len(values) for values in encoding.domains]
         self.size = prod(self._sizes)
 
-    def search(self, true: Collection[str], goal: Iterable[str]) -> Search | None:
+    def search(self, true: Collection[Fluent], goal: Iterable[Literal]) -> Search | None:
         """The search from a state, in which these fluents are true; None where it is none."""
         state = self._encoding.values(true)
         if state is None:
             return None
         return Search(self._space, state, map(self._encoding.assignment, goal))
 
-    def succeeds(self, true: Collection[str], goal: Iterable[str], plan: Iterable[str]) -> bool:
+    def succeeds(
+        self, true: Collection[Fluent], goal: Iterable[Literal], plan: Iterable[Action]
+    ) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         state = self._encoding.values(true)
         wanted = [self._encoding.assignment(literal) for literal in goal]

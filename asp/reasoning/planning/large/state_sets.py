@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
+from asp.language import Action
 from asp.reasoning.planning.large.operators import Operator
 
 StateSet = Mapping[int, int]
@@ -24,7 +25,7 @@ MOST_BITS = 2**17
 class Move:
     """What an operator does with the states of one place: mask, shift to the left, go."""
 
-    action: str
+    action: Action
     to: int
     mask: int
     shift: int

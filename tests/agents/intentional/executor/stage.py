@@ -6,10 +6,11 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from asp.language import complement, name
+from asp.language import Literal
 from asp.refinement import Refinement, sensing_of
 from testbed.protocol import Decision, Event, FineTrace, Percept, Robot, Task
 from testbed.world import world_of
+from tests.literals import parsed
 
 Nth = tuple[str, int]
 """An action or test, and the how-manieth time it is made, from 1."""
@@ -71,8 +72,8 @@ def play(
     steps: int = 400,
 ) -> Play:
     """Plays a trial that begins in the fine state with these true fluents."""
-    world = world_of(refinement)
-    stage = _Stage(refinement, faults, world.state(start))
+    world, goal = world_of(refinement), parsed(goal)
+    stage = _Stage(refinement, faults, world.state(parsed(start)))
     robot.begin(_task(refinement, stage.state, goal))
     percept, percepts, decisions = stage.percept(1, ()), list[Percept](), list[Decision]()
     wrong = False
@@ -104,11 +105,11 @@ class _Stage:
         """Plays a step and makes the percept after it."""
         self._made[action] += 1
         nth = (action, self._made[action])
-        is_test = name(action) in self._sensing.names
+        is_test = action.name in self._sensing.names
         possible = not is_test and action != "wait" and nth not in self._faults.slips
         effective = [action] if possible and self._world.executable(self.state, [action]) else []
         event = self._faults.events.get(nth)
-        events = [] if event is None else [event]
+        events = [] if event is None else [Literal.parse(event)]
         happening = [] if self._faults.false else events
         self.state = self._world.successor(self.state, [*effective, *happening])
         seen = self._outcome(nth) if is_test else ()
@@ -141,7 +142,7 @@ class _Stage:
             return ()
         fluent = self._sensing.fluent(test)
         holds = self._world.satisfies(self.state, [fluent]) != (nth in self._faults.lies)
-        return (fluent if holds else complement(fluent),)
+        return (fluent if holds else fluent.complement,)
 
 
 def _task(refinement: Refinement, state: int, goal: Sequence[str]) -> Task:
@@ -155,7 +156,7 @@ def _task(refinement: Refinement, state: int, goal: Sequence[str]) -> Task:
         domain="stage",
         source=refinement.coarse.text,
         goal=list(goal),
-        initial=[f if f in true else complement(f) for f in fluents],
+        initial=[f if f in true else f.complement for f in fluents],
         plan_limit=20,
         seed=0,
         refinement=_fine_text(refinement),

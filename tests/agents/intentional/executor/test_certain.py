@@ -7,13 +7,16 @@ import pytest
 from agents.intentional.refined import RefinedRobot
 from tests.agents.intentional.executor.stage import Faults, Play, play
 from tests.agents.intentional.executor.test_execution import GOAL, ROW, look
+from tests.literals import parsed
 
-HELD = [
-    "fine_loc(rob1,room1_4)",
-    "fine_loc(object1_1,room1_4)",
-    "fine_in_hand(rob1,object1_2)",
-    "fine_loc(object2_1,room3_4)",
-]
+HELD = parsed(
+    [
+        "fine_loc(rob1,room1_4)",
+        "fine_loc(object1_1,room1_4)",
+        "fine_in_hand(rob1,object1_2)",
+        "fine_loc(object2_1,room3_4)",
+    ]
+)
 PUT_DOWN = "fine_put_down(rob1,object1_2)"
 MOVE = "fine_move(rob1,room2_1)"
 
@@ -58,7 +61,9 @@ def test_an_execution_that_keeps_failing_is_no_event() -> None:
 def test_one_event_is_preferred_to_two_attempts_that_were_not_executed() -> None:
     """The object is gone for good, and its room is searched again and again."""
     gone = {("fine_move(rob1,room1_2)", 1): "fine_exo_move(object1_1,room3_1)"}
-    start = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_3)", "fine_loc(object2_1,room3_4)"]
+    start = parsed(
+        ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_3)", "fine_loc(object2_1,room3_4)"]
+    )
     went = play(RefinedRobot(), ROW, start, GOAL, Faults(events=gone))
     assert went.achieved
     explained = [d.trace.explanation for d in went.decisions if d.trace.explanation is not None]

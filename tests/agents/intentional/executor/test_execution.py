@@ -18,10 +18,11 @@ from asp.refinement import Refinement, load
 from asp.solving import LimitError
 from testbed.protocol import Task
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
+from tests.literals import parsed
 
 LATE = "the time ran out"
 
-GOAL = ["loc(object1,room2)", "-in_hand(rob1,object1)"]
+GOAL = parsed(["loc(object1,room2)", "-in_hand(rob1,object1)"])
 
 
 def _level(rooms: int, cells: int, objects: tuple[tuple[int, int], ...]) -> Refinement:
@@ -32,11 +33,13 @@ def _level(rooms: int, cells: int, objects: tuple[tuple[int, int], ...]) -> Refi
 
 
 ROW = _level(3, 4, ((2, 2),))
-ONE_ROOM_AWAY = [
-    "fine_loc(rob1,room1_1)",
-    "fine_loc(object1_1,room1_3)",
-    "fine_loc(object2_1,room3_4)",
-]
+ONE_ROOM_AWAY = parsed(
+    [
+        "fine_loc(rob1,room1_1)",
+        "fine_loc(object1_1,room1_3)",
+        "fine_loc(object2_1,room3_4)",
+    ]
+)
 
 
 def _office() -> Refinement:
@@ -172,8 +175,10 @@ def test_a_move_within_the_room_is_no_event_of_the_coarse_history() -> None:
 
 
 def test_what_is_seen_on_the_way_changes_the_plan() -> None:
-    start = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room3_4)", "fine_loc(object2_1,room3_4)"]
-    goal = ["loc(object1,room1)"]
+    start = parsed(
+        ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room3_4)", "fine_loc(object2_1,room3_4)"]
+    )
+    goal = parsed(["loc(object1,room1)"])
     brought = {("fine_move(rob1,room1_3)", 1): "fine_exo_move(object1_1,room2_1)"}
     went = play(RefinedRobot(), ROW, start, goal, Faults(events=brought))
     assert went.achieved
@@ -189,7 +194,7 @@ def test_a_goal_that_was_undone_is_explained() -> None:
 
 
 OFFICE = _office()
-IN_OFFICE = ["fine_loc(book1_cover,office1_1)", "fine_loc(book2_cover,office1_2)"]
+IN_OFFICE = parsed(["fine_loc(book1_cover,office1_1)", "fine_loc(book2_cover,office1_2)"])
 
 
 @pytest.mark.parametrize("zooms", [True, False])
@@ -197,7 +202,11 @@ def test_a_room_that_is_locked_with_the_robot_inside(zooms: bool) -> None:
     start = [*IN_OFFICE, "fine_loc(rob1,library_1)"]
     locked = {("fine_move(rob1,library_3)", 1): "exo_lock(library)"}
     went = play(
-        RefinedRobot(zooms=zooms), OFFICE, start, ["loc(rob1,office2)"], Faults(events=locked)
+        RefinedRobot(zooms=zooms),
+        OFFICE,
+        start,
+        parsed(["loc(rob1,office2)"]),
+        Faults(events=locked),
     )
     assert went.achieved
     assert "unlock(rob1,library)" in went.actions
@@ -208,7 +217,7 @@ def test_a_room_that_is_locked_before_the_robot_is_in(reported: bool) -> None:
     start = [*IN_OFFICE, "fine_loc(rob1,kitchen_1)"]
     locked = {("fine_move(rob1,kitchen_2)", 1): "exo_lock(library)"}
     faults = Faults(events=locked, reported=reported)
-    went = play(RefinedRobot(), OFFICE, start, ["loc(rob1,library)"], faults)
+    went = play(RefinedRobot(), OFFICE, start, parsed(["loc(rob1,library)"]), faults)
     assert went.achieved
     assert "unlock(rob1,library)" in went.actions
 
@@ -226,7 +235,9 @@ def test_no_cell_is_searched_twice_unless_something_changed(
     places: tuple[str, str, str], lies: set[tuple[str, int]]
 ) -> None:
     things = ("rob1", "object1_1", "object2_1")
-    start = [f"fine_loc({thing},{cell})" for thing, cell in zip(things, places, strict=True)]
+    start = parsed(
+        [f"fine_loc({thing},{cell})" for thing, cell in zip(things, places, strict=True)]
+    )
     went = play(RefinedRobot(), ROW, start, GOAL, Faults(lies=lies))
     assert went.achieved
     searched: set[str] = set()
@@ -241,8 +252,8 @@ def test_no_cell_is_searched_twice_unless_something_changed(
 
 @pytest.mark.parametrize("reported", [True, False])
 def test_what_is_put_down_may_be_taken_away_at_once(reported: bool) -> None:
-    start = ["fine_loc(rob1,room2_1)", "fine_loc(object1_1,room2_1)"]
-    start += ["fine_in_hand(rob1,object1_2)", "fine_loc(object2_1,room3_4)"]
+    start = parsed(["fine_loc(rob1,room2_1)", "fine_loc(object1_1,room2_1)"])
+    start += parsed(["fine_in_hand(rob1,object1_2)", "fine_loc(object2_1,room3_4)"])
     taken = {("test_fine_in_hand(rob1,object1_2)", 1): "fine_exo_move(object1_1,room3_2)"}
     went = play(RefinedRobot(), ROW, start, GOAL, Faults(events=taken, reported=reported))
     assert went.achieved
@@ -259,8 +270,8 @@ def _fine() -> FineTracker:
         source=ROW.coarse.text,
         refinement=TEXTS[ROW],
         goal=GOAL,
-        initial=["loc(rob1,room1)"],
-        initial_fine=["fine_loc(rob1,room1_1)"],
+        initial=parsed(["loc(rob1,room1)"]),
+        initial_fine=parsed(["fine_loc(rob1,room1_1)"]),
         plan_limit=20,
         seed=0,
     )
@@ -269,16 +280,19 @@ def _fine() -> FineTracker:
 
 
 def test_which_part_it_holds_is_nothing_to_assume_in_a_plan() -> None:
-    held = ("fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)")
+    held = parsed(["fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)"])
     zoom = ["rob1", "object1", "room1"]
     assert (
-        zoomed_planning.shortest_plan(_fine(), ("-in_hand(rob1,object1)",), (held,), zoom) is None
+        zoomed_planning.shortest_plan(_fine(), parsed(["-in_hand(rob1,object1)"]), (held,), zoom)
+        is None
     )
 
 
 def test_what_is_wrong_with_a_plan_is_not_taken_for_none() -> None:
     with pytest.raises(ValueError, match="room3"):
-        zoomed_planning.shortest_plan(_fine(), ("loc(rob1,room3)",), (), ["rob1", "room1", "room2"])
+        zoomed_planning.shortest_plan(
+            _fine(), parsed(["loc(rob1,room3)"]), (), ["rob1", "room1", "room2"]
+        )
 
 
 def test_where_the_time_runs_out_it_waits_and_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,8 +17,9 @@ from asp.reasoning.fine_planning.compact_session import Horizon
 from asp.refinement import Refinement, load
 from asp.solving import Recent
 from tests.agents.intentional.executor.stage import TEXTS, play
+from tests.literals import parsed
 
-GOAL = ["loc(object1,room2)"]
+GOAL = parsed(["loc(object1,room2)"])
 CELLS = range(2, 6)
 
 
@@ -32,7 +33,7 @@ def _row(cells: int) -> Refinement:
 
 def _played(refinement: Refinement) -> ref[FineModel]:
     """The model with which an object was taken from one room to the next."""
-    initial = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]
+    initial = parsed(["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"])
     assert play(RefinedRobot(), refinement, initial, GOAL).achieved
     return ref(fine_model(refinement))
 

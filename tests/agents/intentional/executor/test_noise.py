@@ -11,6 +11,7 @@ from asp.refinement import Refinement, load
 from tests.agents.intentional.executor.stage import TEXTS, Faults, play
 from tests.agents.intentional.test_incremental import Both
 from tests.experiment.gardens import GARDEN, PIECES
+from tests.literals import parsed
 
 # Nothing but the helper moves a tool, so that no event explains where one is found.
 STILL = "\n".join(line for line in GARDEN.splitlines() if "stray" not in line)
@@ -25,18 +26,22 @@ def _garden() -> Refinement:
 
 
 QUIET = _garden()
-START = [
-    "fine_stands(tom,north_1)",
-    "fine_stands(other_head,north_2)",
-    "fine_stands(spade_head,south_2)",
-]
+START = parsed(
+    [
+        "fine_stands(tom,north_1)",
+        "fine_stands(other_head,north_2)",
+        "fine_stands(spade_head,south_2)",
+    ]
+)
 ROWS = ("north_1", "north_2", "south_1", "south_2")
 
 
 def test_a_thing_that_is_not_found_where_it_has_to_be_was_overlooked() -> None:
     overlooked = [("test_fine_stands(tom,other_head,north_2)", n) for n in (1, 2)]
     overlooked += [("test_fine_stands(tom,other_head,north_1)", n) for n in (1, 2)]
-    went = play(RefinedRobot(), QUIET, START, ["stands(rake,south)"], Faults(lies=overlooked))
+    went = play(
+        RefinedRobot(), QUIET, START, parsed(["stands(rake,south)"]), Faults(lies=overlooked)
+    )
     assert went.achieved
     assert went.abstract[0] == ("lift(tom,rake)", False)
     explained = [d.trace.explanation for d in went.decisions if d.trace.explanation is not None]
@@ -60,6 +65,6 @@ def test_both_ways_of_reasoning_bear_wrong_tests_alike(
 ) -> None:
     robot = RefinedRobot(coarse=lambda: IntentionalRobot(Both))
     slips = [("fine_lift(tom,other_head)", number + 1) for number in range(failing)]
-    goal = ["stands(rake,south)", "-carries(tom,rake)"]
+    goal = parsed(["stands(rake,south)", "-carries(tom,rake)"])
     went = play(robot, QUIET, START, goal, Faults(lies=lies, slips=slips), steps=150)
     assert went.achieved or not went.finished

@@ -8,11 +8,12 @@ import pytest
 from agents.adversary import AdversaryView, Game, Random
 from agents.intentional.refined import EitherRobot
 from asp.domains.levels import LEVELS, level_text
-from asp.language import complement, read_domain
+from asp.language import read_domain
 from asp.refinement import load, read_refinement
 from testbed.environment import Ending, Observability, RandomStart, Rules, fine_core
 from testbed.protocol import FineTrace, Task
 from testbed.world import world_of
+from tests.literals import parsed
 
 STATISTICS = {"fine_move": 0.85, "test_fine_loc": 0.9}
 TOLD = {"fine_exo_move": Observability("always")}
@@ -40,7 +41,7 @@ def trial(
     thing = str(random.choice(sorts["object"]))
     wanted = sorts.get("secure_room", sorts["room"])
     rooms = [room for room in wanted if f"loc({thing},{room})" not in true] or ["kitchen"]
-    goal = [f"loc({thing},{random.choice(rooms)})"]
+    goal = parsed([f"loc({thing},{random.choice(rooms)})"])
     rules = Rules(tuple(goal), steps=1500, observability=TOLD if told else {})
     core = fine_core(refinement, rules, STATISTICS, initial=[state])
     core.reset(seed=seed, trial="trial")
@@ -60,7 +61,7 @@ def trial(
             domain="level",
             source=coarse,
             goal=goal,
-            initial=[f if f in true else complement(f) for f in refinement.description.fluents],
+            initial=[f if f in true else f.complement for f in refinement.description.fluents],
             plan_limit=20,
             seed=seed,
             refinement=fine,

@@ -15,6 +15,7 @@ from asp.reasoning.fine_planning import IncrementalFinePlanner
 from asp.refinement import Refinement, load
 from asp.translation import NotCompactError
 from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
+from tests.literals import parsed
 
 
 def _staged(coarse: str, fine: str) -> Refinement:
@@ -34,12 +35,12 @@ def _blind_office() -> Refinement:
 
 
 OFFICE = _blind_office()
-START = ["fine_loc(rob1,kitchen_1)", "fine_loc(book1_cover,office1_1)"]
-START += ["fine_loc(book2_cover,office1_2)"]
+START = parsed(["fine_loc(rob1,kitchen_1)", "fine_loc(book1_cover,office1_1)"])
+START += parsed(["fine_loc(book2_cover,office1_2)"])
 
 
 def entered(start: list[str], faults: Faults = NO_FAULTS, zooms: bool = True) -> Play:
-    return play(RefinedRobot(zooms=zooms), OFFICE, start, ["loc(rob1,library)"], faults)
+    return play(RefinedRobot(zooms=zooms), OFFICE, start, parsed(["loc(rob1,library)"]), faults)
 
 
 @pytest.mark.parametrize("zooms", [True, False])
@@ -79,8 +80,8 @@ def test_an_indirect_effect_that_nobody_sees_follows() -> None:
     """By a law about what is false, so that its plans are those of the literal translation."""
     with pytest.raises(NotCompactError):
         IncrementalFinePlanner(HANDS.weak, HANDS.weak_signature)
-    start = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "free(rob1)"]
-    went = play(RefinedRobot(), HANDS, start, ["loc(object1,room2)"])
+    start = parsed(["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "free(rob1)"])
+    went = play(RefinedRobot(), HANDS, start, parsed(["loc(object1,room2)"]))
     assert went.achieved
     assert went.abstract == [("pickup(rob1,object1)", True), ("move(rob1,room2)", True)]
 
@@ -98,12 +99,14 @@ TABLE = _table()
 
 @pytest.mark.parametrize("zooms", [True, False])
 def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: bool) -> None:
-    start = [
-        "fine_over(left_arm,green_3)",
-        "fine_held(left_arm,base2)",
-        "fine_lies(base1,yellow_1)",
-    ]
-    went = play(RefinedRobot(zooms=zooms), TABLE, start, ["lies(block1,red)"])
+    start = parsed(
+        [
+            "fine_over(left_arm,green_3)",
+            "fine_held(left_arm,base2)",
+            "fine_lies(base1,yellow_1)",
+        ]
+    )
+    went = play(RefinedRobot(zooms=zooms), TABLE, start, parsed(["lies(block1,red)"]))
     assert went.achieved
     assert [action for action, _ in went.abstract] == [
         "swing(left_arm,yellow)",

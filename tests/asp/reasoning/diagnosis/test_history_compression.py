@@ -11,7 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.shared.sessions import sessions_of
+from asp.language import Literal
 from asp.reasoning.diagnosis import (
+    SELECT,
     Compression,
     Diagnosis,
     Explanation,
@@ -26,11 +28,14 @@ from asp.reasoning.diagnosis.long_histories.suffixes import SuffixExplanations
 from asp.reasoning.knowledge import knowledge
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.asp.reasoning.diagnosis.wandering import Habits, wander
+from tests.literals import parsed
+
+LOCK = Literal.parse("exo_lock(library)")
 
 USUAL = Compression(after=32)
 WHOLE = None
 TINY = Compression(after=4, lag=3, margin=1, most=64, kept=3, answers=400)
-GOAL = ("loc(book1,library)", "-in_hand(rob1,book1)")
+GOAL = parsed(["loc(book1,library)", "-in_hand(rob1,book1)"])
 PLACES = {"office": OFFICE, "library": place("library")}
 
 
@@ -168,7 +173,7 @@ def test_the_end_of_a_history_is_explained_without_what_was_compressed(
 
 def _sees(history: History, *literals: str) -> None:
     history.step += 1
-    history.observe(literals, history.step)
+    history.observe(parsed(literals), history.step)
 
 
 def test_what_could_only_happen_in_the_compressed_past() -> None:
@@ -176,15 +181,15 @@ def test_what_could_only_happen_in_the_compressed_past() -> None:
 
     At last it learns that a book is not in there: it was taken away while the door was open.
     """
-    known = ("loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,kitchen)")
+    known = parsed(["loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,kitchen)"])
     minds = Mind(OFFICE, USUAL), Mind(OFFICE, WHOLE)
     histories = History(), History()
     for mind, history in zip(minds, histories, strict=True):
         history.observe(OFFICE.world.literals(OFFICE.world.state(known)), 0)
-        history.happened("select(my_goal)", True, 0)
+        history.happened(SELECT, True, 0)
         for step in range(60):
             if step == 5:
-                history.happened("exo_lock(library)", True, 5)
+                history.happened(LOCK, True, 5)
             _sees(history, "locked(library)" if step >= 5 else "-locked(library)")
             mind.think(history)
         _sees(history, "-loc(book1,library)")
@@ -201,21 +206,21 @@ def test_what_could_only_happen_in_the_compressed_past() -> None:
 
 def test_news_of_the_selection_of_the_goal_stays_false_in_the_compressed_past() -> None:
     """Nothing else happens at step 0, so that the library was locked at another one."""
-    known = ("loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,office1)")
+    known = parsed(["loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,office1)"])
     minds = Mind(OFFICE, TINY), Mind(OFFICE, WHOLE)
     for mind in minds:
         history = History()
         history.observe(OFFICE.world.literals(OFFICE.world.state(known)), 0)
-        history.happened("select(my_goal)", True, 0)
+        history.happened(SELECT, True, 0)
         for step in range(20):
             if step == 8:
-                history.happened("exo_lock(library)", True, 0)
+                history.happened(LOCK, True, 0)
             _sees(history, "loc(rob1,office1)")
             mind.think(history)
         _sees(history, "locked(library)")
         mind.think(history)
-        assert [(e.step, e.action) for e in mind.adopted.distrusted] == [(0, "exo_lock(library)")]
-        assert [e.action for e in mind.adopted.unobserved] == ["exo_lock(library)"]
+        assert [(e.step, e.action) for e in mind.adopted.distrusted] == [(0, LOCK)]
+        assert [e.action for e in mind.adopted.unobserved] == [LOCK]
     compressed, whole = minds
     assert compressed.compressed > 6
     assert compressed.adopted == whole.adopted

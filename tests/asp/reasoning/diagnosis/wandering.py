@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from random import Random
 
+from asp.language import Action, Literal
 from asp.reasoning.diagnosis import GOAL, History
+from asp.reasoning.diagnosis.history import SELECT
 from testbed.world import World
 from tests.agents.intentional.lives import Place
 
-Report = tuple[int, str]
+Report = tuple[int, Action]
 
 
 @dataclass(frozen=True)
@@ -27,14 +29,14 @@ class Habits:
 
 
 def wander(
-    where: Place, goal: tuple[str, ...], steps: int, seed: int, habits: Habits
+    where: Place, goal: tuple[Literal, ...], steps: int, seed: int, habits: Habits
 ) -> Iterator[History]:
     """The history at each step, one that grows. The robot knows how it began."""
     draw, world = Random(seed), where.world
     state = draw.choice(list(world.initial_states()))
     history, news = History(), list[tuple[int, Report]]()
     history.observe(world.literals(state), 0)
-    history.happened(f"select({GOAL})", True, 0)
+    history.happened(SELECT, True, 0)
     for step in range(steps):
         attempt = _attempt(world, state, draw, habits) if step else None
         actions = _recorded(history, world, state, attempt, step)
@@ -49,11 +51,13 @@ def wander(
         if draw.random() < habits.looks:
             history.observe(world.visible(state, where.robot), history.step)
         if draw.random() < habits.told:
-            history.observe([GOAL if world.satisfies(state, goal) else f"-{GOAL}"], history.step)
+            history.observe(
+                [GOAL if world.satisfies(state, goal) else GOAL.complement], history.step
+            )
         yield history
 
 
-def _attempt(world: World, state: int, draw: Random, habits: Habits) -> str | None:
+def _attempt(world: World, state: int, draw: Random, habits: Habits) -> Action | None:
     if draw.random() < habits.waits:
         return None
     actions = list(world.description.agent_actions)
@@ -62,8 +66,8 @@ def _attempt(world: World, state: int, draw: Random, habits: Habits) -> str | No
 
 
 def _recorded(
-    history: History, world: World, state: int, attempt: str | None, step: int
-) -> tuple[str, ...]:
+    history: History, world: World, state: int, attempt: Action | None, step: int
+) -> tuple[Action, ...]:
     """The attempt if it takes effect; it is recorded with its result."""
     if attempt is None:
         return ()
@@ -74,8 +78,8 @@ def _recorded(
 
 
 def _events(
-    world: World, state: int, actions: tuple[str, ...], draw: Random, habits: Habits
-) -> tuple[str, ...]:
+    world: World, state: int, actions: tuple[Action, ...], draw: Random, habits: Habits
+) -> tuple[Action, ...]:
     if draw.random() >= habits.event:
         return ()
     possible = [e for e in world.exogenous_actions if world.executable(state, {*actions, e})]
@@ -83,7 +87,7 @@ def _events(
 
 
 def _news(
-    world: World, events: tuple[str, ...], step: int, draw: Random, habits: Habits
+    world: World, events: tuple[Action, ...], step: int, draw: Random, habits: Habits
 ) -> Iterator[tuple[int, Report]]:
     for event in events:
         if draw.random() < habits.reported:

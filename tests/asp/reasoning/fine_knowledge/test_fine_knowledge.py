@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 
@@ -10,35 +11,37 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asp.domains.levels import LevelSize, level_text
+from asp.language import Literal
 from asp.reasoning.fine_knowledge import IncrementalFineKnowledge, Known, ReferenceFineKnowledge
 from asp.reasoning.fine_knowledge.reference import Inferred
 from asp.refinement import load, load_refinement
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts
+from tests.literals import parsed
 
 TABLETOP = str(Path(__file__).parents[2] / "refinement" / "tabletop.fine")
 SMALL = of_size(LevelSize(2, 1, 2, ((2, 2),)), "small")
 THEORY, QUICK = ReferenceFineKnowledge(SMALL), IncrementalFineKnowledge(SMALL)
 CELLS = [cell for room in ("room1", "room2") for cell in SMALL.components[room]]
 PARTS = [part for thing in ("object1", "object2") for part in SMALL.components[thing]]
-LOCATIONS = [f"fine_loc({part},{cell})" for part, cell in product(PARTS, CELLS)]
-OWN = [f"fine_loc(rob1,{cell})" for cell in CELLS]
-HELD = [f"fine_in_hand(rob1,{part})" for part in PARTS]
+LOCATIONS = parsed([f"fine_loc({part},{cell})" for part, cell in product(PARTS, CELLS)])
+OWN = parsed([f"fine_loc(rob1,{cell})" for cell in CELLS])
+HELD = parsed([f"fine_in_hand(rob1,{part})" for part in PARTS])
 FINE = [*LOCATIONS, *OWN, *HELD]
 COARSE = SMALL.description.fluents
 ABOUT = frozenset({"rob1", "object1", "object2", "room1", "room2"})
 
-LITERALS = st.sampled_from([*FINE, *OWN, *HELD, *(f"-{fluent}" for fluent in FINE)])
+LITERALS = st.sampled_from([*FINE, *OWN, *HELD, *(fluent.complement for fluent in FINE)])
 HISTORIES = st.lists(st.lists(LITERALS, min_size=1, max_size=2), max_size=5)
 
 
-def infer(*seen: list[str], known: Known | None = None) -> Inferred:
+def infer(*seen: Sequence[Literal], known: Known | None = None) -> Inferred:
     return THEORY.infer(known or Known(), seen, ABOUT)
 
 
 @given(HISTORIES)
 @settings(max_examples=150)
-def test_the_quick_way_says_what_the_theory_says(history: list[list[str]]) -> None:
+def test_the_quick_way_says_what_the_theory_says(history: list[list[Literal]]) -> None:
     known = Known()
     for seen in history:
         after = QUICK.following(known, seen)
@@ -54,7 +57,7 @@ def test_the_quick_way_says_what_the_theory_says(history: list[list[str]]) -> No
 
 @given(HISTORIES)
 @settings(max_examples=60)
-def test_step_by_step_or_all_at_once(history: list[list[str]]) -> None:
+def test_step_by_step_or_all_at_once(history: list[list[Literal]]) -> None:
     known: Known | None = Known()
     for seen in history:
         known = None if known is None else QUICK.following(known, seen)
@@ -74,13 +77,14 @@ def test_laws_about_what_is_false_are_not_simple() -> None:
 
 
 def test_one_component_makes_it_true() -> None:
-    coarse = infer(["fine_loc(object1_1,room1_2)"]).coarse
+    coarse = infer(parsed(["fine_loc(object1_1,room1_2)"])).coarse
     assert {"loc(object1,room1)", "-loc(object1,room2)"} <= coarse
     assert not {"loc(object2,room1)", "-loc(object2,room1)"} & coarse
 
 
 def test_a_room_is_searched_when_every_cell_is() -> None:
-    first, second = ["-fine_loc(object1_1,room1_1)"], ["-fine_loc(object1_2,room1_2)"]
+    first = parsed(["-fine_loc(object1_1,room1_1)"])
+    second = parsed(["-fine_loc(object1_2,room1_2)"])
     assert "-loc(object1,room1)" not in infer(first).coarse
     inferred = infer(first, second)
     assert "-loc(object1,room1)" in inferred.coarse
@@ -91,26 +95,33 @@ def test_a_room_is_searched_when_every_cell_is() -> None:
 
 
 def test_what_is_held_moves_along_and_stays_where_it_is_put_down() -> None:
-    grasped = ["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_2)"]
-    moved = infer(grasped, ["fine_loc(rob1,room1_2)"])
+    grasped = parsed(["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_2)"])
+    moved = infer(grasped, parsed(["fine_loc(rob1,room1_2)"]))
     assert "fine_loc(object1_1,room1_2)" in moved.known.true
-    left = infer(["-fine_in_hand(rob1,object1_2)"], ["fine_loc(rob1,room2_1)"], known=moved.known)
+    left = infer(
+        parsed(["-fine_in_hand(rob1,object1_2)"]),
+        parsed(["fine_loc(rob1,room2_1)"]),
+        known=moved.known,
+    )
     assert "fine_loc(object1_1,room1_2)" in left.known.true
     assert "loc(object1,room1)" in left.coarse
 
 
 def test_of_a_wrong_commitment_nothing_is_left() -> None:
-    mistaken = infer(["-fine_loc(object1_1,room2_1)"], ["fine_loc(object1_1,room1_1)"])
-    found_out = infer(["-fine_loc(object1_1,room1_1)"], known=mistaken.known)
+    mistaken = infer(
+        parsed(["-fine_loc(object1_1,room2_1)"]), parsed(["fine_loc(object1_1,room1_1)"])
+    )
+    found_out = infer(parsed(["-fine_loc(object1_1,room1_1)"]), known=mistaken.known)
     assert found_out.known == Known(
-        frozenset(), frozenset({"fine_loc(object1_1,room2_1)", "fine_loc(object1_1,room1_1)"})
+        frozenset(),
+        frozenset(parsed(["fine_loc(object1_1,room2_1)", "fine_loc(object1_1,room1_1)"])),
     )
     assert "fine_loc(object1_2,room1_2)" in found_out.possible
 
 
 def test_of_what_contradicts_by_way_of_laws_the_least_is_forgotten() -> None:
-    grasped = infer(["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_1)"]).known
-    seen = ["fine_loc(object1_1,room2_2)"]
+    grasped = infer(parsed(["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_1)"])).known
+    seen = parsed(["fine_loc(object1_1,room2_2)"])
     assert QUICK.following(grasped, seen) is None
     after = infer(seen, known=grasped).known
     assert "fine_loc(object1_1,room2_2)" in after.true
@@ -118,23 +129,23 @@ def test_of_what_contradicts_by_way_of_laws_the_least_is_forgotten() -> None:
 
 
 def test_where_laws_are_not_simple_and_where_there_is_a_choice_the_theory_is_asked() -> None:
-    grasped = infer(["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_1)"]).known
-    seen = ["fine_loc(object1_1,room2_2)"]
+    grasped = infer(parsed(["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_1)"])).known
+    seen = parsed(["fine_loc(object1_1,room2_2)"])
     assert QUICK.after(grasped, seen) == THEORY.after(grasped, seen)
 
 
 def test_one_moment_cannot_contradict_itself() -> None:
     with pytest.raises(ValueError, match="contradict"):
-        infer(["fine_loc(object1_1,room1_1)", "fine_loc(object1_2,room1_2)"])
+        infer(parsed(["fine_loc(object1_1,room1_1)", "fine_loc(object1_2,room1_2)"]))
 
 
 def test_unmagnified_fluents_do_not_stand_in_the_way() -> None:
     refinement = load(*locked_texts())
     known = ReferenceFineKnowledge(refinement).infer(
-        Known(), [["fine_loc(cover,k1)"]], ["kitchen", "library"]
+        Known(), [parsed(["fine_loc(cover,k1)"])], ["kitchen", "library"]
     )
     assert {"loc(book1,kitchen)", "-loc(book1,library)"} <= known.coarse
     assert (
-        IncrementalFineKnowledge(refinement).following(Known(), ["fine_loc(cover,k1)"])
+        IncrementalFineKnowledge(refinement).following(Known(), parsed(["fine_loc(cover,k1)"]))
         == known.known
     )

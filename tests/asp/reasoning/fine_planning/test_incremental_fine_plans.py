@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.language import analyse
+from asp.language import Literal, analyse
 from asp.reasoning.fine_planning import (
     FineStart,
     Horizons,
@@ -20,6 +20,7 @@ from asp.translation import NotCompactError
 from tests.asp.reasoning.fine_planning.fine_problems import drawn_goal, drawn_state, first_shortest
 from tests.asp.refinement.levels import level
 from tests.asp.refinement.locked import locked_texts
+from tests.literals import parsed
 
 HERE = Path(__file__).parents[2] / "refinement"
 DOMAINS = {
@@ -47,10 +48,12 @@ def test_the_plan_is_the_first_shortest_that_a_search_finds(name: str) -> None:
 
 ROW = FineStart(
     frozenset(
-        {"fine_loc(rob1,room1_1)", "fine_loc(object2_1,room2_1)", "fine_loc(object2_2,room2_1)"}
+        parsed(
+            ["fine_loc(rob1,room1_1)", "fine_loc(object2_1,room2_1)", "fine_loc(object2_2,room2_1)"]
+        )
     ),
     tuple(
-        tuple(f"fine_loc({part},{cell})" for cell in ("room1_2", "room3_2"))
+        parsed(f"fine_loc({part},{cell})" for cell in ("room1_2", "room3_2"))
         for part in ("object1_1", "object1_2")
     ),
 )
@@ -61,12 +64,12 @@ def _zoom(refinement: Refinement, *wholes: str) -> frozenset[str]:
 
 
 def test_of_places_where_a_thing_may_be_the_nearest_is_searched() -> None:
-    plan = _planner(level("L2")).plan(ROW, ("in_hand(rob1,object1)",), LIMIT)
+    plan = _planner(level("L2")).plan(ROW, parsed(["in_hand(rob1,object1)"]), LIMIT)
     assert plan == ("fine_move(rob1,room1_2)", "fine_pickup(rob1,object1_1)")
 
 
 def test_a_goal_beyond_the_limit_is_told_from_one_out_of_reach() -> None:
-    planner, goal = _planner(level("L2")), ("loc(rob1,room3)",)
+    planner, goal = _planner(level("L2")), parsed(["loc(rob1,room3)"])
     assert planner.plan(ROW, goal, 3) is NoPlan.BEYOND_LIMIT
     # Without the room between there is no way.
     zoomed = _zoom(level("L2"), "rob1", "room1", "room3")
@@ -76,12 +79,14 @@ def test_a_goal_beyond_the_limit_is_told_from_one_out_of_reach() -> None:
 @pytest.mark.parametrize(
     "goal",
     [
-        ("in_hand(rob1,object1)", "in_hand(rob1,object2)"),
-        ("loc(rob1,room1)", "loc(rob1,room3)"),
-        ("loc(object2,room2)", "-fine_loc(object2_1,room2_1)", "-fine_loc(object2_2,room2_2)"),
+        parsed(["in_hand(rob1,object1)", "in_hand(rob1,object2)"]),
+        parsed(["loc(rob1,room1)", "loc(rob1,room3)"]),
+        parsed(
+            ["loc(object2,room2)", "-fine_loc(object2_1,room2_1)", "-fine_loc(object2_2,room2_2)"]
+        ),
     ],
 )
-def test_what_no_state_satisfies_is_out_of_reach(goal: tuple[str, ...]) -> None:
+def test_what_no_state_satisfies_is_out_of_reach(goal: tuple[Literal, ...]) -> None:
     assert _planner(level("L2")).plan(ROW, goal, 10**6) is NoPlan.OUT_OF_REACH
 
 
@@ -98,50 +103,54 @@ def test_nothing_out_of_reach_is_reached_by_a_search_of_all_states() -> None:
 def test_what_is_nowhere_is_out_of_reach() -> None:
     nowhere = FineStart(ROW.true, ((),))
     planner = _planner(level("L2"))
-    assert planner.plan(nowhere, ("in_hand(rob1,object1)",), LIMIT) is NoPlan.OUT_OF_REACH
+    assert planner.plan(nowhere, parsed(["in_hand(rob1,object1)"]), LIMIT) is NoPlan.OUT_OF_REACH
 
 
 def test_what_cannot_be_reached_without_its_place_is_out_of_reach() -> None:
     zoomed = _zoom(level("L2"), "rob1", "room1", "object2")
     planner = _planner(level("L2"))
-    assert planner.plan(ROW, ("in_hand(rob1,object2)",), LIMIT, zoomed) is NoPlan.OUT_OF_REACH
+    assert (
+        planner.plan(ROW, parsed(["in_hand(rob1,object2)"]), LIMIT, zoomed) is NoPlan.OUT_OF_REACH
+    )
 
 
 def test_what_is_held_is_put_down_wherever_that_is() -> None:
-    start = FineStart(frozenset({"fine_in_hand(rob1,object2_1)"}))
+    start = FineStart(frozenset(parsed(["fine_in_hand(rob1,object2_1)"])))
     planner, zoomed = _planner(level("L2")), _zoom(level("L2"), "rob1", "object2")
-    plan = planner.plan(start, ("-in_hand(rob1,object2)",), LIMIT, zoomed)
+    plan = planner.plan(start, parsed(["-in_hand(rob1,object2)"]), LIMIT, zoomed)
     assert plan == ("fine_put_down(rob1,object2_1)",)
 
 
 def test_a_goal_that_holds_needs_no_action() -> None:
-    assert _planner(level("L2")).plan(ROW, ("loc(rob1,room1)",), LIMIT) == ()
+    assert _planner(level("L2")).plan(ROW, parsed(["loc(rob1,room1)"]), LIMIT) == ()
 
 
 def test_a_goal_about_what_is_zoomed_out_is_refused() -> None:
     zoomed = _zoom(level("L2"), "rob1", "room1")
     with pytest.raises(ValueError, match="room3"):
-        _planner(level("L2")).plan(ROW, ("loc(rob1,room3)",), LIMIT, zoomed)
+        _planner(level("L2")).plan(ROW, parsed(["loc(rob1,room3)"]), LIMIT, zoomed)
 
 
 def test_candidates_are_values_of_what_always_has_one() -> None:
-    odd = FineStart(ROW.true, (("fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)"),))
+    odd = FineStart(
+        ROW.true, (parsed(["fine_in_hand(rob1,object1_1)", "fine_in_hand(rob1,object1_2)"]),)
+    )
     with pytest.raises(ValueError, match="always has one"):
-        _planner(level("L2")).plan(odd, ("in_hand(rob1,object1)",), LIMIT)
+        _planner(level("L2")).plan(odd, parsed(["in_hand(rob1,object1)"]), LIMIT)
 
 
 def test_what_is_no_fluent_is_refused() -> None:
-    odd = FineStart(ROW.true | {"fine_lok(rob1,room1_1)"})
+    odd = FineStart(ROW.true | {Literal.parse("fine_lok(rob1,room1_1)")})
     with pytest.raises(ValueError, match="no inertial fluent"):
-        _planner(level("L2")).plan(odd, ("loc(rob1,room2)",), LIMIT)
+        _planner(level("L2")).plan(odd, parsed(["loc(rob1,room2)"]), LIMIT)
 
 
 def test_problems_that_differ_in_names_share_what_is_kept() -> None:
     planner = _planner(level("L2"))
     for one, other in (("room1", "room2"), ("room2", "room3")):
-        start = FineStart(frozenset({f"fine_loc(rob1,{one}_1)"}))
+        start = FineStart(frozenset(parsed([f"fine_loc(rob1,{one}_1)"])))
         plan = planner.plan(
-            start, (f"loc(rob1,{other})",), LIMIT, _zoom(level("L2"), "rob1", one, other)
+            start, parsed([f"loc(rob1,{other})"]), LIMIT, _zoom(level("L2"), "rob1", one, other)
         )
         assert plan == (f"fine_move(rob1,{one}_2)", f"fine_move(rob1,{other}_1)")
     assert planner.kept == 1
@@ -151,7 +160,7 @@ def test_no_more_is_kept_than_was_asked_for() -> None:
     planner = _planner(level("L2"), most=1)
     for _ in range(2):
         for room in ("room2", "room3"):
-            assert planner.plan(ROW, (f"loc(rob1,{room})",), LIMIT)
+            assert planner.plan(ROW, parsed([f"loc(rob1,{room})"]), LIMIT)
             assert planner.kept == 1
 
 
@@ -187,10 +196,13 @@ def test_laws_about_what_is_false_are_translated_literally() -> None:
     with pytest.raises(NotCompactError, match="line 13"):
         IncrementalFinePlanner(source, signature)
     planner = fine_planner(source, signature)
-    assert planner.plan(FineStart(frozenset({"lit(lamp1)"})), ("dark(lamp1)",), LIMIT) == (
-        "quench(lamp1)",
+    assert planner.plan(
+        FineStart(frozenset(parsed(["lit(lamp1)"]))), parsed(["dark(lamp1)"]), LIMIT
+    ) == ("quench(lamp1)",)
+    assert (
+        planner.plan(FineStart(frozenset(parsed(["dark(lamp1)"]))), parsed(["dark(lamp1)"]), LIMIT)
+        == ()
     )
-    assert planner.plan(FineStart(frozenset({"dark(lamp1)"})), ("dark(lamp1)",), LIMIT) == ()
 
 
 BROKEN = """
@@ -211,5 +223,5 @@ laws
 
 def test_no_plan_has_an_action_whose_effects_contradict_each_other() -> None:
     planner = IncrementalFinePlanner(*analyse(BROKEN))
-    start = FineStart(frozenset({"broken(lamp1)"}))
-    assert planner.plan(start, ("lit(lamp1)",), LIMIT) == ("mend(lamp1)", "light(lamp1)")
+    start = FineStart(frozenset(parsed(["broken(lamp1)"])))
+    assert planner.plan(start, parsed(["lit(lamp1)"]), LIMIT) == ("mend(lamp1)", "light(lamp1)")

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from asp.domains.levels import LevelSize
-from asp.language import analyse, arguments, functions
+from asp.language import Action, Literal, analyse, functions
 from asp.reasoning.fine_planning import FineStart, IncrementalFinePlanner
 from asp.reasoning.fine_planning.compact_session import CompactDescription
 from asp.reasoning.fine_planning.large.problem_program import in_play, loose
@@ -22,6 +22,7 @@ from testbed.world import World, world_of
 from tests.asp.reasoning.fine_planning.fine_problems import drawn_goal, drawn_state
 from tests.asp.refinement.levels import level, of_size
 from tests.asp.refinement.locked import locked_texts
+from tests.literals import parsed
 
 HERE = Path(__file__).parents[2] / "refinement"
 DOMAINS = {
@@ -49,7 +50,7 @@ class Confining:
         self.playing: set[str] = set()
         self._loose = loose(self._part.rules, self._part.sorts)
 
-    def steps(self, start: FineStart, goal: tuple[str, ...], length: int) -> list[Step] | None:
+    def steps(self, start: FineStart, goal: tuple[Literal, ...], length: int) -> list[Step] | None:
         """What is left at each step; None where the goal cannot be reached so soon."""
         true, wanted = self._part.seen(start.true), self._part.seen(goal)
         reach = self._relaxed.reach(true, wanted)
@@ -69,10 +70,10 @@ class Confining:
 
 
 def _ways(
-    world: World, start: int, goal: tuple[str, ...], length: int
-) -> Iterator[tuple[int, int, str | None]]:
+    world: World, start: int, goal: tuple[Literal, ...], length: int
+) -> Iterator[tuple[int, int, Action | None]]:
     """Each step, state and action of all plans of exactly so many actions."""
-    layers: list[dict[int, list[tuple[str, int]]]] = []
+    layers: list[dict[int, list[tuple[Action, int]]]] = []
     states = {start}
     for _ in range(length):
         layers.append({state: list(_transitions(world, state)) for state in states})
@@ -90,7 +91,7 @@ def _ways(
         good = {state for state, _ in leading}
 
 
-def _transitions(world: World, state: int) -> Iterator[tuple[str, int]]:
+def _transitions(world: World, state: int) -> Iterator[tuple[Action, int]]:
     for action in world.agent_actions:
         yield from ((action, after) for after in world.successors(state, [action]))
 
@@ -109,7 +110,7 @@ def test_every_plan_keeps_to_what_is_left(name: str) -> None:
             true = {*world.true_atoms(state)}
             for function, left in steps[step].items():
                 assert action in left if function == ACTION else not left.isdisjoint(true)
-            named = {c for text in [*true, *filter(None, [action])] for c in arguments(text)}
+            named = {c for said in [*true, *filter(None, [action])] for c in said.arguments}
             assert named <= confining.playing
             passed += 1
     assert passed
@@ -123,8 +124,8 @@ def _places(thing: str, *cells: str) -> set[str]:
 
 
 def test_in_a_row_every_step_has_one_place() -> None:
-    confining, start = Confining(ROW), FineStart(frozenset({"fine_loc(rob1,room1_1)"}))
-    steps = confining.steps(start, ("loc(rob1,room2)",), 3)
+    confining, start = Confining(ROW), FineStart(frozenset(parsed(["fine_loc(rob1,room1_1)"])))
+    steps = confining.steps(start, parsed(["loc(rob1,room2)"]), 3)
     assert steps is not None
     cells = ("room1_1", "room1_2", "room1_3", "room2_1")
     assert [step["fine_loc(rob1)"] for step in steps] == [_places("rob1", cell) for cell in cells]
@@ -134,8 +135,8 @@ def test_in_a_row_every_step_has_one_place() -> None:
 
 
 def test_with_a_step_to_spare_there_is_more() -> None:
-    start = FineStart(frozenset({"fine_loc(rob1,room1_1)"}))
-    steps = Confining(ROW).steps(start, ("loc(rob1,room2)",), 4)
+    start = FineStart(frozenset(parsed(["fine_loc(rob1,room1_1)"])))
+    steps = Confining(ROW).steps(start, parsed(["loc(rob1,room2)"]), 4)
     assert steps is not None
     assert steps[2]["fine_loc(rob1)"] == _places("rob1", "room1_2", "room1_3")
 
@@ -144,7 +145,7 @@ def test_what_is_held_is_where_the_robot_is() -> None:
     held = {"fine_in_hand(rob1,object1_1)"}
     true = held.union(*(_places(t, "room1_2") for t in ("rob1", "object1_1", "object1_2")))
     steps = Confining(ROW).steps(
-        FineStart(frozenset(true)), ("loc(rob1,room2)", "loc(object1,room2)"), 2
+        FineStart(frozenset(parsed(true))), parsed(["loc(rob1,room2)", "loc(object1,room2)"]), 2
     )
     assert steps is not None
     assert steps[1]["fine_in_hand(rob1)"] == held
@@ -153,8 +154,8 @@ def test_what_is_held_is_where_the_robot_is() -> None:
 
 
 def test_where_the_goal_holds_already_one_may_go_elsewhere_and_come_back() -> None:
-    start = FineStart(frozenset({"fine_loc(rob1,room2_1)"}))
-    steps = Confining(ROW).steps(start, ("loc(rob1,room2)",), 2)
+    start = FineStart(frozenset(parsed(["fine_loc(rob1,room2_1)"])))
+    steps = Confining(ROW).steps(start, parsed(["loc(rob1,room2)"]), 2)
     assert steps is not None
     anywhere = _places("rob1", "room1_3", "room2_1", "room2_2")
     assert steps[1].get("fine_loc(rob1)", anywhere) >= anywhere
@@ -187,5 +188,5 @@ def test_what_a_law_speaks_of_without_naming_it_otherwise_stays_in_play() -> Non
     kept = loose(part.rules, part.sorts)
     assert {part.names[f"spot{n}"] for n in (1, 2, 3)} <= kept
     planner = IncrementalFinePlanner(source, signature, largest=-1)
-    plan = planner.plan(FineStart(frozenset()), ("glad(rob1)",), 3)
+    plan = planner.plan(FineStart(frozenset()), parsed(["glad(rob1)"]), 3)
     assert plan == ("sweep(rob1,spot2)", "sing(rob1)")

@@ -9,7 +9,7 @@ from contextlib import suppress
 import pytest
 from clingo import Control
 
-from asp.language import Description, analyse, parse_description, read_domain
+from asp.language import Action, Description, Literal, analyse, parse_description, read_domain
 from asp.reasoning.planning import Encoding, IncrementalPlanner, shortest
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.search import StateSpace
@@ -17,6 +17,7 @@ from asp.reasoning.relevance import Relevance
 from asp.solving import LimitError, Limits, deciding
 from benchmarks.offices import office
 from testbed.world import World, world_of
+from tests.literals import parsed
 
 OFFICE = read_domain("office")[1]
 FOUR_BOOKS = OFFICE.replace("{book1, book2}", "{book1, book2, book3, book4}")
@@ -27,13 +28,13 @@ ALARM = OFFICE.replace(
 
 
 def _first_shortest(
-    world: World, state: int, goal: tuple[str, ...], limit: int
-) -> tuple[str, ...] | None:
+    world: World, state: int, goal: tuple[Literal, ...], limit: int
+) -> tuple[Action, ...] | None:
     """The first plan in the order of declaration, by layers of a breadth-first search."""
-    layer: dict[int, tuple[str, ...]] = {state: ()}
+    layer: dict[int, tuple[Action, ...]] = {state: ()}
     seen = {state}
     for _ in range(limit):
-        following: dict[int, tuple[str, ...]] = {}
+        following: dict[int, tuple[Action, ...]] = {}
         for now, plan in sorted(layer.items(), key=lambda item: _rank(world, item[1])):
             for action in world.agent_actions:
                 for after in world.successors(now, (action,)):
@@ -47,7 +48,7 @@ def _first_shortest(
     return None
 
 
-def _rank(world: World, plan: tuple[str, ...]) -> list[int]:
+def _rank(world: World, plan: tuple[Action, ...]) -> list[int]:
     return [world.agent_actions.index(action) for action in plan]
 
 
@@ -59,10 +60,10 @@ def _planner(text: str) -> IncrementalPlanner:
     return IncrementalPlanner(text, "office.al")
 
 
-def _some_goal(description: Description, draw: random.Random) -> tuple[str, ...]:
-    fluents = [fluent for fluent in description.fluents if not fluent.startswith("locked")]
+def _some_goal(description: Description, draw: random.Random) -> tuple[Literal, ...]:
+    fluents = [fluent for fluent in description.fluents if fluent.name != "locked"]
     chosen = draw.sample(fluents, draw.choice([1, 1, 2]))
-    return tuple(draw.choice(["", "-"]) + fluent for fluent in chosen)
+    return tuple(draw.choice([fluent, fluent.complement]) for fluent in chosen)
 
 
 @pytest.mark.parametrize("text", [OFFICE, FOUR_BOOKS, ALARM], ids=["office", "books", "alarm"])
@@ -139,8 +140,8 @@ def test_a_plan_may_do_nothing_but_make_things_true_or_false(
 ) -> None:
     for name, value in WAYS[way].items():
         monkeypatch.setattr(f"asp.reasoning.planning.incremental.{name}", value)
-    lamps = ("on(a)", "on(b)", "on(c)")
-    start, goal = ((), lamps) if lit else (lamps, tuple(f"-{lamp}" for lamp in lamps))
+    lamps = parsed(["on(a)", "on(b)", "on(c)"])
+    start, goal = ((), lamps) if lit else (lamps, tuple(lamp.complement for lamp in lamps))
     plan = tuple(f"switch_{'on' if lit else 'off'}({lamp})" for lamp in "abc")
     assert IncrementalPlanner(LAMPS, "lamps.al").shortest(frozenset(start), goal, 4) == plan
 
@@ -170,7 +171,7 @@ def test_a_plan_succeeds_where_the_world_says_so(
     assert outcomes == {True, False}
 
 
-def _can(world: World, state: int, action: str) -> bool:
+def _can(world: World, state: int, action: Action) -> bool:
     return world.executable(state, (action,))
 
 
@@ -189,14 +190,14 @@ def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
 
 def test_a_plan_succeeds_too_where_the_goal_is_defined() -> None:
     plans = IncrementalPlanner(LAMP, "office.al")
-    state = frozenset(["loc(rob1,office2)", "loc(book1,office2)", "loc(book2,office2)"])
-    there, back = "move(rob1,kitchen)", "move(rob1,office2)"
-    now = state | {"free(rob1,office2)"}
-    assert plans.succeeds(now, ("free(rob1,kitchen)",), (there,))
-    assert plans.succeeds(now, ("-free(rob1,office2)",), (there, back))
-    assert not plans.succeeds(now, ("free(rob1,library)",), (there, back))
-    assert not plans.succeeds(now, ("-free(rob1,library)", "free(rob1,library)"), (there,))
-    assert not plans.succeeds(now, ("-free(rob1,kitchen)",), (there,))
+    state = frozenset(parsed(["loc(rob1,office2)", "loc(book1,office2)", "loc(book2,office2)"]))
+    there, back = parsed(["move(rob1,kitchen)", "move(rob1,office2)"])
+    now = state | {Literal.parse("free(rob1,office2)")}
+    assert plans.succeeds(now, parsed(["free(rob1,kitchen)"]), (there,))
+    assert plans.succeeds(now, parsed(["-free(rob1,office2)"]), (there, back))
+    assert not plans.succeeds(now, parsed(["free(rob1,library)"]), (there, back))
+    assert not plans.succeeds(now, parsed(["-free(rob1,library)", "free(rob1,library)"]), (there,))
+    assert not plans.succeeds(now, parsed(["-free(rob1,kitchen)"]), (there,))
 
 
 def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -204,8 +205,8 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
     search = StateSpace.search
     monkeypatch.setattr(StateSpace, "search", lambda *given: asked.append(given) or search(*given))
     plans = IncrementalPlanner(OFFICE, "office.al")
-    state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
-    goal = ("loc(book1,library)", "loc(book2,library)")
+    state = frozenset(parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"]))
+    goal = parsed(["loc(book1,library)", "loc(book2,library)"])
     with pytest.raises(LimitError), deciding(Limits(0)):
         plans.shortest(state, goal, 20)
     plan = plans.shortest(state, goal, 20)
@@ -217,8 +218,8 @@ def test_after_a_time_limit_planning_goes_on_where_it_was(monkeypatch: pytest.Mo
 
 def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("asp.reasoning.planning.incremental.STATE_SET_SEARCH", False)
-    state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
-    goal = ("loc(book1,library)",)
+    state = frozenset(parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"]))
+    goal = parsed(["loc(book1,library)"])
     whole = _planner(OFFICE).shortest(state, goal, 20)
     solving, interrupted = shortest.solving, set[object]()
 
@@ -240,10 +241,12 @@ def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPat
 
 def test_a_goal_is_out_of_reach_where_all_states_were_looked_at() -> None:
     plans = IncrementalPlanner(OFFICE, "office.al")
-    state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
-    assert plans.reachable(state, ("in_hand(rob1,book1)", "in_hand(rob1,book2)")) is False
-    assert plans.reachable(state, ("loc(book1,library)", "loc(book2,library)")) is True
-    assert IncrementalPlanner(LAMP, "office.al").reachable(state, ("locked(library)",)) is None
+    state = frozenset(parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"]))
+    assert plans.reachable(state, parsed(["in_hand(rob1,book1)", "in_hand(rob1,book2)"])) is False
+    assert plans.reachable(state, parsed(["loc(book1,library)", "loc(book2,library)"])) is True
+    assert (
+        IncrementalPlanner(LAMP, "office.al").reachable(state, parsed(["locked(library)"])) is None
+    )
 
 
 def test_books_can_be_left_out_but_not_rooms_or_the_robot() -> None:
@@ -256,7 +259,7 @@ def test_a_book_that_changes_something_else_cannot_be_left_out() -> None:
 
 def test_a_book_in_the_hand_stands_in_the_way() -> None:
     relevance = _relevance(OFFICE)
-    state = {"loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office1)"}
-    assert relevance.spare(state, ["loc(book1,library)"]) == {"book2"}
-    held = state | {"in_hand(rob1,book2)"}
-    assert relevance.spare(held, ["loc(book1,library)"]) == set()
+    state = parsed({"loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office1)"})
+    assert relevance.spare(state, parsed(["loc(book1,library)"])) == {"book2"}
+    held = [*state, *parsed(["in_hand(rob1,book2)"])]
+    assert relevance.spare(held, parsed(["loc(book1,library)"])) == set()

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 
 import pytest
 
-from asp.language import parse_description
+from asp.language import Fluent, Literal, parse_description
 from asp.reasoning.planning import Encoding
 from asp.reasoning.planning.large.search import Search, StateSpace
 from benchmarks.offices import office
 from testbed.world import World, world_of
+from tests.literals import parsed
 
 SOURCES = (office(), office(books=1, rooms=5, shape="grid"), office(books=2, rooms=4, secure=2))
 
@@ -34,21 +35,21 @@ class _Layers:
                         self.distance[after] = self.distance[now] + 1
                         waiting.append(after)
 
-    def length(self, goal: tuple[str, ...]) -> int | None:
+    def length(self, goal: tuple[Literal, ...]) -> int | None:
         satisfying = (d for s, d in self.distance.items() if self.world.satisfies(s, goal))
         return min(satisfying, default=None)
 
 
 def _questions(
     source: str, number: int
-) -> Iterator[tuple[_Layers, frozenset[str], tuple[str, ...]]]:
+) -> Iterator[tuple[_Layers, frozenset[Fluent], tuple[Literal, ...]]]:
     description = parse_description(source, "office.al")
     world, draw = world_of(description), random.Random(3)
     states = list(world.initial_states())
     for _ in range(number):
         state = draw.choice(states)
-        literals = draw.sample(description.fluents, draw.choice([1, 2]))
-        goal = tuple(draw.choice(["", "", "-"]) + fluent for fluent in literals)
+        fluents = draw.sample(description.fluents, draw.choice([1, 2]))
+        goal = tuple(draw.choice([f, f, f.complement]) for f in fluents)
         yield _Layers(world, state), frozenset(world.true_atoms(state)), goal
 
 
@@ -56,7 +57,7 @@ def _nothing(_expansions: int) -> None:
     """No reason to stop."""
 
 
-def _search(source: str, state: frozenset[str], goal: Sequence[str]) -> Search:
+def _search(source: str, state: frozenset[Fluent], goal: Sequence[Literal]) -> Search:
     search = StateSpace(Encoding(parse_description(source, "office.al"))).search(state, goal)
     assert search is not None
     return search
@@ -74,9 +75,9 @@ def test_the_length_is_that_of_a_shortest_plan(source: str) -> None:
 
 def test_a_search_that_was_stopped_goes_on_where_it_was() -> None:
     state = frozenset(
-        ["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)", "locked(library)"]
+        parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)", "locked(library)"])
     )
-    goal = ["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book2)"]
+    goal = parsed(["loc(book1,library)", "loc(book2,library)", "-in_hand(rob1,book2)"])
     whole, stopped = (_search(SOURCES[0], state, goal) for _ in range(2))
     layers = 0
 
@@ -98,7 +99,7 @@ def test_a_search_that_was_stopped_goes_on_where_it_was() -> None:
 
 
 def test_a_limit_is_no_proof_and_can_be_raised() -> None:
-    state = frozenset(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"])
-    search = _search(SOURCES[0], state, ["loc(book1,library)"])
+    state = frozenset(parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"]))
+    search = _search(SOURCES[0], state, parsed(["loc(book1,library)"]))
     assert search.distance(6, _nothing) is None
     assert search.distance(7, _nothing) == 7
