@@ -5,25 +5,40 @@ What only large problems need is switched here.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import chain, product, repeat
 from pathlib import Path
+
+from clingo import Symbol
 
 from asp.language import (
     Action,
     Description,
     Literal,
+    Signature,
     analyse,
     ground_description,
     narrowed,
     restrict,
+    syntax,
     without_exogenous,
 )
 from asp.reasoning.planning.large.operators import Encoding
 from asp.reasoning.planning.large.outcomes import NotEncodableError
-from asp.reasoning.planning.large.search import StateSpace
-from asp.reasoning.planning.shortest import ShortestPlans
+from asp.reasoning.planning.large.search import Search, StateSpace
 from asp.reasoning.relevance import Relevance, interchangeable
-from asp.solving import Recent, State, preparation
+from asp.solving import (
+    LimitError,
+    Recent,
+    Session,
+    State,
+    fact,
+    goal_externals,
+    is_satisfiable,
+    preparation,
+    solving,
+)
 from asp.translation import translate_source
 
 STATE_SET_SEARCH = True
@@ -34,6 +49,18 @@ MOST_STATES = 2**29
 
 MOST_PARTS = 16
 """Of how many parts of a domain planners are kept: those that were used last."""
+
+MOST_LENGTHS = 40
+"""Of how many lengths of plans sessions are kept: those that were used last.
+
+Where no search gives the length they are asked one after the other, from 1 to that of the plan:
+were fewer kept than a plan has actions, each decision would ground all of them again.
+"""
+
+MOST_LEVELS = 32_767
+"""As many levels of decisions as clasp tells apart: those beyond come in any order."""
+
+_LEAST_HORIZON = 8
 
 
 class IncrementalPlanner:
@@ -51,7 +78,7 @@ class IncrementalPlanner:
         self._name = Path(file).stem
         self._relevance = Relevance(self._source, self._signature)
         self._classes = interchangeable(source, self._signature)
-        self._parts: Recent[frozenset[str], ShortestPlans] = Recent(MOST_PARTS)
+        self._parts: Recent[frozenset[str], _Part] = Recent(MOST_PARTS)
 
     def shortest(
         self, state: State, goal: tuple[Literal, ...], limit: int
@@ -78,27 +105,16 @@ class IncrementalPlanner:
         view = _View(self._relevance, self._classes, state, goal)
         return self._part(view.dropped).reachable(view.state, view.goal)
 
-    def _part(self, dropped: frozenset[str]) -> ShortestPlans:
-        return self._parts.get(dropped, lambda: self._make_part(dropped))
+    def _part(self, dropped: frozenset[str]) -> _Part:
+        def make() -> _Part:
+            with preparation():
+                source, signature = (
+                    restrict(self._source, dropped),
+                    narrowed(self._signature, dropped),
+                )
+                return _Part(source, signature, self._name)
 
-    def _make_part(self, dropped: frozenset[str]) -> ShortestPlans:
-        with preparation():
-            source = restrict(self._source, dropped)
-            signature = narrowed(self._signature, dropped)
-            description = ground_description(source, signature, self._name)
-            return ShortestPlans(
-                description,
-                translate_source(source, signature),
-                _state_space(description) if STATE_SET_SEARCH else None,
-            )
-
-
-def _state_space(description: Description) -> StateSpace | None:
-    try:
-        space = StateSpace(Encoding(description))
-    except NotEncodableError:
-        return None
-    return space if space.size <= MOST_STATES else None
+        return self._parts.get(dropped, make)
 
 
 class _View:
@@ -136,3 +152,116 @@ class _View:
         """The plan in the names of the problem."""
         back = {new: old for old, new in self._names.items()}
         return tuple(action.renamed(back) for action in plan)
+
+
+@dataclass
+class _Question:
+    """A problem that is not answered yet; no plan is shorter than `length`."""
+
+    asked: tuple[State, tuple[Literal, ...]]
+    search: Search | None
+    length: int = 1
+
+
+class _Part:
+    """Shortest plans of a part of a domain: by a search where states are searched, else by clingo.
+
+    Clingo finds them in a program for each length that is grounded once.
+    """
+
+    def __init__(self, source: syntax.Source, signature: Signature, name: str) -> None:
+        description = ground_description(source, signature, name)
+        self._fluents = description.fluents
+        self._actions = description.agent_actions
+        self._program = translate_source(source, signature)
+        self._space = _state_space(description) if STATE_SET_SEARCH else None
+        self._planning: Recent[int, Session] = Recent(MOST_LENGTHS)
+        self._following: Recent[int, Session] = Recent(MOST_LENGTHS)
+        self._open: _Question | None = None
+
+    def shortest(
+        self, state: State, goal: tuple[Literal, ...], limit: int
+    ) -> tuple[Action, ...] | None:
+        """The first of the shortest plans of at most `limit` actions, or None.
+
+        Raises LimitError; asked again, it goes on where it was.
+        """
+        question, self._open = self._open, None
+        if question is None or question.asked != (state, goal):
+            question = _Question((state, goal), self._search(state, goal))
+        try:
+            return self._answer(question, limit)
+        except LimitError:
+            self._open = question
+            raise
+
+    def succeeds(self, state: State, goal: tuple[Literal, ...], plan: tuple[Action, ...]) -> bool:
+        """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
+        if self._space is not None:
+            return self._space.succeeds(state, goal, plan)
+        # Few horizons serve all lengths.
+        horizon = 1 << (max(len(plan), _LEAST_HORIZON) - 1).bit_length()
+        session = self._following.get(horizon, lambda: self._session("follow", horizon))
+        follows = (fact("follows", action, step) for step, action in enumerate(plan))
+        session.switch_on(*goal_externals(goal), *follows)
+        start = session.assume_state(state, 0)
+        return start is not None and is_satisfiable(session.control, start)
+
+    def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
+        """Whether some state that can be reached satisfies the goal; None where nothing is said.
+
+        Raises LimitError.
+        """
+        search = self._search(state, goal)
+        return None if search is None else search.distance(None) is not None
+
+    def _search(self, state: State, goal: tuple[Literal, ...]) -> Search | None:
+        return None if self._space is None else self._space.search(state, goal)
+
+    def _answer(self, question: _Question, limit: int) -> tuple[Action, ...] | None:
+        if question.search is not None:
+            least = question.search.distance(limit)
+            return None if least is None else question.search.first_plan()
+        while question.length <= limit:
+            plan = self._of_length(question)
+            if plan is not None:
+                return plan
+            question.length += 1
+        return None
+
+    def _of_length(self, question: _Question) -> tuple[Action, ...] | None:
+        """The first plan of the question's length in the order of declaration, or None."""
+        (state, goal), length = question.asked, question.length
+        session = self._planning.get(length, lambda: self._session("plan", length))
+        session.switch_on(*goal_externals(goal))
+        start = session.assume_state(state, 0)
+        if start is None:
+            return None
+        with solving(session.control, start) as model:
+            if model is None:
+                return None
+            return tuple(
+                action
+                for step, action in product(range(length), self._actions)
+                if (literal := session.literal("occurs", action, step)) is not None
+                and model.is_true(literal)
+            )
+
+    def _session(self, part: str, steps: int) -> Session:
+        facts = _candidates(self._actions, steps)
+        return Session(self._program, "incremental_planning", self._fluents, facts, [part], n=steps)
+
+
+def _state_space(description: Description) -> StateSpace | None:
+    try:
+        space = StateSpace(Encoding(description))
+    except NotEncodableError:
+        return None
+    return space if space.size <= MOST_STATES else None
+
+
+def _candidates(actions: Iterable[Action], steps: int) -> Iterator[Symbol]:
+    """candidate(A,I,L): the earlier in this order, the higher the level, while there are any."""
+    levels = chain(range(MOST_LEVELS, 0, -1), repeat(0))
+    for (step, action), level in zip(product(range(steps), actions), levels, strict=False):
+        yield fact("candidate", action, step, level)

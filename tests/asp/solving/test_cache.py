@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from asp.language import read_domain
 from asp.reasoning.planning import IncrementalPlanner
 from asp.reasoning.planning import incremental as plans
-from asp.reasoning.planning import shortest as shared
 from asp.solving import Recent
 from tests.literals import parsed
 
@@ -73,7 +72,7 @@ def test_with_little_kept_plans_are_the_same(text: str, monkeypatch: pytest.Monk
     assert text == OFFICE or "shelved if" in text
     ample = IncrementalPlanner(text, "office.al")
     monkeypatch.setattr(plans, "MOST_PARTS", 1)
-    monkeypatch.setattr(shared, "MOST_LENGTHS", 1)
+    monkeypatch.setattr(plans, "MOST_LENGTHS", 1)
     scarce = IncrementalPlanner(text, "office.al")
     state = frozenset(parsed(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,office1)"]))
     for goal in GOALS:

@@ -8,7 +8,7 @@ import pytest
 from asp.language import read_domain
 from asp.reasoning.planning import IncrementalPlanner, Operator
 from asp.reasoning.planning.large import search
-from asp.reasoning.planning.large.state_sets import Space
+from asp.reasoning.planning.large.search import Space
 from asp.solving import LimitError, Limits, deciding, preparation, reasoning_clock
 from tests.literals import parsed
 

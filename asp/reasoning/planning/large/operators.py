@@ -8,7 +8,7 @@ and transitions are those of the description.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 
 from asp.language import Action, Description, Fluent, Literal
@@ -49,7 +49,7 @@ class Encoding:
             (law for law in constraints if not _excludes_values(law)), list(map(len, self.domains))
         )
         self.operators = tuple(self._operators(description))
-        self._by_action: dict[str, list[Operator]] = {}
+        self._by_action: dict[Action, list[Operator]] = {}
         for operator in self.operators:
             self._by_action.setdefault(operator.action, []).append(operator)
 
@@ -80,10 +80,10 @@ class Encoding:
         return Law(self.assignment(head), tuple(map(self.assignment, body)))
 
     def _operators(self, description: Description) -> Iterator[Operator]:
-        effects: dict[Literal, list[Law]] = {}
+        effects: dict[Action, list[Law]] = {}
         for causal in description.causal:
             effects.setdefault(causal.action, []).append(self._law(causal.head, causal.body))
-        hindrances: dict[str, list[tuple[tuple[int, int, bool], ...]]] = {}
+        hindrances: dict[Action, list[tuple[tuple[int, int, bool], ...]]] = {}
         for condition in description.executability:
             if len(set(condition.actions)) == 1:
                 body = tuple(map(self.assignment, condition.body))
@@ -110,31 +110,22 @@ def _groups(description: Description) -> Iterator[list[Fluent]]:
     for law in description.constraints:
         if not law.head.is_positive and len(law.body) == 1 and law.body[0].is_positive:
             excluded[law.head.atom].add(law.body[0])
-    done: set[Fluent] = set()
-    for fluent in description.fluents:
-        if fluent not in done:
-            group = _group(fluent, excluded, done)
-            done.update(group)
-            yield group
+    left = list(description.fluents)
+    while left:
+        group: list[Literal] = []
+        for fluent in left:
+            if all(fluent in excluded[other] and other in excluded[fluent] for other in group):
+                group.append(fluent)
+        yield group
+        left = [fluent for fluent in left if fluent not in group]
 
 
-def _group(
-    fluent: Fluent, excluded: Mapping[Fluent, set[Fluent]], done: set[Fluent]
-) -> list[Fluent]:
-    order = {other: number for number, other in enumerate(excluded)}
-    group = [fluent]
-    for other in sorted(excluded[fluent] - done - {fluent}, key=order.__getitem__):
-        if all(other in excluded[member] and member in excluded[other] for member in group):
-            group.append(other)
-    return group
-
-
-def _domain(description: Description, group: list[Fluent]) -> tuple[str | None, ...]:
+def _domain(description: Description, group: list[Fluent]) -> tuple[Fluent | None, ...]:
     always_one = len(group) > 1 and _always_one(description, group)
     return (*group,) if always_one else (*group, None)
 
 
-def _always_one(description: Description, group: list[Fluent]) -> bool:
+def _always_one(description: Description, group: list[Literal]) -> bool:
     """Whether some fluent of the group is true at first, and none is ever made false alone."""
     members = set(group)
     heads = {law.head for law in description.causal}

@@ -10,7 +10,7 @@ import pytest
 from clingo import Control
 
 from asp.language import Action, Description, Literal, analyse, parse_description, read_domain
-from asp.reasoning.planning import Encoding, IncrementalPlanner, shortest
+from asp.reasoning.planning import Encoding, IncrementalPlanner, incremental
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.search import StateSpace
 from asp.reasoning.relevance import Relevance
@@ -221,7 +221,7 @@ def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPat
     state = frozenset(parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"]))
     goal = parsed(["loc(book1,library)"])
     whole = _planner(OFFICE).shortest(state, goal, 20)
-    solving, interrupted = shortest.solving, set[object]()
+    solving, interrupted = incremental.solving, set[object]()
 
     def at_second_attempt(control: Control, start: Sequence[int]) -> object:
         if control not in interrupted:
@@ -229,7 +229,7 @@ def test_a_time_limit_at_each_length_loses_no_plan(monkeypatch: pytest.MonkeyPat
             raise LimitError
         return solving(control, start)
 
-    monkeypatch.setattr(shortest, "solving", at_second_attempt)
+    monkeypatch.setattr(incremental, "solving", at_second_attempt)
     plans, found = _planner(OFFICE), None
     for _ in range(20):
         with suppress(LimitError):

@@ -10,6 +10,7 @@ import pytest
 from asp.language import Fluent, Literal, parse_description
 from asp.reasoning.planning import Encoding
 from asp.reasoning.planning.large.search import Search, StateSpace
+from asp.solving.budget import Budget
 from benchmarks.offices import office
 from testbed.world import World, world_of
 from tests.literals import parsed
@@ -53,10 +54,6 @@ def _questions(
         yield _Layers(world, state), frozenset(world.true_atoms(state)), goal
 
 
-def _nothing(_expansions: int) -> None:
-    """No reason to stop."""
-
-
 def _search(source: str, state: frozenset[Fluent], goal: Sequence[Literal]) -> Search:
     search = StateSpace(Encoding(parse_description(source, "office.al"))).search(state, goal)
     assert search is not None
@@ -67,13 +64,13 @@ def _search(source: str, state: frozenset[Fluent], goal: Sequence[Literal]) -> S
 def test_the_length_is_that_of_a_shortest_plan(source: str) -> None:
     for layers, state, goal in _questions(source, 40):
         search = _search(source, state, goal)
-        length = search.distance(None, _nothing)
+        length = search.distance(None)
         assert length == layers.length(goal)
         if length is not None:
-            assert len(search.first_plan(_nothing)) == length
+            assert len(search.first_plan()) == length
 
 
-def test_a_search_that_was_stopped_goes_on_where_it_was() -> None:
+def test_a_search_that_was_stopped_goes_on_where_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
     state = frozenset(
         parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)", "locked(library)"])
     )
@@ -81,25 +78,27 @@ def test_a_search_that_was_stopped_goes_on_where_it_was() -> None:
     whole, stopped = (_search(SOURCES[0], state, goal) for _ in range(2))
     layers = 0
 
-    def once(_expansions: int) -> None:
+    def once(_budget: Budget, _expansions: int) -> None:
         nonlocal layers
         layers += 1
         if layers % 2:
             raise StopError
 
     found = None
-    while found is None:
-        try:
-            found = stopped.distance(60, once)
-        except StopError:
-            assert layers < 60
-    assert found == whole.distance(60, _nothing)
+    with monkeypatch.context() as patched:
+        patched.setattr(Budget, "take_expansions", once)
+        while found is None:
+            try:
+                found = stopped.distance(60)
+            except StopError:
+                assert layers < 60
+    assert found == whole.distance(60)
     assert layers == 2 * found
-    assert stopped.first_plan(_nothing) == whole.first_plan(_nothing)
+    assert stopped.first_plan() == whole.first_plan()
 
 
 def test_a_limit_is_no_proof_and_can_be_raised() -> None:
     state = frozenset(parsed(["loc(rob1,library)", "loc(book1,office1)", "loc(book2,office1)"]))
     search = _search(SOURCES[0], state, parsed(["loc(book1,library)"]))
-    assert search.distance(6, _nothing) is None
-    assert search.distance(7, _nothing) == 7
+    assert search.distance(6) is None
+    assert search.distance(7) == 7
