@@ -28,11 +28,8 @@ class Problem:
 
     def suffix(self, first: int) -> Problem:
         """The end of this history, from a step on that becomes step 0."""
-        records = {
-            step - first: self.records[step]
-            for step in range(first, self.step + 1)
-            if step in self.records
-        }
+        every = self.records.items()
+        records = {step - first: record for step, record in every if first <= step <= self.step}
         return Problem(self.goal, records, self.step - first, max(0, self.since - first))
 
     @property

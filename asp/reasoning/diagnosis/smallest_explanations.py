@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 from asp.reasoning.diagnosis.encoding import (
     Interpretation,
@@ -67,14 +68,14 @@ class Question:
     def all(self, events: int, exceptions: int | None, most: int) -> tuple[list[Explanation], bool]:
         """At most so many of these explanations, and whether there are more; True: cannot tell."""
         limited = self._at_most(events, exceptions)
-        if limited is None or events > self.most:
+        if limited is None:
             return [], True
         found, more = answer_sets(self.session.control, limited, most)
         return [explanation_of(shown) for shown in found], more
 
     def _at_most(self, events: int, exceptions: int | None) -> list[int] | None:
         """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
-        if self.given is None:
+        if self.given is None or events > self.most:
             return None
         limited = list(self.given)
         if events < self.most:
@@ -109,16 +110,14 @@ class SmallestExplanations:
         and fewer exceptions than the second. None stands for "more events than are counted, or no
         explanation at all", which is left to the reference.
         """
-        tried = fewest[0]
+        tried, defaults = fewest[0], self._knowledge.description.defaults
         for most in (FEW, MANY):
             question = self.question(problem, most)
             if question.possible and tried <= most:
-                for events in range(tried, most + 1):
-                    least = fewest[1] if events == fewest[0] else 0
-                    for exceptions in range(least, len(self._knowledge.description.defaults) + 1):
-                        found = question.first(events, exceptions)
-                        if found is not None:
-                            return found
+                sizes = product(range(tried, most + 1), range(len(defaults) + 1))
+                every = (question.first(*size) for size in sizes if size >= fewest)
+                if (found := next(filter(None, every), None)) is not None:
+                    return found
             tried = max(tried, most + 1)
         return None
 
@@ -132,8 +131,6 @@ class SmallestExplanations:
         exactly = [literal("unobserved", event, step) for step, event in adopted.unobserved]
         exactly += [literal("distrusted", action, step) for step, action in adopted.distrusted]
         exactly += [literal("exception", default) for default in adopted.exceptions]
-        if adopted.size > question.most:
-            return None
         question = question.assuming(assumptions((each, True) for each in exactly))
         return question.first(adopted.size, len(adopted.exceptions))
 

@@ -1,1 +1,1 @@
-"""History compression: it pays in histories of more than some thirty steps (`Compression`)."""
+"""History compression: it pays in histories of more than some 100 steps (`COMPRESSION`)."""

@@ -50,7 +50,7 @@ class Frontier:
 
     Where there are more states than the settings allow, `limit` is lowered; where the smallest
     explanation reaches the limit, it begins anew with a higher one. `entries` are the smallest
-    explanations of each state in their order, one more of them than are told.
+    explanations of each state in their order: `kept` of them, and one more where there are more.
     """
 
     def __init__(
@@ -59,6 +59,7 @@ class Frontier:
         """`start` is how the history began."""
         self._tracker = tracker
         self._settings = settings
+        self.kept = settings.kept
         events = tracker.knowledge.description.exogenous_actions
         self._places: Mapping[str, int] = {event: place for place, event in enumerate(events)}
         self._branches: Recent[tuple[object, ...], Sequence[Branch] | None] = Recent(REMEMBERED)
@@ -74,15 +75,6 @@ class Frontier:
         """The size of the smallest explanation; one more than the limit where there is none."""
         sizes = (entry[0].explanation.size for entry in self.entries.values())
         return min(sizes, default=self.limit + 1)
-
-    @property
-    def size(self) -> int:
-        """How much it keeps: explanations, and transitions that it remembers."""
-        return len(self._branches) + sum(map(len, self.entries.values()))
-
-    def told(self, entry: Sequence[Interpretation]) -> Sequence[Interpretation]:
-        """Those of a state's explanations that are told."""
-        return entry[: self._settings.kept]
 
     def order(self, explanation: Explanation) -> tuple[list[tuple[float, ...]], ...]:
         """Its place (`order.lp`): what is distrusted, the latest first; then events are late."""
@@ -188,7 +180,7 @@ class Frontier:
         if len(entry) == 1:
             return entry
         in_order = sorted(entry, key=lambda prefix: self.order(prefix.explanation))
-        return in_order[: self._settings.kept + 1]
+        return in_order[: self.kept + 1]
 
     def _latest_first(self, happenings: Collection[Happening]) -> list[tuple[int, int]]:
         """The steps and places of happenings, at one step in the order of their places."""

@@ -55,7 +55,7 @@ class SuffixExplanations:
         more = False
         for entry, asked, room in _entries(frontier, question, size):
             ends, left_off = asked.all(room, None, most)
-            prefixes = frontier.told(entry)
+            prefixes = entry[: frontier.kept]
             found += (
                 prefix.explanation.followed_by(end, frontier.step)
                 for end in ends
