@@ -23,16 +23,27 @@ _REMEMBERED = 32
 
 @dataclass(frozen=True)
 class Knowledge:
-    """A domain as reasoning uses it.
-
-    `ranks` are the places of actions in the order of declaration, `start` what the theory of
-    defaults is given: those of fluents and defaults, and what an initial state must have.
-    """
+    """A domain as reasoning uses it; `program` is the translation of its description."""
 
     description: Description
     program: str
-    ranks: tuple[Symbol, ...]
-    start: tuple[Symbol, ...]
+
+    @cached_property
+    def ranks(self) -> tuple[Symbol, ...]:
+        """rank(A,R): the place of each action in the order of declaration, from 0; ranks(M)."""
+        kinds = self.description.agent_actions, self.description.exogenous_actions
+        places = (fact("rank", a, place) for actions in kinds for place, a in enumerate(actions))
+        return fact("ranks", max(map(len, kinds))), *places
+
+    @cached_property
+    def start(self) -> tuple[Symbol, ...]:
+        """fluent_rank(F,R) of inertial fluents, default_rank(D,R), initially(N,F)."""
+        known = self.description
+        return (
+            *(fact("fluent_rank", fluent, n) for n, fluent in enumerate(known.inertial)),
+            *(fact("default_rank", default.name, n) for n, default in enumerate(known.defaults)),
+            *(fact("initially", n, f) for n, some in enumerate(known.initially) for f in some),
+        )
 
     @cached_property
     def actions(self) -> tuple[frozenset[Action], frozenset[Action]]:
@@ -51,35 +62,10 @@ class Knowledge:
 def knowledge(name: str, source: str) -> Knowledge:
     """The knowledge that an AL_d text holds. Raises asp.SourceError."""
     description = parse_description(source, f"{name}.al")
-    return Knowledge(
-        description,
-        translate(source, f"{name}.al"),
-        ranks=tuple(_ranks(description)),
-        start=tuple(_start(description)),
-    )
+    return Knowledge(description, translate(source, f"{name}.al"))
 
 
 def goal_facts(goal: Iterable[Literal]) -> Iterator[Symbol]:
     """goal(F,B) for each literal of the goal."""
     for literal in goal:
         yield fact("goal", literal.atom, "true" if literal.is_positive else "false")
-
-
-def _ranks(description: Description) -> Iterator[Symbol]:
-    """rank(A,R): the place of each action in the order of declaration, from 0."""
-    kinds = (description.agent_actions, description.exogenous_actions)
-    yield fact("ranks", max(map(len, kinds)))
-    for actions in kinds:
-        for number, action in enumerate(actions):
-            yield fact("rank", action, number)
-
-
-def _start(description: Description) -> Iterator[Symbol]:
-    """fluent_rank(F,R) of inertial fluents, default_rank(D,R), initially(N,F)."""
-    for number, fluent in enumerate(description.inertial):
-        yield fact("fluent_rank", fluent, number)
-    for number, default in enumerate(description.defaults):
-        yield fact("default_rank", default.name, number)
-    for number, some in enumerate(description.initially):
-        for fluent in some:
-            yield fact("initially", number, fluent)

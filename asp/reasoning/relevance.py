@@ -26,7 +26,6 @@ from asp.language import variable_sorts as roles
 Law = syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition
 Group = frozenset[str]
 Domains = Mapping[str, frozenset[str]]
-Substitution = dict[str, str]
 
 
 class Relevance:
@@ -226,9 +225,9 @@ def _names(atom: syntax.Atom) -> list[str]:
     return [term.name for term in atom.args]
 
 
-def _bound(pattern: Iterable[syntax.Term], given: Iterable[str]) -> Substitution | None:
+def _bound(pattern: Iterable[syntax.Term], given: Iterable[str]) -> dict[str, str] | None:
     """What the variables of a pattern stand for where it becomes the given terms, if it does."""
-    found: Substitution = {}
+    found: dict[str, str] = {}
     for term, value in zip(pattern, given, strict=True):
         if value != (found.setdefault(term.name, value) if term.is_variable else term.name):
             return None

@@ -131,17 +131,9 @@ def _actions(attempt: Action | None, reported: tuple[Action, ...]) -> list[Symbo
     return actions if attempt is None else [*actions, fact("attempted", attempt)]
 
 
-def _branch(shown: Iterable[Symbol]) -> Branch:
-    found: dict[str, list[Literal]] = {"next": [], "unobserved": [], "distrusted": []}
-    took_effect = False
-    for symbol in shown:
-        if symbol.name == "took_effect":
-            took_effect = True
-        else:
-            found[symbol.name].append(literal_of(symbol.arguments[0]))
-    return Branch(
-        frozenset(found["next"]),
-        took_effect,
-        tuple(found["unobserved"]),
-        tuple(found["distrusted"]),
-    )
+def _branch(shown: Sequence[Symbol]) -> Branch:
+    def of(predicate: str) -> tuple[Literal, ...]:
+        return tuple(literal_of(s.arguments[0]) for s in shown if s.match(predicate, 1))
+
+    took_effect = any(symbol.match("took_effect", 0) for symbol in shown)
+    return Branch(frozenset(of("next")), took_effect, of("unobserved"), of("distrusted"))
