@@ -13,7 +13,7 @@ from benchmarks.memory import resident_mb
 from benchmarks.sheets import Row, Sheet, gathered
 from testbed.cli.loading import load
 from testbed.config import ExperimentConfig
-from testbed.experiment.resume import RunStatus, play_missing
+from testbed.experiment.runner import RunStatus, play_missing
 
 TRIALS = {"small": 120, "full": 20_000}
 SAMPLES = 10

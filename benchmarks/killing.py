@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from testbed import cli
-from testbed.experiment import resume
+from testbed.experiment import runner
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import TRIALS
 from testbed.experiment.store import TrialWriter
@@ -67,7 +67,7 @@ def main() -> None:
     """The command line with a writer that stands still."""
     _, records, *arguments = sys.argv
     sys.argv = ["testbed", *arguments]
-    resume.TrialWriter = _held_at(int(records))  # type: ignore[attr-defined]
+    runner.TrialWriter = _held_at(int(records))  # type: ignore[attr-defined]
     cli.main()
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from time import perf_counter, process_time
 
-from asp.language import is_positive
 from asp.reasoning.planning import IncrementalPlanner
 from testbed.protocol import Capabilities, Decision, Percept, Task, Trace
 
@@ -24,7 +23,7 @@ class Replanner:
         """Takes the task on: called once, before the first percept."""
         self._goal, self._limit = tuple(task.goal), task.plan_limit
         self._planner = IncrementalPlanner(task.source, f"{task.domain}.al")
-        self._believed = set(filter(is_positive, task.initial))
+        self._believed = {fluent for fluent in task.initial if fluent.is_positive}
         self._expected: tuple[str, ...] = ()
         self._plans = 0
 

@@ -15,7 +15,7 @@ from agents.intentional import IntentionalRobot
 from agents.intentional.robots import Reference
 from testbed import cli
 from testbed.config import ExperimentConfig
-from testbed.experiment import plan, resume
+from testbed.experiment import plan, runner
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import Task
 
@@ -47,7 +47,7 @@ def _plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
     return plan.plan_trials(config)
 
 
-resume.plan_trials = _plan_trials
+runner.plan_trials = _plan_trials
 
 if __name__ == "__main__":
     cli.main()

@@ -6,14 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from testbed.config import ExperimentConfig, load_config
-from testbed.experiment.adversaries import adversary_findings
+from testbed.experiment.checks import CHECKS
 from testbed.experiment.provenance import modules_of
-from testbed.experiment.robots import robot_findings
 from testbed.registry import search_as_told, search_last
 from testbed.studies import study_findings
-
-CHECKS = (robot_findings, adversary_findings, study_findings)
-"""Of what a configuration calls by name."""
 
 
 def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
@@ -25,7 +21,7 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
         search_beside(Path(source))
     else:
         search_as_told()
-    return load_config(source, overrides, CHECKS)
+    return load_config(source, overrides, (*CHECKS, study_findings))
 
 
 def search_beside(config: Path) -> None:

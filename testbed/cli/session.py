@@ -12,9 +12,8 @@ from testbed.config import ExperimentConfig
 from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
-from testbed.experiment.resume import RunStatus
 from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_run, locked
-from testbed.experiment.runner import run_in
+from testbed.experiment.runner import RunStatus, run_in
 from testbed.protocol import shortened
 from testbed.report import Tables, grid, write_report
 from testbed.text.terminal import Printer, Say, columns

@@ -20,7 +20,7 @@ from testbed.config.models import (
     ScenarioSettings,
     ScriptEntry,
 )
-from testbed.config.places import ConfigError, Finding
+from testbed.config.places import ConfigError, Finding, dotted
 from testbed.config.scenarios import early_script_findings
 
 __all__ = [
@@ -37,6 +37,7 @@ __all__ = [
     "ScenarioSettings",
     "ScriptEntry",
     "config_names",
+    "dotted",
     "early_script_findings",
     "find_config",
     "ground_of_files",

@@ -23,14 +23,13 @@ if TYPE_CHECKING:
     from testbed.experiment.errors import StoreError, WorkerError
     from testbed.experiment.plan import plan_trials
     from testbed.experiment.record import TrialRecord
-    from testbed.experiment.resume import RunStatus
     from testbed.experiment.run_folder import read_config
-    from testbed.experiment.runner import run
+    from testbed.experiment.runner import RunStatus, run
     from testbed.experiment.store import read_records
     from testbed.experiment.trial import play_trial
 else:
     _PLACES = {
-        "RunStatus": "resume",
+        "RunStatus": "runner",
         "StoreError": "errors",
         "TrialRecord": "record",
         "WorkerError": "errors",

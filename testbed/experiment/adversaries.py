@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any, Protocol, TypeVar, get_args
+from typing import Any, Protocol, get_args
 
 import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
 from asp.language import Action, Literal, suggestion
 from testbed.config import ExperimentConfig, Finding
-from testbed.experiment.specs import Setting
+from testbed.experiment.specs import Setting, default_strategy
 from testbed.protocol import in_one_line, shortened
 from testbed.registry import Registry, RegistryError, class_fault
 
-T = TypeVar("T")
 SIGHTS = get_args(Sight)
 RATE = "rate"
 """The option that is a key of its own in configurations."""
@@ -89,11 +89,6 @@ def make_adversary(setting: Setting, game: Game) -> Adversary:
     return _Named(name, lambda: found(game, options_of(found, given)))
 
 
-def default_strategy(fine: bool) -> str:
-    """The strategy of a configuration that gives none."""
-    return "random" if fine else "triggers"
-
-
 def options_of(found: AdversaryClass, given: Mapping[str, object]) -> object:
     """The options that an adversary is made with. Raises OptionError."""
     declared = getattr(found, "Options", _NoOptions)
@@ -113,25 +108,29 @@ class _Named:
 
     def __init__(self, name: str, make: Callable[[], Adversary]) -> None:
         self._name = name
-        self._adversary = self._asked(make)
-        self.sees = self._adversary.sees
+        with self._blamed():
+            self._adversary = make()
+            self.sees = self._adversary.sees
 
     def reset(self, seed: int) -> None:
         """Begins a trial. Raises AdversaryError."""
-        self._asked(lambda: self._adversary.reset(seed))
+        with self._blamed():
+            self._adversary.reset(seed)
 
     def act(self, view: AdversaryView) -> Action:
         """The answer at a step. Raises AdversaryError, also for one that is no text."""
-        answer: object = self._asked(lambda: self._adversary.act(view))
+        with self._blamed():
+            answer: object = self._adversary.act(view)
         try:
-            return Literal.parse(str(answer) if isinstance(answer, str) else "")
+            return Literal.parse(answer if isinstance(answer, str) else "")
         except ValueError:
             message = f"{self._name} answered {answer!r}, which is not an action"
             raise AdversaryError(shortened(message)) from None
 
-    def _asked(self, call: Callable[[], T]) -> T:
+    @contextmanager
+    def _blamed(self) -> Iterator[None]:
         try:
-            return call()
+            yield
         except Exception as error:  # whatever it is, it is the adversary's
             raise AdversaryError(f"{self._name}: {in_one_line(error)}") from error
 

@@ -17,18 +17,8 @@ import msgspec
 
 from testbed.experiment.record import At, TrialRecord
 
-TIMES = (
-    "planning_time_s",
-    "diagnosis_time_s",
-    "reasoning_time_s",
-    "wall_time_s",
-    "infer_time_s",
-    "planning_cpu_s",
-    "diagnosis_cpu_s",
-    "preparation_cpu_s",
-    "infer_cpu_s",
-)
-"""Keys of a record that hold times."""
+TIMES = ("_time_s", "_cpu_s")
+"""How keys of a record end that hold times."""
 
 
 def logical(record: TrialRecord) -> dict[str, object]:
@@ -38,7 +28,7 @@ def logical(record: TrialRecord) -> dict[str, object]:
 
 
 def _timeless(values: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in values.items() if key not in (*TIMES, "retried")}
+    return {key: own for key, own in values.items() if not key.endswith((*TIMES, "retried"))}
 
 
 def digest(records: Iterable[TrialRecord]) -> str:

@@ -7,7 +7,7 @@ import select
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import active_children, resource_tracker
 from multiprocessing.process import BaseProcess
@@ -82,7 +82,8 @@ class _Guard(Thread):
                     return
                 if number in SIGNALS and first > now:
                     first, deadline = now, now + ENDING_S
-                    self._say("stopping...")
+                    if not self._quiet:
+                        _write("stopping...")
                 elif number == signal.SIGINT and now > first + SAME_S:
                     deadline = min(deadline, now + HURRY_S)
 
@@ -93,10 +94,6 @@ class _Guard(Thread):
         self.join()
         os.close(self.woken)
         os.close(self._pipe)
-
-    def _say(self, line: str) -> None:
-        if not self._quiet:
-            _write(line)
 
 
 def _write(line: str) -> None:
@@ -145,15 +142,11 @@ def interrupts_later() -> Iterator[None]:
         for number, handler in handlers.items():
             signal.signal(number, handler)
         if missed:
-            _deliver(missed[0], handlers[signal.Signals(missed[0])])
-
-
-def _deliver(number: int, handler: Callable[..., object] | int | None) -> None:
-    """Not by the signal again, where that can be helped: the guard has heard of it already."""
-    if callable(handler):
-        handler(number, None)
-    else:
-        signal.raise_signal(number)
+            handler = handlers[signal.Signals(missed[0])]
+            if callable(handler):  # not by the signal again: the guard has heard of it already
+                handler(missed[0], None)
+            else:
+                signal.raise_signal(missed[0])
 
 
 def kill(process: BaseProcess) -> None:

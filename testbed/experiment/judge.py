@@ -24,7 +24,7 @@ from asp.language import (
     without_exogenous,
 )
 from asp.reasoning.relevance import Relevance
-from testbed.experiment.heuristic.potentials import Heuristic, Potentials, blind
+from testbed.experiment.heuristic import Heuristic, Potentials, blind
 from testbed.experiment.record import Minimal, MinimalReason
 from testbed.world import World, world_of
 

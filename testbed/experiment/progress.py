@@ -18,7 +18,7 @@ from rich.progress import (
 )
 from rich.text import Text
 
-from testbed.experiment.resume import Notify, RunStatus
+from testbed.experiment.runner import Notify, RunStatus
 from testbed.text.terminal import warn
 from testbed.text.wording import counted
 
@@ -30,7 +30,7 @@ def progress(quiet: bool) -> Iterator[Notify]:
     """A bar where standard error is a terminal; elsewhere a line from time to time."""
     console = Console(stderr=True)
     if quiet:
-        yield _nothing
+        yield lambda _: None
     elif console.is_terminal:
         with _bar(console) as notify:
             yield notify
@@ -38,8 +38,8 @@ def progress(quiet: bool) -> Iterator[Notify]:
         yield Lines(warn).notify
 
 
-def _nothing(run: RunStatus) -> None:
-    del run
+def _failed(run: RunStatus) -> str:
+    return f", {run.failed} failed" if run.failed else ""
 
 
 class Lines:
@@ -64,8 +64,7 @@ class Lines:
     def _line(self, run: RunStatus, now: float, began: float, done: int) -> str:
         rate = (run.done - done) / (now - began)
         left = round((run.planned - run.done) / rate)
-        failed = f", {run.failed} failed" if run.failed else ""
-        trials = f"{run.done} of {counted(run.planned, 'trial')}{failed}"
+        trials = f"{run.done} of {counted(run.planned, 'trial')}{_failed(run)}"
         return f"{trials}, {rate:.1f}/s, {left // 3600}:{left // 60 % 60:02}:{left % 60:02} left"
 
 
@@ -79,18 +78,13 @@ class _Rate(ProgressColumn):
 
 @contextmanager
 def _bar(console: Console) -> Iterator[Notify]:
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        _Rate(),
-        TimeRemainingColumn(),
-    )
+    done, rest = MofNCompleteColumn(), TimeRemainingColumn()
+    columns = TextColumn("{task.description}"), BarColumn(), done, _Rate(), rest
     with Progress(*columns, console=console) as bar:
         task = bar.add_task("planning the trials", total=None)
 
         def notify(run: RunStatus) -> None:
-            failed = f", {run.failed} failed" if run.failed else ""
-            bar.update(task, total=run.planned, completed=run.done, description=f"trials{failed}")
+            told = f"trials{_failed(run)}"
+            bar.update(task, total=run.planned, completed=run.done, description=told)
 
         yield notify

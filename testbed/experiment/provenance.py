@@ -29,7 +29,8 @@ class Provenance:
     """The provenance of one session of a run; those of earlier sessions are kept under `before`."""
 
     def __init__(self, folder: Path, config: ExperimentConfig, command: Sequence[str]) -> None:
-        self._folder = folder
+        self._folder, description = folder, asp.load_description(config.domain)
+        own = config.refinement
         self._entry: dict[str, Any] = {
             "command": list(command),
             "start": _now(),
@@ -39,8 +40,8 @@ class Provenance:
             "versions": versions(),
             "platform": {"system": platform.platform(), "machine": platform.machine()},
             "revision": revision(folder),
-            "domain": _domain(config.domain),
-            "refinement": _refinement(config.refinement),
+            "domain": _text(description.name, description.source),
+            "refinement": own and _text(Path(own).stem, read_refinement(own)[1]),
             "modules": os.environ.get(PATH_VARIABLE) or None,
             "before": _sessions(folder / PROVENANCE),
         }
@@ -90,17 +91,8 @@ def revision(folder: Path, root: Path = ROOT) -> dict[str, object] | None:
     return {"commit": commit, "changed": changed.splitlines()}
 
 
-def _domain(domain: str) -> dict[str, str]:
-    description = asp.load_description(domain)
-    digest = hashlib.sha256(description.source.encode()).hexdigest()
-    return {"name": description.name, "sha256": digest}
-
-
-def _refinement(file: str | None) -> dict[str, str] | None:
-    if file is None:
-        return None
-    digest = hashlib.sha256(read_refinement(file)[1].encode()).hexdigest()
-    return {"name": Path(file).stem, "sha256": digest}
+def _text(name: str, text: str) -> dict[str, str]:
+    return {"name": name, "sha256": hashlib.sha256(text.encode()).hexdigest()}
 
 
 def _sessions(path: Path) -> list[dict[str, Any]]:

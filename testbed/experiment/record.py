@@ -34,27 +34,28 @@ class Minimal(NamedTuple):
     reason: MinimalReason | None
 
 
-class Attempt(msgspec.Struct):
-    """A physical action of the robot, and whether it took effect."""
+class At(msgspec.Struct):
+    """An action at a step."""
 
     step: Count
     action: Action
+
+
+class Attempt(At):
+    """A physical action of the robot, and whether it took effect."""
+
     happened: bool
 
 
-class Occurrence(msgspec.Struct):
+class Occurrence(At):
     """An exogenous action that happened, and whether the robot was told of it, if only later."""
 
-    step: Count
-    action: Action
     observed: bool
 
 
-class Rejected(msgspec.Struct):
+class Rejected(At):
     """An exogenous action that a script has for this step, that was not possible, and why."""
 
-    step: Count
-    action: Action
     reason: str
 
 
@@ -65,13 +66,6 @@ class Report(msgspec.Struct):
     step: Count
     action: Action
     true: bool
-
-
-class At(msgspec.Struct):
-    """An action at a step."""
-
-    step: Count
-    action: Action
 
 
 class Explained(msgspec.Struct):

@@ -22,8 +22,8 @@ from testbed.experiment.record import (
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import Decision, Event, Explanation, FineTrace, Trace, shortened
 
-GIVEN = ("pair", "scenario", "seed", "robot", "domain", "level", "initial", "goal")
-"""Keys of a record that follow from the plan."""
+NAMED = ("trial", "pair", "scenario", "seed", "robot", "domain", "level")
+"""Keys of a record that its trial has in the plan."""
 
 
 class Result(msgspec.Struct):
@@ -173,13 +173,7 @@ def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
 def blank_record(spec: TrialSpec) -> TrialRecord:
     """A record with what is known before the trial is played."""
     return TrialRecord(
-        trial=spec.trial,
-        pair=spec.pair,
-        scenario=spec.scenario,
-        seed=spec.seed,
-        robot=spec.robot,
-        domain=spec.domain,
-        level=spec.level,
+        **{key: getattr(spec, key) for key in NAMED},
         initial=list(spec.initial),
         goal=list(spec.setting.goal),
         fine=None if spec.setting.fine is None else FineCounts(),
@@ -191,7 +185,7 @@ def strangeness(record: TrialRecord, spec: TrialSpec | None) -> str | None:
     if spec is None:
         return f"trial {record.trial} is not one of this run's"
     blank = blank_record(spec)
-    for key in GIVEN:
+    for key in (*NAMED, "initial", "goal"):
         told, planned = getattr(record, key), getattr(blank, key)
         if told != planned:
             return f"trial {record.trial} has {key} {told!r}, not {planned!r}"

@@ -1,27 +1,67 @@
-"""Run a configuration into a run folder: its configuration, provenance and trials."""
+"""Run a configuration into a run folder: all trials of a new run, the rest of one that was left."""
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from testbed.config import ExperimentConfig
+from testbed.config import ConfigError, ExperimentConfig, dotted
+from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
-from testbed.experiment.plan import coverage_of, places_of
+from testbed.experiment.interrupts import INTERRUPTED
+from testbed.experiment.plan import coverage_of, places_of, plan_trials
 from testbed.experiment.provenance import Provenance
-from testbed.experiment.resume import Notify, RunStatus, play_missing
+from testbed.experiment.record import FAILURES
+from testbed.experiment.recorder import Result
+from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import (
+    ERRORS,
     check_unchanged,
     choose_folder,
     holds_run,
     locked,
+    naming,
     refuse_second_run,
     write_config,
 )
+from testbed.experiment.specs import TrialSpec
+from testbed.experiment.store import TrialWriter
+from testbed.experiment.trial import play_trial
+from testbed.experiment.worker import Play
+from testbed.experiment.worker_pool import play_all, workers_for
+from testbed.link import connect
 
 BAD_INPUT = 2
 """The exit code where no trial can be played."""
+
+
+@dataclass
+class RunStatus:
+    """A run as it stands: trials planned, on record, and failed; whether it was stopped.
+
+    `reason` is that of the first failed trial, None where none failed; `workers` are the processes
+    that play what was missing.
+    """
+
+    planned: int
+    done: int
+    failed: int
+    reason: str | None = None
+    workers: int = 1
+    interrupted: bool = False
+
+    @property
+    def exit_code(self) -> int:
+        """0 for a run that is done, 1 where trials failed, 130 where it was interrupted."""
+        return INTERRUPTED if self.interrupted else int(self.failed > 0)
+
+
+Notify = Callable[[RunStatus], None]
 
 
 def run(
@@ -39,9 +79,13 @@ def run(
     are as many as the trials are worth.
 
     Raises:
+        ConfigError: for robots or an adversary that there are not, or that cannot do what is asked.
         StoreError: for a folder that holds another run, or that another process writes into.
         WorkerError: when no trial can be played.
     """
+    findings = [finding for check in CHECKS for finding in check(config)]
+    if findings:
+        raise ConfigError([f"{dotted(key)}: {message}" for key, message in findings])
     folder = choose_folder(folder, config.name, resume)
     with locked(folder):
         return run_in(folder, config, workers, lambda _: None, resume, retry_failed, sys.argv)
@@ -75,3 +119,88 @@ def run_in(
         played = RunStatus(planned, done, failed=0, workers=0, interrupted=True)
     provenance.close(played.exit_code, played.workers)
     return played
+
+
+def play_missing(
+    config: ExperimentConfig,
+    folder: Path,
+    workers: int | None,
+    notify: Notify,
+    retry_failed: bool = False,
+) -> RunStatus:
+    """Play every trial of `config` that `folder` has no record of; append them in their order.
+
+    With `retry_failed` those that failed are played, too, and their records replaced.
+    Without a number of `workers` there are as many as the missing trials are worth; 0 plays them
+    in this process. An interrupt ends the run early: what was finished is on record, and the run
+    says so. `notify` is called once at the start and after every trial.
+
+    Raises:
+        StoreError: when the folder cannot be written to, or has records of other trials.
+        WorkerError: when no trial can be played.
+    """
+    specs = plan_trials(config)
+    with TrialWriter(folder, specs) as writer:
+        failed = {} if retry_failed else {t: own[-1] for t, own in writer.failures.items()}
+        done = writer.done.difference(writer.failures) | failed.keys()
+        missing = [spec for spec in specs if spec.trial not in done]
+        status = RunStatus(len(specs), len(specs) - len(missing), len(failed))
+        status.reason = next(iter(failed.values()), None)
+        status.workers = workers_for(len(missing)) if workers is None else workers
+        notify(status)
+        if missing:
+            _play(missing, config, status, partial(_record, folder, writer, status), notify)
+    return status
+
+
+def _play(
+    missing: Sequence[TrialSpec],
+    config: ExperimentConfig,
+    status: RunStatus,
+    record: Callable[[Result], None],
+    notify: Notify,
+) -> None:
+    """Put results on record in the order of the plan, whatever the order in which they come."""
+    open_player = partial(player, config.link, config.name, config.limits.answer_s)
+    results = play_all(missing, status.workers, open_player)
+    early: dict[int, Result] = {}
+    turn = 0
+    try:
+        for position, result in results:
+            early[position] = result
+            while turn in early:
+                record(early.pop(turn))
+                turn += 1
+            status.done += 1
+            status.failed += result.record.outcome in FAILURES
+            notify(status)
+    except KeyboardInterrupt:
+        status.interrupted = True
+    finally:
+        results.close()
+        for position in sorted(early):  # on an interrupt their turn does not come any more
+            record(early[position])
+
+
+def _record(folder: Path, writer: TrialWriter, status: RunStatus, result: Result) -> None:
+    if result.record.outcome in FAILURES:
+        status.reason = status.reason or result.record.reason
+    writer.append(result.record)
+    details = folder / ERRORS / f"{result.record.trial}.txt"
+    if result.details:
+        details.parent.mkdir(exist_ok=True)
+        with naming(details):
+            details.write_text(result.details, "utf-8", "backslashreplace")
+    else:  # those of an earlier attempt
+        details.unlink(missing_ok=True)
+
+
+@contextmanager
+def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
+    """What plays trials one after the other, with a robot that lives across them.
+
+    Raises:
+        RobotLost: when a robot of another process does not start.
+    """
+    with connect(link, make_robot, run, answer_s, group=os.getpgrp()) as robot:
+        yield lambda spec: play_trial(spec, robot)

@@ -11,27 +11,25 @@ import numpy as np
 
 def generator_of(root: int, path: object) -> np.random.Generator:
     """What draws the trial at a seed path."""
-    return np.random.default_rng(np.random.SeedSequence(root, spawn_key=seed_words(["draw", path])))
+    return np.random.default_rng(_sequence(root, ["draw", path]))
 
 
 def trial_seed(root: int, path: object) -> int:
     """The seed of the trials at a seed path: 32 bits that follow from the root seed and it."""
-    sequence = np.random.SeedSequence(root, spawn_key=seed_words(path))
-    return int(sequence.generate_state(1)[0])
+    return int(_sequence(root, path).generate_state(1)[0])
 
 
-def seed_words(path: object) -> tuple[int, ...]:
-    """A seed path as numbers for a seed sequence."""
+def _sequence(root: int, path: object) -> np.random.SeedSequence:
     digest = hashlib.blake2b(_canonical(path), digest_size=16).digest()
-    return tuple(int.from_bytes(digest[i : i + 4], "big") for i in range(0, 16, 4))
+    words = tuple(int.from_bytes(digest[i : i + 4], "big") for i in range(0, 16, 4))
+    return np.random.SeedSequence(root, spawn_key=words)
 
 
 def drawn_part(count: int, limit: int | None, root: int, scenario: str) -> Sequence[int]:
     """Which of `count` pairs to play: a smaller limit draws a part of what a larger one does."""
     if limit is None or limit >= count:
         return range(count)
-    sequence = np.random.SeedSequence(root, spawn_key=seed_words(["limit", scenario]))
-    order = np.random.default_rng(sequence).permutation(count)
+    order = np.random.default_rng(_sequence(root, ["limit", scenario])).permutation(count)
     return sorted(int(index) for index in order[:limit])
 
 

@@ -11,7 +11,6 @@ import zenoh
 from testbed.experiment.errors import ServingError
 from testbed.experiment.robots import make_robot, only
 from testbed.link import open_as_configured, open_waiting, serve, serve_forever
-from testbed.protocol import RobotFactory
 
 USUAL = "tcp/127.0.0.1:7447"
 """Where a router of zenoh listens unless told otherwise."""
@@ -30,23 +29,17 @@ def serve_robot(connect: str | None, name: str, config: Path | None) -> None:
     """
     robots = only(name) if ":" in name else make_robot
     try:
-        if config is not None:
-            _serve(open_as_configured(config, connect), name, robots)
-        elif connect is not None:
+        if config is None and connect is not None:
             serve_forever(connect, name, robots)
+            return
+        if config is not None:
+            session = open_as_configured(config, connect)
         else:
             print(f"robot '{name}' serves whoever listens at {USUAL}", file=sys.stderr, flush=True)
-            _serve(open_waiting(USUAL), name, robots)
+            session = open_waiting(USUAL)
+        with session, suppress(KeyboardInterrupt):
+            serve(session, name, robots)
     except zenoh.ZError as error:
-        raise ServingError(f"{config or connect or USUAL}: {_first_line(error)}") from None
-
-
-def _serve(session: zenoh.Session, name: str, robots: RobotFactory) -> None:
-    with session, suppress(KeyboardInterrupt):
-        serve(session, name, robots)
-
-
-def _first_line(error: Exception) -> str:
-    """What zenoh says, without the place in its source that it adds."""
-    line = (str(error).splitlines() or [type(error).__name__])[0]
-    return line.partition(" at /")[0]
+        # What zenoh says, without the place in its source that it adds.
+        said = (str(error).splitlines() or [type(error).__name__])[0].partition(" at /")[0]
+        raise ServingError(f"{config or connect or USUAL}: {said}") from None

@@ -81,6 +81,8 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
     """The rules of a scenario: its own settings where it has them, else the experiment's."""
     own = config.settings(scenario)
     assert own.goal is not None
+    adversary = config.adversary
+    by_default = adversary.strategy == default_strategy(config.is_fine)
     return Setting(
         domain=config.domain,
         goal=own.goal,
@@ -89,25 +91,24 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         knowledge=config.knowledge,
         goal_feedback=bool(own.goal_feedback),
         exogenous_while_thinking=bool(own.exogenous_while_thinking),
-        rate=config.adversary.rate,
+        rate=adversary.rate,
         step_limit=config.limits.steps,
         plan_limit=config.limits.plan,
         decision_s=config.limits.decision_s,
         conflicts=config.limits.conflicts,
         ground_rules=config.limits.ground_rules,
         expansions=config.limits.expansions,
-        strategy=_strategy(config),
-        options=config.adversary.options or None,
+        strategy=None if by_default else adversary.strategy,
+        options=adversary.options or None,
         judge_states=config.limits.judge_states,
         script_at_actions=_numbered(own.script or (), "at_action"),
         script_skips=config.script_policy == "skip",
     )
 
 
-def _strategy(config: ExperimentConfig) -> str | None:
-    """The adversary's strategy; None for that by default, whether or not it is given."""
-    by_default = "random" if config.is_fine else TRIGGERS
-    return None if config.adversary.strategy == by_default else config.adversary.strategy
+def default_strategy(fine: bool) -> str:
+    """The adversary's strategy in a configuration that gives none."""
+    return "random" if fine else TRIGGERS
 
 
 def _numbered(script: Sequence[ScriptEntry], key: str) -> tuple[tuple[int, Action], ...]:

@@ -122,11 +122,5 @@ def _rules(setting: Setting) -> Rules:
     )
 
 
-@lru_cache(maxsize=8)
-def _coarse(domain: str) -> TrialSetup:
-    return TrialSetup(load_world(domain))
-
-
-@lru_cache(maxsize=16)
-def _fine(ground: Ground) -> TrialSetup:
-    return FineTrialSetup(ground)
+_coarse = lru_cache(maxsize=8)(lambda domain: TrialSetup(load_world(domain)))
+_fine = lru_cache(maxsize=16)(FineTrialSetup)

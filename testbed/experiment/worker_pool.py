@@ -58,30 +58,27 @@ def _cores() -> int:
     return os.cpu_count() or 1
 
 
-class _Retries:
-    """Which trials were failed by infrastructure, and for what reason: each gets one more try."""
-
-    def __init__(self) -> None:
-        self._reasons: dict[int, str] = {}
-
-    def grants(self, position: int, result: Result) -> bool:
-        """Whether the trial is to be played again; a result after all says that it was."""
-        record = result.record
-        if record.cause == "infrastructure" and position not in self._reasons:
-            self._reasons[position] = record.reason or ""
-            return True
-        if position in self._reasons:
-            record.retried = [self._reasons.pop(position)]
-        return False
-
-
 def _play_here(specs: Sequence[TrialSpec], play: Play) -> Iterator[tuple[int, Result]]:
-    retries = _Retries()
+    failed: dict[int, str] = {}
     for position, spec in enumerate(specs):
         result = play(spec)
-        while retries.grants(position, result):
+        while _is_retried(position, result, failed):
             result = play(spec)
         yield position, result
+
+
+def _is_retried(position: int, result: Result, failed: dict[int, str]) -> bool:
+    """Whether infrastructure failed the trial for the first time: it gets one more try.
+
+    `failed` has the reasons of trials that are played again; a result after all has that reason.
+    """
+    record = result.record
+    if record.cause == "infrastructure" and position not in failed:
+        failed[position] = record.reason or ""
+        return True
+    if position in failed:
+        record.retried = [failed.pop(position)]
+    return False
 
 
 class _Crew:
@@ -93,7 +90,7 @@ class _Crew:
         pairs = groupby(range(len(specs)), lambda position: specs[position].pair)
         self._pairs = deque(list(positions) for _, positions in pairs)
         self._workers: list[Worker] = []
-        self._retries = _Retries()
+        self._failed: dict[int, str] = {}
 
     def work(self, size: int) -> Iterator[tuple[int, Result]]:
         for _ in range(size):
@@ -112,14 +109,14 @@ class _Crew:
 
     def _awaited(self) -> dict[Connection, Worker]:
         """Those that play now, or will as soon as they are ready."""
-        awaited = {}
         for worker in self._workers:
             if worker.ready and worker.position is None:
                 self._give(worker)
-            starts = not worker.ready and bool(worker.next or self._pairs)
-            if starts or worker.position is not None:
-                awaited[worker.pipe] = worker
-        return awaited
+        return {
+            worker.pipe: worker
+            for worker in self._workers
+            if worker.position is not None or (not worker.ready and (worker.next or self._pairs))
+        }
 
     def _give(self, worker: Worker) -> None:
         """The next of its pair, or the first of the next pair."""
@@ -151,7 +148,7 @@ class _Crew:
         assert position is not None
         assert result is not None
         worker.position = None
-        if self._retries.grants(position, result):
+        if _is_retried(position, result, self._failed):
             worker.next.appendleft(position)
         else:
             yield position, result

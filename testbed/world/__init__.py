@@ -7,6 +7,7 @@ from testbed.world.world import (
     UnknownActionError,
     UnknownFluentError,
     World,
+    bits,
 )
 
 __all__ = [
@@ -15,6 +16,7 @@ __all__ = [
     "UnknownActionError",
     "UnknownFluentError",
     "World",
+    "bits",
     "load_world",
     "world_of",
 ]

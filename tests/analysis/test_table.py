@@ -14,8 +14,8 @@ from testbed.analysis.table import export
 from testbed.config import ConfigError
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import read_config, write_config
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import TrialWriter, read_records
 from tests.experiment.samples import Configure, a_record
 

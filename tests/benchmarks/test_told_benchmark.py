@@ -9,8 +9,8 @@ from benchmarks.told import ToldRobot, main, reordered
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import read_config, write_config
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot

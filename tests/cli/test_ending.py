@@ -96,7 +96,7 @@ def test_an_interrupt_while_trials_are_planned_is_put_on_record(
     def interrupted(_: object) -> None:
         os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr("testbed.experiment.resume.plan_trials", interrupted)
+    monkeypatch.setattr("testbed.experiment.runner.plan_trials", interrupted)
     done = CliRunner().invoke(app, ["run", "quickstart", "--out", "run", "--quiet"])
     assert (done.exit_code, done.output) == (130, "")
     provenance = json.loads(Path("run/provenance.json").read_text(encoding="utf-8"))

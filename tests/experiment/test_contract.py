@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.resume import play_missing
+from testbed.experiment.runner import play_missing
 from testbed.report import write_report
 
 RECORD: dict[str, tuple[type, ...]] = {

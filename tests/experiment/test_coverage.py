@@ -11,8 +11,8 @@ from papers.table1.__main__ import main as table1_page
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.plan import Coverage, coverage_of, plan_trials, planned_trials
-from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import write_config
+from testbed.experiment.runner import play_missing
 from testbed.experiment.timeline import place
 from testbed.text.wording import listed
 

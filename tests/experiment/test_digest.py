@@ -16,6 +16,7 @@ from testbed.experiment.record import (
     FineCounts,
     Occurrence,
     Report,
+    TrialRecord,
 )
 from testbed.experiment.store import read_records
 from testbed.protocol import Contradiction
@@ -60,7 +61,7 @@ REST: dict[str, object] = {
     "reports": [Report(2, 1, "event", true=False)],
     "fine": FineCounts(plans=1, tests=2, infer_time_s=1.0),
     "in_reach": True,
-} | dict.fromkeys((name for name in TIMES if not name.startswith("infer_")), 3.5)
+} | dict.fromkeys((name for name in TrialRecord.__struct_fields__ if name.endswith(TIMES)), 3.5)
 
 
 @pytest.mark.parametrize("field", RESULTS)

@@ -112,7 +112,7 @@ def test_table_1_counts_it_as_the_summary_does(failing: Any) -> None:
     assert row.treatment is not None
     group: Any = summary_of(records)["scenarios"]
     assert row.treatment.value == group["1"]["accuracy"]["intentional"]
-    assert (row.pairs, row.lost) == ((PAIRS, 0) if own else (PAIRS - 1, 1))
+    assert (row.pairs, row.left_out["failed"]) == ((PAIRS, 0) if own else (PAIRS - 1, 1))
 
 
 @pytest.mark.parametrize(("cause", "trials"), [("robot", 2), ("infrastructure", 1), ("testbed", 1)])

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from asp.language import SourceError, parse_description
 from testbed.config import load_config
 from testbed.experiment import judge
-from testbed.experiment.heuristic.potentials import Potentials, blind
-from testbed.experiment.resume import play_missing
+from testbed.experiment.heuristic import Potentials, blind
+from testbed.experiment.runner import play_missing
 from testbed.world import World, load_world, world_of
 from tests.experiment.gardens import GARDEN
 from tests.literals import parsed
@@ -261,7 +261,7 @@ def test_what_is_too_much_to_enumerate_is_searched_without(
     world = world_of(parse_description(CARTS))
     start, goal, (costs, _) = next(world.states()), parsed(["at(jar,gate)"]), measures(world)
     assert Potentials(world.description).heuristic(start, goal, costs) is not blind
-    monkeypatch.setattr("testbed.experiment.heuristic.changes.MOST_CHANGES", 3)
+    monkeypatch.setattr("testbed.experiment.changes.MOST_CHANGES", 3)
     assert Potentials(world.description).heuristic(start, goal, costs) is blind
 
 

@@ -10,7 +10,7 @@ import pytest
 from asp import parse_description
 from testbed.config import load_config
 from testbed.experiment.judge import Goal, Judge, Problem
-from testbed.experiment.resume import play_missing
+from testbed.experiment.runner import play_missing
 from testbed.report import write_report
 from testbed.world import world_of
 

@@ -3,7 +3,7 @@
 import pytest
 
 from testbed.experiment.progress import EVERY_S, Lines, progress
-from testbed.experiment.resume import RunStatus
+from testbed.experiment.runner import RunStatus
 
 
 def _told(*moments: tuple[float, int, int], planned: int = 8000) -> list[str]:

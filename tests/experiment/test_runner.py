@@ -14,13 +14,13 @@ from pathlib import Path
 
 import pytest
 
-from testbed.config import ExperimentConfig, load_config
+from testbed.config import ConfigError, ExperimentConfig, load_config
 from testbed.experiment import StoreError, read_config, run
 from testbed.experiment.digest import logical
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import Result, blank_record
-from testbed.experiment.resume import RunStatus, play_missing, player
 from testbed.experiment.robots import make_robot
+from testbed.experiment.runner import RunStatus, play_missing, player
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import Moment, play_trial
@@ -283,7 +283,7 @@ def test_a_run_without_a_number_of_workers_chooses_one(
 ) -> None:
     """The choice is for what is missing: a trial that is left over has one worker."""
     monkeypatch.setattr("testbed.experiment.worker_pool._cores", lambda: cores)
-    monkeypatch.setattr("testbed.experiment.resume.player", _instantly)
+    monkeypatch.setattr("testbed.experiment.runner.player", _instantly)
     config = load_config("office", ["link=inprocess", "scenarios=[1]", f"limit={WORTH}"])
     assert play_missing(config, tmp_path, given, _ignore).workers == used
     path = tmp_path / "trials.jsonl"
@@ -322,7 +322,7 @@ def test_a_failed_robot_leaves_its_traceback_and_the_run_goes_on(
             raise ArithmeticError("out of ideas")
         return make_robot(kind)
 
-    monkeypatch.setattr("testbed.experiment.resume.make_robot", make)
+    monkeypatch.setattr("testbed.experiment.runner.make_robot", make)
     tally = play_missing(configure("scenarios=[1,2]"), tmp_path, 0, _ignore)
     records = list(read_records(tmp_path))
     outcomes = sorted((record.robot, record.outcome) for record in records)
@@ -347,3 +347,17 @@ def test_run_leaves_a_folder_that_can_be_resumed_and_reported(
     assert run(read_config(folder), folder, 0, resume=True).done == 2
     with pytest.raises(StoreError, match="--resume"):
         run(config, folder, 0)
+
+
+def test_a_run_from_python_refuses_what_a_configuration_names_and_nobody_has(
+    tmp_path: Path,
+) -> None:
+    given = ["robots=[traditional,nobody]", "adversary.strategy=nothing", "limit=1"]
+    with pytest.raises(ConfigError) as error:
+        run(load_config("quickstart", given), tmp_path / "run", 0)
+    first, second = error.value.lines
+    assert first.startswith("robots[1]: ")
+    assert "nobody" in first
+    assert second.startswith("adversary.strategy: ")
+    assert "nothing" in second
+    assert not (tmp_path / "run").exists()

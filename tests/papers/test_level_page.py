@@ -11,8 +11,8 @@ from papers.markdown import WIDTH, paragraph
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import PROVENANCE, write_config
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.studies.levels.published import NO_ZOOM, ZOOM
 from tests.experiment.samples import a_level_record

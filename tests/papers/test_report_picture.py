@@ -7,8 +7,8 @@ import pytest
 
 from papers.__main__ import main
 from testbed.config import load_config
-from testbed.experiment.resume import RunStatus, play_missing
 from testbed.experiment.run_folder import write_config
+from testbed.experiment.runner import RunStatus, play_missing
 
 SVG = "{http://www.w3.org/2000/svg}"
 RUNS = {

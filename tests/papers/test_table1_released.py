@@ -11,8 +11,8 @@ from papers.table1.runs import Run, read_run, released_weights
 from papers.table1.weighing import Weighing
 from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import write_config
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import read_records
 from testbed.studies.table1.published import SCENARIOS
 from tests.papers.prose import numbers

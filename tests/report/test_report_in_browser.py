@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.resume import RunStatus, play_missing
 from testbed.experiment.run_folder import REPORT
+from testbed.experiment.runner import RunStatus, play_missing
 from testbed.report import write_report
 from tests.report.browser import CHROMIUM, Browser, Tab
 

@@ -7,7 +7,7 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.record import Activity, TrialRecord
-from testbed.experiment.resume import play_missing
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import read_records
 
 Play = Callable[..., list[TrialRecord]]

@@ -14,7 +14,7 @@ from asp.language import Literal
 from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation, Happening
 from asp.reasoning.knowledge import knowledge
 from testbed.config import load_config
-from testbed.experiment.resume import play_missing
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import read_records
 from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
 from tests.agents.intentional.test_joint_lives import BesideAti

@@ -13,8 +13,8 @@ from testbed.analysis.pairs import Compared
 from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
-from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import write_config
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import read_records
 from testbed.report import write_report
 from testbed.studies.table1.measures import Analysis, Row, analyse, measures

@@ -14,8 +14,8 @@ from testbed.analysis.pairs import Compared
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.digest import digest
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.resume import play_missing
 from testbed.experiment.run_folder import write_config
+from testbed.experiment.runner import play_missing
 from testbed.experiment.store import read_records
 from testbed.studies.table1.pairs import pairs_in
 from testbed.world import load_world

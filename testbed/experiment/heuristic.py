@@ -19,7 +19,7 @@ from scipy.optimize import linprog  # type: ignore[import-untyped]  # scipy ship
 from scipy.sparse import coo_array  # type: ignore[import-untyped]  # scipy ships no types
 
 from asp.language import Description, Literal
-from testbed.experiment.heuristic.changes import Changes, changes
+from testbed.experiment.changes import Changes, changes
 
 Heuristic = Callable[[int], int]
 """A lower bound on what it costs to get from a state to the goal."""
@@ -41,9 +41,7 @@ class Potentials:
 
     def __init__(self, description: Description) -> None:
         self._description = description
-        self._fluents: dict[str, int] = {
-            fluent: 1 << i for i, fluent in enumerate(description.fluents)
-        }
+        self._fluents = {fluent: 1 << i for i, fluent in enumerate(description.fluents)}
         self._variables = variables_of(description)
 
     def heuristic(self, state: int, goal: Iterable[Literal], costs: Mapping[str, int]) -> Heuristic:
@@ -60,7 +58,7 @@ class Potentials:
             return blind
         potentials, excess = numbers
         tables: dict[int, dict[int, float]] = {variable: {} for variable in self._variables}
-        for (variable, value), potential in zip(self._columns, potentials, strict=True):
+        for (variable, value), potential in potentials.items():
             tables[variable][value] = potential
         looked_up = tuple(tables.items())
 
@@ -76,56 +74,51 @@ class Potentials:
         return changes(self._description, self._variables)
 
     @cached_property
-    def _columns(self) -> dict[tuple[int, int], int]:
-        """The variables of the linear program: what changes, with each value it can have."""
-        found = () if self._changes is None else self._changes.found
-        values = (
-            (effect.variable, value)
-            for _, effects in found
-            for effect in effects
-            for value in (effect.before, effect.after)
-        )
-        return {value: column for column, value in enumerate(dict.fromkeys(values))}
+    def _lowering(self) -> tuple[list[tuple[int, int]], coo_array]:
+        """The columns of the linear program, and by how much each change lowers the sum.
 
-    @cached_property
-    def _lowering(self) -> coo_array:
-        """By how much each change lowers the sum: a row per change."""
+        There is a column per value of a variable that changes, and a row per change.
+        """
         found = () if self._changes is None else self._changes.found
         entries = [
-            (row, self._columns[effect.variable, value], sign)
+            (sign, row, (effect.variable, value))
             for row, (_, effects) in enumerate(found)
             for effect in effects
             for value, sign in ((effect.before, 1.0), (effect.after, -1.0))
         ]
-        rows, columns, signs = zip(*entries, strict=True)
-        return coo_array((signs, (rows, columns)), (len(found), len(self._columns))).tocsr()
+        signs, rows, places = zip(*entries, strict=True) if entries else ((), (), ())
+        number = {column: n for n, column in enumerate(dict.fromkeys(places))}
+        columns = [number[column] for column in places]
+        shape = len(found), len(number)
+        return [*number], coo_array((signs, (rows, columns)), shape).tocsr()
 
     def _numbers(
         self, changes: Changes, state: int, goal: Sequence[Literal], costs: Mapping[str, int]
-    ) -> tuple[list[float], float] | None:
+    ) -> tuple[dict[tuple[int, int], float], float] | None:
         """The potentials of the columns and what to take off their sum; None: there are none."""
-        if not self._columns:
+        columns, lowering = self._lowering
+        if not columns:
             return None
         most_lowered = np.array([costs.get(action, 0) for action, _ in changes.found], dtype=float)
-        at_start = [state & variable == value for variable, value in self._columns]
-        most = [0.0 if self._agree(goal, *column) else LARGEST for column in self._columns]
-        least = np.full(len(most), -LARGEST)
+        at_start = [state & variable == value for variable, value in columns]
+        most = [0.0 if self._agree(goal, *column) else LARGEST for column in columns]
         solved = linprog(
             -np.array(at_start, dtype=float),
-            A_ub=self._lowering,
+            A_ub=lowering,
             b_ub=most_lowered,
-            bounds=np.column_stack([least, most]),
+            bounds=[(-LARGEST, greatest) for greatest in most],
             method="highs-ds",
         )
         if not solved.success:
             return None
-        excess = max(0.0, float(np.max(self._lowering @ solved.x - most_lowered)))
-        return solved.x.tolist(), ROUNDING + LONGEST * excess
+        excess = max(0.0, float(np.max(lowering @ solved.x - most_lowered)))
+        potentials = dict(zip(columns, solved.x.tolist(), strict=True))
+        return potentials, ROUNDING + LONGEST * excess
 
     def _agree(self, goal: Iterable[Literal], variable: int, value: int) -> bool:
         """Whether the variable can have this value where the goal holds."""
-        wanted = ((self._fluents[literal.atom], literal.is_positive) for literal in goal)
-        return all(bool(value & own) == truth for own, truth in wanted if variable & own)
+        wanted = ((self._fluents[own.atom], own.is_positive) for own in map(Literal.parse, goal))
+        return all(bool(value & fluent) == truth for fluent, truth in wanted if variable & fluent)
 
 
 def variables_of(description: Description) -> tuple[int, ...]:
@@ -148,7 +141,7 @@ def variables_of(description: Description) -> tuple[int, ...]:
 
 def _exclusive(description: Description) -> frozenset[tuple[int, int]]:
     """Pairs of fluents of which a constraint allows at most one."""
-    number: dict[str, int] = {fluent: i for i, fluent in enumerate(description.fluents)}
+    number = {fluent: i for i, fluent in enumerate(description.fluents)}
     pairs = [
         (number[law.body[0]], number[law.head.atom])
         for law in description.constraints
