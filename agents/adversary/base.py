@@ -33,10 +33,11 @@ class AdversaryView:
     """What an adversary sees before it answers.
 
     `state` are the true fluents, `robot_action` what the robot will attempt at this step; without
-    the sight of it either is empty. `legal` is what may be answered: `none`, and the exogenous
-    actions possible beside the robot's. Where these are many, asking whether one is legal is quick,
-    and listing all is not. `physical`: whether the robot's action is one that is to change the
-    world, and not a mental action or a test; False without the sight of `robot_action`.
+    the sight of them `state` is empty and `robot_action` None. `legal` is what may be answered:
+    `none`, and the exogenous actions possible beside the robot's. Where these are many, asking
+    whether one is legal is quick, and listing all is not. `physical`: whether the robot's action is
+    one that is to change the world, and not a mental action or a test; False without the sight of
+    `robot_action`.
     """
 
     step: int

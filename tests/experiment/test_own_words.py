@@ -11,6 +11,7 @@ from testbed.config import ConfigError
 from tests.experiment.gardens import GARDEN, PIECES
 
 WORDS = ["wait", "finish", "none", "start", "stop", "fewer", "by", "step", "activity", "hpd"]
+WORDS += ["true", "false", "obs", "select", "my_goal", "goal", "impossible", "holds", "occurs"]
 GOAL = ["stands(spade,south)", "-carries(tom,spade)"]
 FINE = {"initial": ["fine_stands(tom,north_1)", "fine_stands(other_head,north_1)"]}
 FINE["initial"] += ["fine_stands(spade_head,north_2)"]
