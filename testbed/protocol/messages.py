@@ -222,7 +222,7 @@ class Trace(Part, frozen=True, kw_only=True):
 
     def __post_init__(self) -> None:
         if self.mental is not None and not is_mental(Literal.parse(self.mental)):
-            raise ValueError(f"{self.mental} neither starts nor stops an activity")
+            raise ValueError(f"{self.mental[:40]!r} neither starts nor stops an activity")
 
 
 class Decision(Message, frozen=True, kw_only=True):

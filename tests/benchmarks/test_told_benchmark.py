@@ -5,6 +5,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from asp.language import Literal
 from benchmarks.told import ToldRobot, main, reordered
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
@@ -24,8 +25,9 @@ START = "[loc(rob1,office2), loc(book1,library), loc(book2,kitchen)]"
 def _played(robot: ToldRobot, *events: tuple[int, str]) -> TrialRecord:
     config = load_config("table1", ["scenarios=[1]", f"initial={START}", "robots=[traditional]"])
     (spec,) = plan_trials(config)
+    script = tuple((step, Literal.parse(event)) for step, event in events)
     spec = msgspec.structs.replace(
-        spec, setting=msgspec.structs.replace(spec.setting, script=events)
+        spec, setting=msgspec.structs.replace(spec.setting, script=script)
     )
     return play_trial(spec, InProcessRobot(lambda _: robot)).record
 

@@ -14,6 +14,7 @@ from papers.table1.runs import Run
 from testbed.config import load_config
 from testbed.studies.table1.published import PUBLISHED
 from testbed.world import load_world
+from tests.literals import parsed
 from tests.papers.prose import numbers, says
 from tests.studies.table1.made import a_pair, a_side, analysed
 
@@ -125,7 +126,7 @@ def test_rows_three_and_four_are_split_by_whether_the_traditional_robot_fails() 
 
 
 def test_row_two_says_how_often_the_place_it_is_in_comes_last() -> None:
-    last, first = "exo_move(book2,library)", "exo_move(book2,kitchen)"
+    last, first = parsed(["exo_move(book2,library)", "exo_move(book2,kitchen)"])
     pairs = [
         a_pair("2", baseline=a_side(plans=3, event=last)),
         a_pair("2", baseline=a_side(plans=3, event=last), intended="2"),
@@ -139,7 +140,7 @@ def test_row_two_says_how_often_the_place_it_is_in_comes_last() -> None:
 
 
 def test_row_five_says_how_long_the_plans_were_and_where_the_event_ended() -> None:
-    kitchen, office = "exo_move(book1,kitchen)", "exo_move(book1,office1)"
+    kitchen, office = parsed(["exo_move(book1,kitchen)", "exo_move(book1,office1)"])
     pairs = [
         a_pair("5", a_side(actions=9, event=kitchen), a_side(actions=4), intended="5"),
         a_pair("5", a_side(actions=12, event=kitchen), a_side(actions=5), intended="5"),

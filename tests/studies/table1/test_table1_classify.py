@@ -4,6 +4,7 @@ from functools import lru_cache
 
 import pytest
 
+from asp.language import Literal
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Activity, At, Attempt, Occurrence, TrialRecord
@@ -13,6 +14,7 @@ from testbed.link import InProcessRobot
 from testbed.studies.table1.classify import NOTHING_TO_DO, UNCLASSIFIED, classify, state_at
 from testbed.world import load_world
 from tests.experiment.samples import a_record
+from tests.literals import parsed
 
 WORLD = load_world("office")
 START = ["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book1,kitchen)", "loc(book2,office2)"]
@@ -50,8 +52,8 @@ def _record(
         "steps": 4,
         "activities": [Activity(1, 1, PLAN, stop)],
         "actions": [Attempt(2 + n, action, True) for n, action in enumerate(PLAN[:executed])],
-        "exogenous": [] if event is None else [Occurrence(2, event, False)],
-        "mental": [At(1, "start(1)")],
+        "exogenous": [] if event is None else [Occurrence(2, Literal.parse(event), False)],
+        "mental": [At(1, Literal.parse("start(1)"))],
     }
     return a_record(**given | values)
 
@@ -77,7 +79,7 @@ def test_the_rule_case_by_case(record: TrialRecord, scenario: str) -> None:
 
 
 def test_a_moved_book_must_be_seen_where_it_now_is() -> None:
-    elsewhere = [*START[:3], "loc(book2,library)"]
+    elsewhere = parsed([*START[:3], "loc(book2,library)"])
     seen = _record(1, 3, "exo_move(book2,office2)", initial=elsewhere)
     unseen = _record(1, 3, "exo_move(book2,office1)", initial=elsewhere)
     later = _record(1, 2, "exo_move(book2,office2)", initial=elsewhere)
