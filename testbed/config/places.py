@@ -107,7 +107,7 @@ def unknown_atom(
     for value, members in zip(values, sorts, strict=True):
         if value not in members:
             return f"'{value}' in {text} is not known there; {suggestion(value, members)}"
-    return None
+    return None if text.is_positive else f"{text} has a sign; write it as in {example}"
 
 
 OF_THE_DOMAIN = ("goal", "initial", "scenarios", "scenario_settings", "script", "observability")

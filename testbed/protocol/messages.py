@@ -26,7 +26,8 @@ def is_mental(action: Action) -> bool:
     """Whether an action starts or stops an activity: `start(N)`, `stop(N)`."""
     parts = action.arguments
     number = parts[0] if len(parts) == 1 else ""
-    return action.name in ("start", "stop") and number.isdecimal() and len(number) < 10
+    is_named = action.is_positive and action.name in ("start", "stop")
+    return is_named and number.isdecimal() and len(number) < 10
 
 
 NoPlan: TypeAlias = Choice["out of reach", "beyond the limit", "not known"]

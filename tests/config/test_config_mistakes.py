@@ -88,6 +88,12 @@ pytestmark = pytest.mark.versions
         ),
         (
             "script: []",
+            'script: [{step: 1, action: "-exo_lock(library)"}]',
+            "tiny.yaml:7: scenario_settings.1.script[0].action: -exo_lock(library) has a sign; "
+            "write it as in exo_lock(library)",
+        ),
+        (
+            "script: []",
             'script: [{step: 2, action: "exo_lock(library)"}, '
             '{step: 2, action: "exo_move(book2,kitchen)"}]',
             "tiny.yaml:7: scenario_settings.1.script[1].step: step 2 has an action already; "

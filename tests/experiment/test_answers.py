@@ -31,6 +31,7 @@ BAD: dict[str, dict[str, Any]] = {
     "fewer plans than none": {"plans": -1},
     "an activity without a number": {"mental": "start(x)"},
     "an activity with too many digits": {"mental": f"start({'1' * 5000})"},
+    "the opposite of a mental action": {"mental": "-start(1)"},
     "no mental action": {"mental": "start(1) and more"},
     "a long text": {"reason": "x" * MANY},
     "a long name": {"plan": ["x" * MANY]},
