@@ -12,6 +12,8 @@ from tests.experiment.gardens import GARDEN, PIECES
 
 WORDS = ["wait", "finish", "none", "start", "stop", "fewer", "by", "step", "activity", "hpd"]
 WORDS += ["true", "false", "obs", "select", "my_goal", "goal", "impossible", "holds", "occurs"]
+WORDS += ["plan", "belief", "intention", "reason", "mental", "physical", "exogenous", "event"]
+WORDS += ["unobserved", "distrusted", "defined", "count", "show", "null", "no", "_x"]
 GOAL = ["stands(spade,south)", "-carries(tom,spade)"]
 FINE = {"initial": ["fine_stands(tom,north_1)", "fine_stands(other_head,north_1)"]}
 FINE["initial"] += ["fine_stands(spade_head,north_2)"]
