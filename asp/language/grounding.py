@@ -121,7 +121,7 @@ def static_truth(
 ) -> tuple[frozenset[Literal], frozenset[Literal]]:
     """The statics that are true, and those that the laws leave open (through their own negation).
 
-    The alternating fixpoint: what is surely true narrows down what may be, and the other way round.
+    The alternating fixpoint: what is certain limits what is possible, and the reverse.
     """
     facts = frozenset(
         fact

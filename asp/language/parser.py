@@ -52,8 +52,8 @@ def _comments(text: str) -> tuple[syntax.Comment, ...]:
 class ToSyntax(Transformer[Token, Any]):
     """Builds the abstract syntax bottom-up; the methods are named as the grammar's rules.
 
-    A rule without one is a statement: the rule is named as its class, whose fields are the rule's
-    parts in their order.
+    A rule without such a method makes a statement: the rule has the name of its class, whose fields
+    are the parts of the rule in their order.
     """
 
     def __default__(self, data: str, children: list[Any], meta: Meta) -> syntax.Statement:

@@ -24,7 +24,7 @@ MOST_NODES = 100_000
 MOST_DEPTH = 20
 """How deep lists and mappings may be nested: no key of a configuration needs as much."""
 REFUSALS = (yaml.YAMLError, OmegaConfBaseException, RecursionError)
-"""What the two libraries raise for what they do not read."""
+"""The errors of both libraries for text that they cannot read."""
 TAG = "tag:yaml.org,2002:"
 INTEGER = r"0|-?[1-9][0-9]{0,99}"
 FLOAT = r"-?(?:(?:0|[1-9][0-9]*)(?:\.[0-9]*(?:[eE][-+]?[0-9]+)?|[eE][-+]?[0-9]+)|\.[0-9]+)"

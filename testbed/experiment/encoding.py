@@ -96,7 +96,7 @@ def _check_seal(line: bytes) -> None:
 
 
 def read_lines(path: Path) -> Iterator[Line]:
-    """The lines of a file of records. Raises StoreError for one that a newer testbed wrote."""
+    """The lines of a file of records. Raises StoreError for a record of a newer testbed."""
     with path.open("rb") as file:
         for number, text in enumerate(file, start=1):
             record, fault = None, None

@@ -109,8 +109,8 @@ def settle(folder: Path) -> None:
     """Put the results of a retry in the places of the records of the same trials.
 
     A line of the retry that is damaged takes nobody's place. Results of trials without a record
-    are dropped, which standard error says in one line. Raises StoreError for one that a newer
-    testbed wrote.
+    are dropped, which standard error says in one line. Raises StoreError for a record of
+    a newer testbed.
     """
     retries = folder / RETRIES
     if not retries.is_file():

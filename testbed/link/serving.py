@@ -30,8 +30,8 @@ def serve_forever(connect: str, name: str, make_robot: RobotFactory) -> None:
 def serve(session: zenoh.Session, name: str, make_robot: RobotFactory) -> None:
     """Answer questions in this thread, one after the other, until interrupted.
 
-    Those addressed to ``name``, of any run, are answered, with the error if there is one. While the
-    robot is in a trial a token says so.
+    Those addressed to ``name``, of any run, are answered, with the error if there is one. A
+    liveliness token is declared while the robot is in a trial.
     """
     desk, addressees, liveliness = Desk(make_robot), (None, keys.chunk(name)), session.liveliness()
     trial, presence = "", ExitStack()

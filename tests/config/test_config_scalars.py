@@ -7,21 +7,9 @@ import pytest
 
 from testbed.config import ConfigError, ExperimentConfig, Limits, load_config
 from testbed.experiment.run_folder import read_config, write_config
+from tests.config.tiny import LAMP
 
-SWITCH = """\
-sorts
-  robot = {walle}.
-fluents
-  inertial lit.
-actions
-  agent     press(robot).
-  exogenous cut.
-laws
-  press(R) causes lit.
-  cut      causes -lit.
-sees
-  R sees lit if robot(R).
-"""
+SWITCH = LAMP.partition("scenarios")[0]
 SCRIPTED = "name: tiny\ndomain: switch.al\ngoal: [lit]\nscript: []\n"
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
 from typing import TypeVar
 from weakref import ref
 
@@ -30,15 +29,6 @@ GOALS = (
     OUT_OF_REACH,
     parsed(["loc(rob1,library)"]),
 )
-
-
-@pytest.fixture
-def uncollected() -> Iterator[None]:
-    """Without the garbage collector: what is freed has no reference left."""
-    gc.collect()
-    gc.disable()
-    yield
-    gc.enable()
 
 
 @pytest.mark.usefixtures("uncollected")

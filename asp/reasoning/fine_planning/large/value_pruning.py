@@ -34,8 +34,9 @@ _MOST_NODES = (500, 5_000, 50_000)  # what more nodes lead to confines little, f
 def confined(reach: Reach, functions: Mapping[int, int], length: int) -> list[Values]:
     """Which functions are confined, step by step, in plans of a length of at least `reach.least`.
 
-    `functions` has for each node that gives a function a value the number of that function. Of the
-    goal's literals those that few nodes lead to come first: what they leave out leads nowhere else.
+    `functions` maps each node that states the value of a function to the number of that function.
+    Of the goal's literals those that few nodes lead to come first: what they leave out leads
+    nowhere else.
     """
     reach.through(length)
     ways = _Ways(reach, functions, length)
@@ -119,7 +120,7 @@ def landmarks(
 ) -> Iterator[Values]:
     """For each step the landmarks there of the goal, a node, each with the values that lead to it.
 
-    `functions` has for each node that gives a function a value the number of that function.
+    `functions` maps each node that states the value of a function to the number of that function.
     """
     width = len(layers)
     numbers = set(functions.values())
@@ -181,7 +182,7 @@ def implied(
     """Functions, by number, with all the values that they can have as far as others have those.
 
     `values` are the nodes left of the values of functions, one of which each is sure to have;
-    `functions` has for each node that gives a function a value the number of that function.
+    `functions` maps each node that states the value of a function to the number of that function.
     """
     groups = [list(_groups(nodes, relaxed)) for nodes in values.values()]
     certain = {node for group in groups if len(group) == 1 for node in group[0]}
@@ -219,9 +220,9 @@ def _images(
 class Functions:
     """The functions among the fluents of a program, and ACTION.
 
-    `number` is, for each node that gives a function a value, the number of the function. Functions
-    that by the laws have the same value at all times, as the places of a thing's parts, share their
-    number; `terms` are those of each number. `text` is what each node stands for.
+    `number` maps each node that states the value of a function to the number of the function.
+    Functions that by the laws have the same value at all times, as the places of a thing's parts,
+    share their number; `terms` are those of each number. `text` is what each node stands for.
     """
 
     def __init__(self, relaxed: Relaxed, functions: Mapping[str, Function]) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
 from weakref import ref
 
 import pytest
@@ -36,15 +35,6 @@ def _played(refinement: Refinement) -> ref[FineModel]:
     initial = parsed(["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"])
     assert play(RefinedRobot(), refinement, initial, GOAL).achieved
     return ref(fine_model(refinement))
-
-
-@pytest.fixture
-def uncollected() -> Iterator[None]:
-    """Without the garbage collector: what is freed has no reference left."""
-    gc.collect()
-    gc.disable()
-    yield
-    gc.enable()
 
 
 @pytest.mark.usefixtures("uncollected")
