@@ -1,7 +1,5 @@
 """`python -m benchmarks [NAME ...] [--size small|full] [--out DIR]`"""
 
-from __future__ import annotations
-
 import argparse
 import time
 from collections.abc import Sequence

@@ -3,8 +3,6 @@
 Each cell is a process of its own. A part is left out by the one switch that it has in the code.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable, Iterator, Mapping

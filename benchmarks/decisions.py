@@ -1,7 +1,5 @@
 """Reasoning time of whole trials and single decisions, fast beside reference, scenarios 1 to 6."""
 
-from __future__ import annotations
-
 import multiprocessing
 from collections.abc import Container, Sequence
 

@@ -3,8 +3,6 @@
 `python -m benchmarks.digests CONFIG ... [KEY=VALUE ...] [--folder DIR] [--page FILE.md]`
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import subprocess

@@ -1,7 +1,5 @@
 """The page of digests in the documents, from what was played."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from benchmarks.sheets import Row, Sheet

@@ -1,7 +1,5 @@
 """The process that drives a run: its memory over many trials, and how busy its workers are."""
 
-from __future__ import annotations
-
 import os
 import resource
 import tempfile

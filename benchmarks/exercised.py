@@ -1,7 +1,5 @@
 """Which tests exercise a theory, those first that take least."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 _LIVES = "tests/agents/intentional/test_incremental.py"

@@ -1,7 +1,5 @@
 """Pictures of sheets: times over what grows."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Planning problems at the fine resolution: transitions of levels, drawn with what is known."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Mapping
 from dataclasses import dataclass

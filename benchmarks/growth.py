@@ -1,7 +1,5 @@
 """How a decision grows: with the history, the length of the plan, the books, the rooms."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf

@@ -1,7 +1,5 @@
 """How a decision grows with history, explanations and plan: TI beside ATI, and what is solved."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from math import inf

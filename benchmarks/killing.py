@@ -4,8 +4,6 @@
 that it is held, and stands still, as soon as so many records are written.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Sequence

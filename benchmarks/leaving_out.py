@@ -4,8 +4,6 @@
 16. In processes that a test starts nothing is left out.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import sys

@@ -1,7 +1,5 @@
 """Memory of a process that plays trial after trial."""
 
-from __future__ import annotations
-
 import gc
 import os
 import resource

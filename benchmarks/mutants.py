@@ -1,7 +1,5 @@
 """Theories without one of their statements, each in a process that runs the tests they are for."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

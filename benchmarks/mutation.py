@@ -4,8 +4,6 @@ Of what has a number or a letter, cases about small programs are asked, in this 
 other rule of every theory, the tests that exercise the theory.
 """
 
-from __future__ import annotations
-
 import random
 import sys
 from collections.abc import Iterable, Iterator

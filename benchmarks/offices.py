@@ -1,7 +1,5 @@
 """Offices of any size: the packaged domain's laws over other rooms, books and maps."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache

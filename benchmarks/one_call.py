@@ -1,7 +1,5 @@
 """ATI whose plan is found as TI to the letter finds it."""
 
-from __future__ import annotations
-
 from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
 from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import Diagnosis

@@ -4,8 +4,6 @@ Each is a function from an encoding, the true fluents of a state and a goal to t
 shortest plan (None: no plan); `outsiders()` has those that this machine has.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from importlib.util import find_spec

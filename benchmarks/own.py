@@ -1,7 +1,5 @@
 """Domains and refinements of one's own, in files as a user has them, and their trials."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Random small domains: beasts that go about, and perhaps grip, push, tie and drain things."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Refinements of the domains of `benchmarks.own_domains`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise

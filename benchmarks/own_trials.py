@@ -1,7 +1,5 @@
 """Random refinements of random domains, with a state to begin with and a goal: `OwnTrial`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from random import Random

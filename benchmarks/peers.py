@@ -1,7 +1,5 @@
 """Planning alone, ours beside planners that a user would take instead: same problems, same run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf

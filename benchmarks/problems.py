@@ -1,7 +1,5 @@
 """Planning problems: the four that prototypes were measured on, and generated ones."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Random refinements of random domains: each is refused with its place, or can be acted by."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from pathlib import Path

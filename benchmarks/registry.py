@@ -1,7 +1,5 @@
 """The benchmarks by name."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 

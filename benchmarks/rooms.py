@@ -1,7 +1,5 @@
 """Plans in rooms of many cells: a control for each problem beside controls that are kept."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from asp.domains.levels import LevelSize

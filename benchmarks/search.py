@@ -1,7 +1,5 @@
 """Shortest plans by breadth-first search, state by state: what planning costs in one process."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 
 from asp.language import Action, Fluent, Literal

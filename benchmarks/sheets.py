@@ -1,7 +1,5 @@
 """What a benchmark found: sheets of rows, printed as tables and written as JSON."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform

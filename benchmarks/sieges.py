@@ -1,7 +1,5 @@
 """Long lives: a robot whose books are taken away again whenever it is about to be done."""
 
-from __future__ import annotations
-
 import copy
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field

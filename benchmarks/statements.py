@@ -1,7 +1,5 @@
 """The statements of the theories one by one, and a theory's text with one of them left out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.resources import files

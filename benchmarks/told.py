@@ -9,8 +9,6 @@ same events, the same trials of the intentional robot. With `--order` the robot 
 what it misses in this order, in place of that in which the domain declares them.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 import sys

@@ -1,7 +1,5 @@
 """Trials of the published scenarios with a robot whose answers are timed."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

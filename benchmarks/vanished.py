@@ -1,7 +1,5 @@
 """A robot that finds books gone: a question whose explanations all matter to the plan."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from agents.intentional.reasoners import History

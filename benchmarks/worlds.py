@@ -1,7 +1,5 @@
 """The world at the fine resolution: what a step costs, and what listing every event does."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import islice
 

@@ -1,7 +1,5 @@
 """Planning at the fine resolution, zoomed or not: literally, and with multi-shot sessions."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

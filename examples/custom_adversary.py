@@ -3,8 +3,6 @@
 testbed run examples/custom_adversary.yaml
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ It is for domains in which everything can be seen: it explains nothing, and know
 it sees what came of it.
 """
 
-from __future__ import annotations
-
 from time import perf_counter, process_time
 
 from asp.reasoning.planning import IncrementalPlanner

@@ -5,8 +5,6 @@
 plays the quickstart's second scenario, unexpected success, and draws two of its moments.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Draw the figures of a run of a published experiment into one SVG file."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

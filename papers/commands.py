@@ -1,7 +1,5 @@
 """What to give `testbed run` to make a run again, as the pages of a run print it."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

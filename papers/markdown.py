@@ -1,7 +1,5 @@
 """Tables and paragraphs of text in Markdown."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from textwrap import fill
 

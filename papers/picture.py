@@ -1,7 +1,5 @@
 """The figures of a run as one SVG file for a page elsewhere, in light and in dark."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The text of pages: templates in Markdown, and what they may do with values."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Intention Testbed: reasoning robots in a world that others change."""
 
-from __future__ import annotations
-
 from importlib.metadata import version as _version_of
 from typing import TYPE_CHECKING, Any
 

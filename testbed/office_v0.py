@@ -9,8 +9,6 @@ the adversary is an agent here. Any key can be overridden: `env(goal_feedback=Fa
 `level="L3"`, or a configuration with a refinement, the robot acts at the fine resolution.
 """
 
-from __future__ import annotations
-
 import json
 from os import PathLike
 from typing import Any, TypeAlias

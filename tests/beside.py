@@ -1,7 +1,5 @@
 """A command beside busy processes that are nicer: `python -m tests.beside N COMMAND...`."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from contextlib import ExitStack

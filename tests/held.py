@@ -4,8 +4,6 @@ With a file `broken` the robot fails. A file `stuck` holds the command where tri
 deaf to interrupts as only foreign code can be.
 """
 
-from __future__ import annotations
-
 import time
 from contextlib import suppress
 from pathlib import Path

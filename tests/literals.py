@@ -1,7 +1,5 @@
 """Literals as tests write them: texts, parsed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from asp.language import Literal

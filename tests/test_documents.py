@@ -1,7 +1,5 @@
 """What the documents show works: code blocks run, commands exist, links lead somewhere."""
 
-from __future__ import annotations
-
 import re
 import runpy
 import shlex

@@ -1,7 +1,5 @@
 """The distribution, installed away from the repository, carries all that it needs."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The command line where a machine grants little, and where paths are as people name them."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """What an adversary is, what it is told of a game, and what it sees at a step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal as Choice

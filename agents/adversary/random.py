@@ -1,7 +1,5 @@
 """An adversary that now and then does something at random."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 

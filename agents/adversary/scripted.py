@@ -1,7 +1,5 @@
 """Adversaries that play what was written down: a scenario's triggers, or an explicit script."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar

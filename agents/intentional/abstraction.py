@@ -6,8 +6,6 @@ the way, a robot decides as it does with them; tasks that differ in names alone 
 task, and share what is prepared for it in a process.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property, lru_cache
 

@@ -7,8 +7,6 @@ believes that it has not changed since. Being sure is a fluent of the robot's ow
 constraints that follow from the domain's `sees` statements; diagnosis and planning are ATI's.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import product
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """The control loop AIA: interpret, intend, attempt, observe (D 2)."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from msgspec import structs

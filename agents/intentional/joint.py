@@ -3,8 +3,6 @@
 `JointReferenceReasoner` is the theory to the letter, one program that is solved in one call.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from clingo import Symbol

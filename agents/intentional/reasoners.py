@@ -4,8 +4,6 @@ The `ReferenceReasoner` solves the theory of intentions, the `IncrementalReasone
 answers on multi-shot sessions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 

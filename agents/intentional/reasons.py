@@ -3,8 +3,6 @@
 Nothing here has a part in a decision.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from msgspec import structs

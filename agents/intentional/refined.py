@@ -1,7 +1,5 @@
 """A robot that decides at the coarse resolution and acts at the fine one (P 3.3)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import ClassVar
 

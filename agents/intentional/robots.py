@@ -1,7 +1,5 @@
 """Variants of the intentional robot that configurations ask for by name."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from agents.intentional.controller import IntentionalRobot

@@ -1,7 +1,5 @@
 """What robots tell of their decisions: for people, with no part in a decision."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from agents.shared.narration import Narration

@@ -1,7 +1,5 @@
 """Which of the fluents that it sees a robot takes into its history (P 3.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from asp.language import Action, Description, Fluent, Literal

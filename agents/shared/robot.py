@@ -1,7 +1,5 @@
 """The turn of a step that reasoning robots share: observe, diagnose, intend, tell, attempt."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 from typing import ClassVar, Generic

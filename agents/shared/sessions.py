@@ -1,7 +1,5 @@
 """The sessions of the solver in each domain, made once in a process."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from asp.reasoning.diagnosis import DiagnosisSessions

@@ -1,7 +1,5 @@
 """What a robot thinks at a step: an explanation in phase one, an intention in phase two."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """Diagnosis and planning without intentions: from scratch, and step by step."""
 
-from __future__ import annotations
-
 from agents.shared.sessions import sessions_of
 from agents.shared.thought import Intention
 from asp.language import Action, Fluent, Literal

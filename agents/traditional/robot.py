@@ -1,7 +1,5 @@
 """The robot TP: plans, executes, looks only at the outcome of the action in hand."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 from msgspec import structs

@@ -5,8 +5,6 @@ cells, one doorway between neighbours, objects with parts. The laws are those of
 office without what is said of rooms that can be locked.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The checks that need the signature: symbols, arguments, variables, forbidden forms."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from asp.language import syntax

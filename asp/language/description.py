@@ -1,7 +1,5 @@
 """The ground description: everything that an AL_d text says, instance by instance."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cached_property
 

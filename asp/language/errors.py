@@ -1,7 +1,5 @@
 """The mistakes in an action description: where each is, and what would be right."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence, Set
 from difflib import get_close_matches
 

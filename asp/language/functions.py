@@ -1,7 +1,5 @@
 """What the laws say of a fluent as a whole: that it is a function of its other arguments."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar

@@ -3,8 +3,6 @@
 A variable takes the members of its sort, and the statics are those of the closed world.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from itertools import product

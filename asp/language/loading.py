@@ -1,7 +1,5 @@
 """Reading a description: text or file in, checked ground description out."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from importlib.resources import files

@@ -5,8 +5,6 @@ a variable by way of an index follows, and only a variable that no positive lite
 its sort.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from operator import itemgetter
 from typing import Protocol, TypeAlias

@@ -1,7 +1,5 @@
 """A description restricted to some of its constants: the others and all about them left out."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 

@@ -3,8 +3,6 @@
 Names to which the programs give a meaning of their own are reserved: a domain has to use others.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ nothing derives it, can also depend on its own negation by way of negative liter
 (`d if -p` with `-p if -d`).
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import TypeVar

@@ -1,7 +1,5 @@
 """The abstract syntax of AL_d: what the parser makes of a text, before any sort is known."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal as Choice

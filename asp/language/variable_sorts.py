@@ -1,7 +1,5 @@
 """Which symbols may stand where in a statement, and what a variable there ranges over."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """From abstract syntax back to AL_d text."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from asp.language import syntax

@@ -1,7 +1,5 @@
 """What a reasoner is given of a domain: the description, its program, the order of its actions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache

@@ -9,8 +9,6 @@ many there are; and X is made of groups, of constants that stated statics connec
 its components.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 
 from asp.language import (

@@ -1,7 +1,5 @@
 """What an action leads to."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The text of a refinement: what the designer adds to a coarse description, and its parser."""
 
-from __future__ import annotations
-
 from lark import Token, v_args
 from lark.tree import Meta
 

@@ -6,8 +6,6 @@ is kept as it is about the coarse attributes, for the fine actions that would br
 coarse action does.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import product

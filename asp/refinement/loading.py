@@ -1,7 +1,5 @@
 """Reading a refinement: texts or files in, the checked refined descriptions out."""
 
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 from pathlib import Path

@@ -4,8 +4,6 @@ A map is a static with a counterpart that an action needs: it stands negated in 
 condition, as `next_to` does where nothing moves between places that are not next to each other.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 

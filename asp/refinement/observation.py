@@ -1,7 +1,5 @@
 """The theory of observation that makes the weak refinement the strong one (P 3.3, 16)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

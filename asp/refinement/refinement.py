@@ -1,7 +1,5 @@
 """A coarse description together with its refinements."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

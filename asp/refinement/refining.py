@@ -1,7 +1,5 @@
 """D_f as AL_d text, made of a coarse description and the text that refines it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 

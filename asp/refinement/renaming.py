@@ -1,7 +1,5 @@
 """One law at the fine resolution: its counterparts, and the variables that change with them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import chain, count

@@ -4,8 +4,6 @@ A test is an action of the theory of observation: a causal law says which fluent
 constraints on `can_test_...` say when it is possible.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property, lru_cache

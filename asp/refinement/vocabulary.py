@@ -1,7 +1,5 @@
 """What a refinement's text says of names: fine sorts, components and counterparts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

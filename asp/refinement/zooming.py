@@ -3,8 +3,6 @@
 D_c(T, G) and D_f(T, G) are those of P 3.3, Definition 2, relCon(T, G) that of Definition 1.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Multi-shot solving: a program grounded once, asked by assumptions and externals, in an order."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache

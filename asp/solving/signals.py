@@ -1,7 +1,5 @@
 """Signals while a control works: handled between its calls only, so that it stays usable."""
 
-from __future__ import annotations
-
 import signal
 import threading
 from collections.abc import Callable, Iterator

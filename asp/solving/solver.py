@@ -1,7 +1,5 @@
 """Solving programs with clingo: grounding, one model, many, a core; all within a budget."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager

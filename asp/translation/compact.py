@@ -7,8 +7,6 @@ state(t) and step(t), and goes with the theory `incremental_fine_planning`; its 
 state is complete, are the translation's.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 

@@ -6,8 +6,6 @@ diagram; they stay out of it. Defaults are told, as `default(D,F,B)` and `stated
 bind nobody: what they do is up to the theory of defaults.
 """
 
-from __future__ import annotations
-
 from itertools import chain, count
 
 from asp.language import Literal, Signature, analyse, syntax, variable_domains

@@ -1,7 +1,5 @@
 """Pieces of ASP text made of abstract syntax, and the rules of compact programs in their parts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum

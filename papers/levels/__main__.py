@@ -1,7 +1,5 @@
 """Print the page of the levels published and measured, made from a run folder."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The commands that make a run, its page and its picture again."""
 
-from __future__ import annotations
-
 import shlex
 from pathlib import Path
 

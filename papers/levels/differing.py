@@ -1,7 +1,5 @@
 """Where ours differs from the published figures, and what in the records explains it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """`docs/levels-published-and-measured.md`: Tables 2 and 3 beside ours, and what explains them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What explains a difference from Tables 2 and 3: the pairs of a level, and the published means."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Pairs of trials at a level, with zooming and without: what each robot met, and what it did."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal

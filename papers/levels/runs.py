@@ -1,7 +1,5 @@
 """A run folder of the levels: its columns and its pairs."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

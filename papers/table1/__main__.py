@@ -1,7 +1,5 @@
 """Print the page of published and measured, made from run folders."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Sequence

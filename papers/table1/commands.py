@@ -1,7 +1,5 @@
 """The runs that a page is made from, and the commands that make them and it again."""
 
-from __future__ import annotations
-
 import shlex
 from dataclasses import dataclass
 

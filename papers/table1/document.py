@@ -1,7 +1,5 @@
 """`docs/published-and-measured.md`: both tables beside the published one, and what explains it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 
 from papers.table1.commands import Sources, commands, played

@@ -1,7 +1,5 @@
 """Which way of drawing what is exogenous explains the published table."""
 
-from __future__ import annotations
-
 from statistics import fmean
 
 from papers.table1 import evidence

@@ -1,7 +1,5 @@
 """What explains a difference from the published table: our pairs, and its own rows."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

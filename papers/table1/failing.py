@@ -1,7 +1,5 @@
 """When the robots of a pair fail, and whether they met the same."""
 
-from __future__ import annotations
-
 import shlex
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence

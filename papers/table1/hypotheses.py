@@ -1,7 +1,5 @@
 """What could make the published rows 3 and 5: each hypothesis with what would come of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 

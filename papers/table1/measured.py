@@ -1,7 +1,5 @@
 """Planning, diagnosis and both, and how far robots are from the optimum, as the page has them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from math import exp, log
 from statistics import fmean

@@ -1,7 +1,5 @@
 """Runs under other rules: without goal feedback, and with events that come later."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 

@@ -1,7 +1,5 @@
 """The pairs of a run, one object each, as the sections of the page count them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any

@@ -5,8 +5,6 @@ is drawn. A sample of pairs, each weighted by the quotient of both probabilities
 thus one under the other way of drawing (importance sampling); nothing has to be played again.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from typing import TypeAlias

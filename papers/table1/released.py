@@ -1,7 +1,5 @@
 """The random pairs as if the released simulator had drawn their events."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 
 from papers.table1 import evidence

@@ -1,7 +1,5 @@
 """The published rows one by one: what in ours is like them, and what is not."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from statistics import fmean, median

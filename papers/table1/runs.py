@@ -1,7 +1,5 @@
 """Run folders of Table 1 as the page reads them: their pairs, whatever was published beside."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path

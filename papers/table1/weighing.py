@@ -1,7 +1,5 @@
 """Table 1 of pairs that do not all weigh the same: shares, accuracies and mean ratios."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Statistics of the trials of a run, which `load_run` reads into one table."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:

@@ -8,8 +8,6 @@ replacement, each with all of its values; without labels each value is a cluster
 # What a command refuses at once needs no scipy, which takes a second to import.
 # ruff: noqa: PLC0415
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from typing import TypeAlias

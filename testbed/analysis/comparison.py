@@ -1,7 +1,5 @@
 """Two robots of a run compared: which pairs count, their accuracy, ratios and tests."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from typing import Any, Literal, TypeAlias
 

@@ -1,7 +1,5 @@
 """The condition that trials are played under: in words, and what a published one has otherwise."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 
 from agents.adversary import RANDOM_RATE

@@ -3,8 +3,6 @@
 # What a command refuses at once needs no scipy, which takes a second to import.
 # ruff: noqa: PLC0415
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

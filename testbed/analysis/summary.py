@@ -1,7 +1,5 @@
 """`summary.json`: what the trials of a run come to, by scenario and by level."""
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence

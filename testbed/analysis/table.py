@@ -1,7 +1,5 @@
 """The trials of a run as one table, which everything about a run is made of."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from io import BytesIO

@@ -6,8 +6,6 @@ A command imports what only it needs when it is called: a robot's process is to 
 mistyped command is to be refused quickly, and statistics alone take longer to import than either.
 """
 
-from __future__ import annotations
-
 import importlib.metadata
 import sys
 from typing import Annotated

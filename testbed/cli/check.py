@@ -1,7 +1,5 @@
 """Check a configuration."""
 
-from __future__ import annotations
-
 from testbed.cli.common import Config, Overrides, emit, examples, input_errors
 
 EPILOG = examples("testbed check quickstart scenarios=[5] limits.steps=40")

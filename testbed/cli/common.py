@@ -1,7 +1,5 @@
 """What the commands share: exit codes, arguments, the form of their help, errors of input."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager

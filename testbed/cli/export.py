@@ -1,7 +1,5 @@
 """Write a run's trials for other programs."""
 
-from __future__ import annotations
-
 from testbed.cli.common import Folders, examples, input_errors, say
 
 EPILOG = examples("testbed export runs/quickstart")

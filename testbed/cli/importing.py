@@ -3,8 +3,6 @@
 A process that `testbed` starts imports nothing from there (`-P`).
 """
 
-from __future__ import annotations
-
 import importlib.metadata
 from importlib.util import find_spec
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Configurations that may be run here: with the robots, adversaries and studies that there are."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

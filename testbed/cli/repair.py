@@ -1,7 +1,5 @@
 """Repair a run folder."""
 
-from __future__ import annotations
-
 from testbed.cli.common import Folder, examples, input_errors, say
 
 EPILOG = examples("testbed repair runs/quickstart")

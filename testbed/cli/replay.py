@@ -1,7 +1,5 @@
 """Tell a stored trial step by step."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 import typer

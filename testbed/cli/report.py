@@ -1,7 +1,5 @@
 """Make a run's report again."""
 
-from __future__ import annotations
-
 from testbed.cli.common import Folders, examples, input_errors
 
 EPILOG = examples("testbed report runs/quickstart")

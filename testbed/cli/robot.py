@@ -1,7 +1,5 @@
 """Serve a robot over zenoh."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

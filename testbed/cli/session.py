@@ -1,7 +1,5 @@
 """A session of the command line over a run folder: run or go on, then tables and report."""
 
-from __future__ import annotations
-
 import shlex
 import sys
 from collections.abc import Iterator

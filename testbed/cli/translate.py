@@ -1,7 +1,5 @@
 """Translate an action description."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Check a configuration against its domain: every fluent, action, state and scenario in it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ default, takes `010` for 8, `1:30` for 90, `no` for false and an empty value for
 are text, so that a key that needs a number refuses them.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from functools import partial

@@ -1,7 +1,5 @@
 """The levels of a configuration: their descriptions, and whether its settings fit these."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache

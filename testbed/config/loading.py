@@ -1,7 +1,5 @@
 """Read a configuration: OmegaConf composes file and overrides, pydantic validates the result."""
 
-from __future__ import annotations
-
 import inspect
 import json
 import re

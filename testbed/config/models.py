@@ -4,8 +4,6 @@ Literals and actions are ASP text without spaces, `f(a,b)` or `-f(a,b)`. Whether
 them is checked in `testbed.config.checking`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 

@@ -1,7 +1,5 @@
 """Where a key stands, what is wrong with its value, and the lines that say so."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property

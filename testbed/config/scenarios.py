@@ -1,7 +1,5 @@
 """Check which scenarios a configuration plays, and its scripts: what they name, and when."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from asp.language import Signature, suggestion

@@ -1,7 +1,5 @@
 """Types of the values of a configuration: how each is written, and its bounds."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Annotated, Any
 

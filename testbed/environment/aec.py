@@ -1,7 +1,5 @@
 """The game as a PettingZoo AEC environment: the robot answers, then the adversary beside it."""
 
-from __future__ import annotations
-
 from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any

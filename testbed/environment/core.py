@@ -4,8 +4,6 @@ Steps are those of the robot's history (D 2.3): 0 is the selection of the goal, 
 nothing in the world, so that a game begins at step 1, at which the robot gives its first answer.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 

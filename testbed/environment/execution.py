@@ -1,7 +1,5 @@
 """How a robot's attempts come out, what it perceives of the world, and what it is told."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import islice

@@ -1,7 +1,5 @@
 """A game at the fine resolution, made of a refinement, and its random beginnings."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product

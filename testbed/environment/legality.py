@@ -1,7 +1,5 @@
 """What the adversary may do beside the robot's action, asked for one event or for all."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """What each agent sees of a game: vectors for learners, literals for reasoners."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 

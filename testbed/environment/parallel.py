@@ -1,7 +1,5 @@
 """The game as a PettingZoo parallel environment: robot and adversary answer at once."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, TypeAlias
 

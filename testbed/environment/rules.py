@@ -1,7 +1,5 @@
 """The rules of a game in a world: its two agents, what a step changes, and how it ends."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum

@@ -1,7 +1,5 @@
 """What the AEC and the parallel environment have in common: the spaces and looks of a core."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """The adversaries that can be asked for, their options, and the one that plays a trial."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager

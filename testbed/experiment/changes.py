@@ -3,8 +3,6 @@
 The program is made of the ground laws that the world is compiled from, and of no other program.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

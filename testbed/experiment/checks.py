@@ -1,7 +1,5 @@
 """What is wrong with a configuration that calls robots and an adversary by their names."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from testbed.config import ExperimentConfig, Finding, early_script_findings

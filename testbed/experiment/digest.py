@@ -7,8 +7,6 @@ execution units). Ids, settings, times, statistics and prose are left out, and s
 the clock had a part in (`deadline`), which need not end alike on another machine.
 """
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Iterable
 from typing import Any

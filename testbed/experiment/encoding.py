@@ -1,7 +1,5 @@
 """A record as a line of JSON with its version and checksum, and lines read as records."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

@@ -7,8 +7,6 @@ than 0: then it is nowhere more than what it costs to achieve the goal. The chan
 the laws can do in any state, indirect effects and those under conditions like others.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Signals that end a run early: SIGINT, SIGTERM and SIGHUP, and how a run ends then."""
 
-from __future__ import annotations
-
 import os
 import select
 import signal

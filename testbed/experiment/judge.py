@@ -4,8 +4,6 @@ It searches the compiled world within a budget of states, and shares no line wit
 planners: by uniform cost at first, then A* with a heuristic that is consistent in every domain.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import lru_cache
 from heapq import heapify, heappop, heappush

@@ -1,7 +1,5 @@
 """From a configuration to the list of its trials, before anything runs."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

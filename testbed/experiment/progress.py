@@ -1,7 +1,5 @@
 """How a run goes on, told on standard error: trials done, their rate, and the time left."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

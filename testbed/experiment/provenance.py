@@ -1,7 +1,5 @@
 """Where a run came from: versions, platform, command, revision, start and end."""
 
-from __future__ import annotations
-
 import hashlib
 import importlib.metadata
 import json

@@ -3,8 +3,6 @@
 Steps are the environment's: 0 is the selection of the goal, the robot's first answer is step 1.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, NamedTuple, TypeAlias, get_args
 from typing import Literal as Choice
 

@@ -1,7 +1,5 @@
 """Fill a trial's record while it is played."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import msgspec

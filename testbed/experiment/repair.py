@@ -1,7 +1,5 @@
 """Keep what is whole of a damaged run folder."""
 
-from __future__ import annotations
-
 import shutil
 from collections import defaultdict
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Play a stored trial again, in this process, and tell it step by step."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The robots that can be asked for, by the name that configurations and records give them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, Protocol
 

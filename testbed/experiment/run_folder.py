@@ -1,7 +1,5 @@
 """The folder of a run: where it is, how its files are replaced, and the configuration in it."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import shutil

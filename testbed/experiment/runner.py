@@ -1,7 +1,5 @@
 """Run a configuration into a run folder: all trials of a new run, the rest of one that was left."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence

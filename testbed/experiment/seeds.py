@@ -1,7 +1,5 @@
 """Seeds and ids of trials: they follow from the root seed and the trial's seed path."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Sequence
 

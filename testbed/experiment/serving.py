@@ -1,7 +1,5 @@
 """Serve the registered robots over zenoh, in this process."""
 
-from __future__ import annotations
-
 import sys
 from contextlib import suppress
 from pathlib import Path

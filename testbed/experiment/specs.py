@@ -4,8 +4,6 @@ What a trial's result may depend on is hashed into its id; the link, the number 
 the time allowed for an answer are not (one trial is the same trial wherever its robot runs).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import Any
 

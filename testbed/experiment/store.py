@@ -5,8 +5,6 @@ run that is killed meanwhile loses neither: the old records stay where they are,
 take their places when the run goes on.
 """
 
-from __future__ import annotations
-
 import os
 import shlex
 from collections.abc import Iterable, Iterator, Mapping

@@ -1,7 +1,5 @@
 """A record in words: where its trial stands, its explanations, and the trial step by step."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

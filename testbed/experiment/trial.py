@@ -1,7 +1,5 @@
 """Play one trial: the world, an adversary and a robot behind its link; the record comes out."""
 
-from __future__ import annotations
-
 import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Set up a trial: its world, the game in it, its adversary, and what the robot is told at first."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import msgspec

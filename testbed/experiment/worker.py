@@ -5,8 +5,6 @@ to which its robots belong: no signal of the driver's terminal reaches either, a
 group leaves nobody behind, whatever they are doing.
 """
 
-from __future__ import annotations
-
 import os
 import signal
 from collections import deque

@@ -5,8 +5,6 @@ one trial. The trials of a pair are played by one worker, one right after the ot
 times are of the same process.
 """
 
-from __future__ import annotations
-
 import os
 from collections import deque
 from collections.abc import Generator, Iterator, Sequence

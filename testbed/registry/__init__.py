@@ -5,8 +5,6 @@ everything else, so that nothing in it takes the place of another module. Proces
 find that folder by the environment variable `PATH_VARIABLE`.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping

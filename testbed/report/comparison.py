@@ -1,7 +1,5 @@
 """How two robots compare in each scenario of a run: as a table, and as charts with intervals."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any

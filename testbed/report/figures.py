@@ -1,7 +1,5 @@
 """Charts as figures of matplotlib: SVG that stands in a page and takes its colours from there."""
 
-from __future__ import annotations
-
 import io
 import re
 from collections.abc import Mapping, Sequence

@@ -1,7 +1,5 @@
 """`report.html`: one file without network, made again from the stored records at any time."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The templates of the report and of studies, and what they may do with text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

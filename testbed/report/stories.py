@@ -1,7 +1,5 @@
 """Single trials: step by step, the slowest, those that were not correct, and what was explained."""
 
-from __future__ import annotations
-
 import shlex
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping

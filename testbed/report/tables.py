@@ -1,7 +1,5 @@
 """The table of a run: one row per scenario (or level) and robot, means over their trials."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

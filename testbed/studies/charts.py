@@ -1,7 +1,5 @@
 """What a study has drawn: values with intervals by row, or seconds over levels."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple

@@ -1,7 +1,5 @@
 """Values beside published ones: whether these lie in our intervals, and both as text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Tables for a terminal of any width: text wraps or moves below its row, numbers are never cut."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Lines for a terminal: text of users and robots is shown, and cannot steer it."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import sys

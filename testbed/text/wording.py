@@ -1,7 +1,5 @@
 """Words that tables, reports and the command line share."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 

@@ -1,7 +1,5 @@
 """Which backend finds the states and transitions of a description."""
 
-from __future__ import annotations
-
 from functools import cache, lru_cache
 
 import asp

@@ -4,8 +4,6 @@ With n fluents, bit i is the literal `f_i` and bit n + i is `-f_i`. A set of lit
 integer, so that a rule fires or not in one comparison.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ A successor is the closure, under the state constraints, of the direct effects a
 keeps; a compound action without one cannot be executed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from asp.language import Action, Description, Literal

@@ -1,7 +1,5 @@
 """Each part is left out once, and nothing that is answered changes."""
 
-from __future__ import annotations
-
 from benchmarks import ablation
 
 

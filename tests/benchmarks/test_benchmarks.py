@@ -1,7 +1,5 @@
 """Each benchmark runs in its smallest size; its sides agree and nothing is left out."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Offices of any size have the laws of the packaged one."""
 
-from __future__ import annotations
-
 import pytest
 
 from asp.language import load_description, parse_description

@@ -1,7 +1,5 @@
 """Controls for one problem beside controls that are kept, at the smallest size."""
 
-from __future__ import annotations
-
 from benchmarks import rooms
 
 

@@ -1,7 +1,5 @@
 """Zooming against no zooming, at its smallest size."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """A garden with two tools, and refinements of it; OTHER is the name of one of the tools."""
 
-from __future__ import annotations
-
 GARDEN = """
 sorts
   bed    = {north, south}.

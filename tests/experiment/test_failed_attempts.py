@@ -1,7 +1,5 @@
 """After an attempt that took no effect, only what can be tested from where the robot is, is."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise

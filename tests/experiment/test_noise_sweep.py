@@ -1,7 +1,5 @@
 """A sweep over noise, in several domains: it costs steps and success, and no trial is an error."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Refinements of one's own: what has no components, tests by sorts, goals that are given."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

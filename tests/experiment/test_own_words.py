@@ -1,7 +1,5 @@
 """Constants that are called like words of messages and reasons are constants all the same."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Whatever is refined of whatever small domain: refused with its place, or it can be acted by."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory

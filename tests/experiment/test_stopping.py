@@ -1,7 +1,5 @@
 """A robot of another process that cannot explain what it sees stops, and plays the next trial."""
 
-from __future__ import annotations
-
 import msgspec
 import pytest
 

@@ -3,8 +3,6 @@
 Two threads in one control end the interpreter, so that each test has an interpreter of its own.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

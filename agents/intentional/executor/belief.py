@@ -1,7 +1,5 @@
 """What the robot knows and believes of both resolutions in the course of a trial."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator
 
 from agents.intentional.executor.model import FineBelief, fine_model

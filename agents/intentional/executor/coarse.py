@@ -1,7 +1,5 @@
 """What the coarse robot is told of the fine resolution."""
 
-from __future__ import annotations
-
 from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.execution import Execution

@@ -1,7 +1,5 @@
 """One abstract action carried out: zoom, plan, act, test each outcome, search, plan again."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 from agents.intentional.abstraction import AbstractTask

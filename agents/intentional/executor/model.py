@@ -3,8 +3,6 @@
 Laws of D_f are read instance by instance, when asked for.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterable
 from itertools import chain

@@ -1,7 +1,5 @@
 """Tests in the middle of an abstract action: which are made, and when an outcome is believed."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Generator, Iterable
 from typing import TypeVar
 

@@ -1,7 +1,5 @@
 """What is told of an abstract action, step by step: counts at the fine resolution, coarse steps."""
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Iterator
 from contextlib import contextmanager

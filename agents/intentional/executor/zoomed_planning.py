@@ -1,7 +1,5 @@
 """Zoomed planning: concrete actions for an abstract one, in the part of D_f that is relevant."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 
 from agents.intentional.executor.belief import FineTracker

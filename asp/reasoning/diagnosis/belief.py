@@ -1,7 +1,5 @@
 """The belief tracker: what an explanation of a history says of each step, state after state."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from asp.language import Literal

@@ -1,7 +1,5 @@
 """Why a history is inconsistent: observations that cannot all hold."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Phase one from scratch: the smallest explanation of a history (D 2.4, (25)-(27), P 3.1.2)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from math import inf
 from typing import ClassVar, Generic

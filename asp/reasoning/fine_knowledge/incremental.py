@@ -6,8 +6,6 @@ that are true. Where observations contradict each other nothing is said here: wh
 forget is left to the theory.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace

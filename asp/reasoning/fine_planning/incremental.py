@@ -3,8 +3,6 @@
 What only large problems need is switched here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from itertools import chain

@@ -1,7 +1,5 @@
 """Goals that no plan of any length achieves."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 
 from clingo import Symbol

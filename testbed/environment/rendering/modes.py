@@ -1,7 +1,5 @@
 """How a game is shown: as text, as a picture, on the terminal, and in a notebook."""
 
-from __future__ import annotations
-
 from base64 import b64encode
 from collections.abc import Iterator
 from io import BytesIO

@@ -4,8 +4,6 @@ Of a place of several cells a grid, and in each cell what is there. None of it n
 drawn twice as large and scaled down, for smooth edges: lengths below are those of the large one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import pairwise
 from math import ceil, sqrt

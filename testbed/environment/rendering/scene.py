@@ -10,8 +10,6 @@ and what else that static relates are components and their wholes. Else the plac
 adjacency that says most.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from itertools import permutations

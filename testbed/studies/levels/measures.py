@@ -1,7 +1,5 @@
 """The columns of Tables 2 and 3 (P 4): reasoning of the trials of a level, by robot, compared."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from statistics import fmean, median, stdev

@@ -1,7 +1,5 @@
 """Tables 2 and 3 for other programs: what is added to `summary.json`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

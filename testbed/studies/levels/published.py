@@ -1,7 +1,5 @@
 """The published figures of the levels (P 4, Tables 2 and 3): seconds, mean and deviation."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Tables 2 and 3 of a run beside the published figures."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -4,8 +4,6 @@ As in the original experiments: by its activities, and by what it could see when
 first of them.
 """
 
-from __future__ import annotations
-
 from asp.language import Action
 from testbed.analysis.comparison import NOTHING_TO_DO
 from testbed.experiment.record import Activity, TrialRecord

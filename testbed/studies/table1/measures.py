@@ -1,7 +1,5 @@
 """From pairs to Table 1: one row per scenario, all of them, and those in which nobody failed."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections import Counter
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """Table 1 for other programs: what is added to `summary.json`."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

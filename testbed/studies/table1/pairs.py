@@ -1,7 +1,5 @@
 """The pairs of a run: what each came to be, and whether both robots met the same event."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Literal
 

@@ -1,7 +1,5 @@
 """The published figures of Table 1 (P 4): traditional / intentional, and the accuracies."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Table 1 beside the published one, for the terminal and the report."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 

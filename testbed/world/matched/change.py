@@ -10,8 +10,6 @@ outcomes are the models of a problem over the touched atoms alone, which the clo
 rules finds as in a small world.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property

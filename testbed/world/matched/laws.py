@@ -1,7 +1,5 @@
 """The laws of a description as patterns, each found by what could make it matter."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from dataclasses import dataclass, replace
 

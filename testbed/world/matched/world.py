@@ -1,7 +1,5 @@
 """A world whose laws are matched against what is true, and never instantiated as a whole."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """Trials played in the bare world, with an adversary that follows a script of wishes."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A robot that looks at what it only assumes needs nobody to tell it whether its goal holds."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable, Sequence
 

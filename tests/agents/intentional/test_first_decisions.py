@@ -1,7 +1,5 @@
 """From each initial state of the office, both ways of reasoning start the same activity."""
 
-from __future__ import annotations
-
 import pytest
 
 from agents.intentional.controller import IntentionalRobot

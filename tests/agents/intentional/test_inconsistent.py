@@ -1,7 +1,5 @@
 """A history that nothing explains: the robot says which observations cannot all hold."""
 
-from __future__ import annotations
-
 import pytest
 
 from agents.intentional.reasoners import History

@@ -1,7 +1,5 @@
 """Incremental reasoning gives the answers of the theory solved from scratch, each decision."""
 
-from __future__ import annotations
-
 from unittest.mock import patch
 
 import pytest

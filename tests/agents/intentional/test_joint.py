@@ -1,7 +1,5 @@
 """TI: one program for diagnosis and planning, with every smallest explanation considered."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

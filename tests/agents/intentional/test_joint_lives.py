@@ -1,7 +1,5 @@
 """TI beside ATI and beside TI to the letter, in lives with little knowledge and doubtful news."""
 
-from __future__ import annotations
-
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

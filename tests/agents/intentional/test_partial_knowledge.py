@@ -1,7 +1,5 @@
 """Robots that start knowing only what they see: both ways of reasoning, and what comes of it."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """An unfulfilled intention persists, whatever the robot learns of its past."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

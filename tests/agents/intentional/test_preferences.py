@@ -1,7 +1,5 @@
 """Which explanation is preferred: exceptions to defaults before events, each as few as possible."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 
 import pytest

@@ -1,7 +1,5 @@
 """All initial states of the office, against searches over the compiled world."""
 
-from __future__ import annotations
-
 import pytest
 
 from agents.intentional.controller import IntentionalRobot

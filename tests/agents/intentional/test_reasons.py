@@ -1,7 +1,5 @@
 """Why the robot decides as it does, against what the world and the plain theory say."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import clingo

@@ -1,7 +1,5 @@
 """What the robot makes of news: true, false and late, in both ways of reasoning."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from pathlib import Path
 

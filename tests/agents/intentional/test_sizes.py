@@ -1,7 +1,5 @@
 """Multi-shot sessions give the answers of the reference in offices of other sizes, too."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

@@ -1,7 +1,5 @@
 """A robot decides the same without the constants that its goal does not need."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

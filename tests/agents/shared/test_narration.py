@@ -1,7 +1,5 @@
 """Messages in other names and steps: constants may be called like any word of a text."""
 
-from __future__ import annotations
-
 import pickle
 
 from agents.shared.narration import Narration, Step, listed, retold

@@ -1,7 +1,5 @@
 """Controls of many domains: no more are kept than the bound, and what goes is gone at once."""
 
-from __future__ import annotations
-
 import gc
 from typing import TypeVar
 from weakref import ref

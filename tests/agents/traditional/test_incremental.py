@@ -1,7 +1,5 @@
 """TP that reasons incrementally decides as TP solved from scratch, decision by decision."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st

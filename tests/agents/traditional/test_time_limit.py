@@ -1,7 +1,5 @@
 """Where the time for a decision runs out TP waits, and goes on as if nothing had been."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 import pytest

@@ -1,7 +1,5 @@
 """What the trace of TP tells: contradictions, explanations, why it goes on or ends."""
 
-from __future__ import annotations
-
 import pytest
 
 from agents.traditional import TraditionalRobot

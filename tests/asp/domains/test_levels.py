@@ -1,7 +1,5 @@
 """Levels have the sizes of the published table, and any other size has the same shape."""
 
-from __future__ import annotations
-
 from dataclasses import astuple
 from importlib.resources import files
 

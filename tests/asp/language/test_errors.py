@@ -1,7 +1,5 @@
 """Every mistake in an AL_d text is told with its place and with what would be right."""
 
-from __future__ import annotations
-
 import pytest
 
 from asp import SourceError, load_description, parse_description

@@ -1,7 +1,5 @@
 """What the statements of AL_d say: sorts, variables, laws, statics, and the other sections."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import pytest

@@ -1,7 +1,5 @@
 """A literal is its text and its parts, made of either."""
 
-from __future__ import annotations
-
 import copy
 import json
 import pickle

@@ -1,7 +1,5 @@
 """A cycle through negation is found in laws with variables as it is in their instances."""
 
-from __future__ import annotations
-
 import re
 
 from hypothesis import event, given, settings

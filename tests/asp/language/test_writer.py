@@ -1,7 +1,5 @@
 """Statements that are written are read as the same statements."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import fields, is_dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Transition diagrams as clingo finds them in a translated program."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 import clingo

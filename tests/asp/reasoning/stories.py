@@ -1,7 +1,5 @@
 """Facts of short stories about the cart, and the cases that are told with them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

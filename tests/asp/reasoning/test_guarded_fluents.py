@@ -1,7 +1,5 @@
 """Conditions that come true only where what follows from them is so already."""
 
-from __future__ import annotations
-
 import pytest
 
 from asp.language import analyse, syntax

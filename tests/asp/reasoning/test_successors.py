@@ -1,7 +1,5 @@
 """One transition at a time, against the transition diagram: every state and attempt of the cart."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations, product

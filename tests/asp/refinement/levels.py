@@ -1,7 +1,5 @@
 """Refinements of levels, and coarse transitions of them, for tests."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cache
 

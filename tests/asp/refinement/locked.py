@@ -1,7 +1,5 @@
 """The packaged office with a kitchen and a library only, that can be locked, of two cells each."""
 
-from __future__ import annotations
-
 import re
 
 from asp.language import read_domain

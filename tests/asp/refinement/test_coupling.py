@@ -1,7 +1,5 @@
 """For every coarse transition there is a path between refinements of its states (P 3.3)."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterable
 from functools import cache

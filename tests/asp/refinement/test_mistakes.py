@@ -1,7 +1,5 @@
 """Mistakes in the text of a refinement are told with their place, and what would be right."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """What a robot knows by testing, and what each family of generated axioms contributes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 

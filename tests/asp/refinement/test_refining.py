@@ -1,7 +1,5 @@
 """The refined description says what one written by hand says, law by law and of other domains."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from itertools import combinations

@@ -1,7 +1,5 @@
 """Statics of a description are those that clingo finds."""
 
-from __future__ import annotations
-
 import pytest
 
 from asp.language import (

@@ -1,7 +1,5 @@
 """`testbed translate` prints the program of a refinement."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Zooming finds what a transition and a goal are about, and nothing else (Definitions 1 and 2)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cache
 from itertools import product

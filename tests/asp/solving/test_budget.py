@@ -1,7 +1,5 @@
 """Whatever takes too long ends at a limit, the same way each time, and leaves controls usable."""
 
-from __future__ import annotations
-
 import clingo
 import pytest
 

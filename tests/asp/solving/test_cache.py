@@ -1,7 +1,5 @@
 """What is kept of what was used last: never more than the bound, and the same answers."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest

@@ -3,8 +3,6 @@
 The signal is sent from within, so that it comes at exactly this place, however loaded the machine.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

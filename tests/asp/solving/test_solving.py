@@ -1,7 +1,5 @@
 """Solving within limits: interrupted controls stay usable, cores are smallest, models are all."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -1,7 +1,5 @@
 """Cases for (28)-(41): the three situations, and an activity in progress."""
 
-from __future__ import annotations
-
 from tests.asp.reasoning.stories import (
     GATE_OPEN,
     GATE_SHUT,

@@ -1,7 +1,5 @@
 """Cases for (42)-(53): a new plan, or an earlier one again, and having an intention."""
 
-from __future__ import annotations
-
 from tests.asp.reasoning.stories import (
     GATE_OPEN,
     GATE_SHUT,

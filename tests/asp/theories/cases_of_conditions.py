@@ -1,7 +1,5 @@
 """Cases for conditions of axioms: what does not follow, and would without the condition."""
 
-from __future__ import annotations
-
 from tests.asp.reasoning.stories import (
     GATE_OPEN,
     GATE_SHUT,

@@ -1,7 +1,5 @@
 """Cases for the theory of defaults, and for what is kept of an explanation."""
 
-from __future__ import annotations
-
 from tests.asp.reasoning.stories import GATE_OPEN, GOAL, Case, failed, happened, lines
 from tests.asp.theories.axioms import Always, never, possible
 

@@ -3,8 +3,6 @@
 A robot in a row of two cells, a box in one of them: the domain is small enough to be told by facts.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from tests.asp.theories.axioms import Claim, Inconsistent, Program, Without, never, possible

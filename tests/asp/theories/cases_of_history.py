@@ -1,7 +1,5 @@
 """Cases for (17)-(27): the recorded history, and its diagnosis."""
 
-from __future__ import annotations
-
 from tests.asp.reasoning.stories import (
     GATE_OPEN,
     GATE_SHUT,

@@ -1,7 +1,5 @@
 """Cases for (1)-(16): mental fluents and actions."""
 
-from __future__ import annotations
-
 from tests.asp.reasoning.stories import (
     GATE_OPEN,
     GOAL,

@@ -1,7 +1,5 @@
 """The preferred answer sets of stories: the order of declaration comes in as ranks."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import clingo

@@ -1,7 +1,5 @@
 """Every axiom of the theory does something: a case that follows from it fails without it."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.asp.reasoning.stories import Case

@@ -1,7 +1,5 @@
 """The stated order of explanations that are equally good, however many there are to choose from."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import clingo

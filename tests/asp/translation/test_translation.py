@@ -1,7 +1,5 @@
 """The translated program: readable, accepted by clingo, and the transition diagram of D 1.1."""
 
-from __future__ import annotations
-
 import re
 from itertools import combinations
 from pathlib import Path

@@ -8,8 +8,6 @@ history with at most so many. Where the same events may lead to several states, 
 say to which, and nothing is compressed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 The end is explained from each state of the frontier, as a history of which all is known at first.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from asp.reasoning.diagnosis.encoding import Interpretation, Problem

@@ -11,8 +11,6 @@ such a constant is void where the rule's head names it, or a condition that has 
 variables that occur elsewhere only are *loose*, and constants that they may stand for stay in play.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 

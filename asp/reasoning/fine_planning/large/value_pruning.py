@@ -11,8 +11,6 @@ Landmarks are propagated as by L. Zhu and R. Givan, Landmark extraction via plan
 propagation (2003), but of functions instead of atoms.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import reduce

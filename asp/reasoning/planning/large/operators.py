@@ -6,8 +6,6 @@ a conjunction of values as precondition and assignments as effects, and nothing 
 and transitions are those of the description.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ under constraints whose other conditions were true before. Where nothing in K de
 condition, every successor has all of K and nothing else new, so that there is one at most.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 

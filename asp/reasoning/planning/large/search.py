@@ -7,8 +7,6 @@ operator leads from place to place, by masking and shifting all states at once.
 It pays from the office of Table 1 on, whose trials take 1.8 times as long without.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property

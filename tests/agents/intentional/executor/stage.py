@@ -1,7 +1,5 @@
 """A fine world in which everything goes as it should, except for the faults that a test injects."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field

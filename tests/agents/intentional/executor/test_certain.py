@@ -1,7 +1,5 @@
 """What the robot knows of itself is certain: what it holds is where it is, whatever a test says."""
 
-from __future__ import annotations
-
 import pytest
 
 from agents.intentional.refined import RefinedRobot

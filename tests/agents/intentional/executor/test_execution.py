@@ -1,7 +1,5 @@
 """Abstract actions carried out in a world with injected faults."""
 
-from __future__ import annotations
-
 from importlib.resources import files
 from typing import Any
 

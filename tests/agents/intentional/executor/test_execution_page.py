@@ -1,7 +1,5 @@
 """The page's example happens as it says."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What is kept of refinements: of the last ones, within one bound, and freed at once."""
 
-from __future__ import annotations
-
 import gc
 from weakref import ref
 

@@ -1,7 +1,5 @@
 """Tests that are wrong and actions that fail, as often as they like, are no errors of the robot."""
 
-from __future__ import annotations
-
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -1,7 +1,5 @@
 """Trials in the fine world with the published statistics, and events at random."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Attributes that are not magnified, where the robot cannot see what becomes of them."""
 
-from __future__ import annotations
-
 import re
 from importlib.resources import files
 from pathlib import Path

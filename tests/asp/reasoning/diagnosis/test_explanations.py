@@ -1,7 +1,5 @@
 """Which explanation is adopted, and when it is kept."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations, product
 

@@ -1,7 +1,5 @@
 """A compressed history gives the answers that the whole one gives, case by case."""
 
-from __future__ import annotations
-
 import copy
 from dataclasses import replace
 from unittest.mock import patch

@@ -1,7 +1,5 @@
 """Observations that rest on tests are taken for wrong where no events explain a history."""
 
-from __future__ import annotations
-
 import pytest
 
 from asp.solving import ground, select

@@ -1,7 +1,5 @@
 """Histories of a robot that wanders about aimlessly, while others do as they please."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from random import Random

@@ -1,7 +1,5 @@
 """What is known at the fine resolution: by the theory, and by the quick way, which are equal."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import product
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Planning problems at the fine resolution, drawn, and an oracle that searches states."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass

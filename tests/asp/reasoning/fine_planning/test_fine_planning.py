@@ -1,7 +1,5 @@
 """Every rule of the theory of fine planning does something: a case fails without it."""
 
-from __future__ import annotations
-
 import pytest
 
 from tests.asp.theories.axioms import lettered

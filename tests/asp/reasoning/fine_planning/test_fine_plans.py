@@ -1,8 +1,6 @@
 """Plans in cells: multi-shot sessions against the literal translation, and both against
 a search through states."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

@@ -1,7 +1,5 @@
 """The fine planner in domains of all sorts, what it refuses, and what it keeps."""
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Plans from a program for one problem: those of multi-shot sessions, and of a search."""
 
-from __future__ import annotations
-
 import random
 from pathlib import Path
 

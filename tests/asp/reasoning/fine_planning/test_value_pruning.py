@@ -1,7 +1,5 @@
 """What functions are confined to: never less than what plans pass through, and no more in a row."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator
 from itertools import product

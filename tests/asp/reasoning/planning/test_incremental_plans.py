@@ -1,7 +1,5 @@
 """Plans looked for in a part of the domain are the first shortest plans of the whole domain."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Sequence
 from contextlib import suppress

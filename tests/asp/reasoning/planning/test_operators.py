@@ -1,7 +1,5 @@
 """Operators have the transitions of the compiled world, or the description has none."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Which of several plans is taken, and when an earlier activity is started again."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import pytest

@@ -1,7 +1,5 @@
 """Searches find the length of shortest plans, and the first of them."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Iterator, Sequence
 
