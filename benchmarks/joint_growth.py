@@ -153,9 +153,5 @@ def draw(sheets: Sequence[Sheet], path: Path) -> None:
     figure.savefig(path, dpi=130)
 
 
-LABELS = {
-    "history": "steps of history",
-    "rooms": "rooms",
-    "plan": "actions of the shortest plan",
-}
+LABELS = {"history": "steps of history", "rooms": "rooms", "plan": "actions of the shortest plan"}
 SCALES = {"history": "log", "rooms": "linear", "plan": "linear"}

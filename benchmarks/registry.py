@@ -37,7 +37,5 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "ablation": ablation.main,
 }
 
-FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {
-    "growth": figures.draw,
-}
+FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {"growth": figures.draw}
 """The benchmarks that draw what they found beside their JSON."""

@@ -63,11 +63,7 @@ class Timed:
 
 def specs(scenario: str, number: int) -> list[TrialSpec]:
     """Trials of a scenario from `number` initial states, with its triggers' events."""
-    overrides = [
-        "robots=[intentional]",
-        f"scenarios=['{scenario}']",
-        f"limit={number}",
-    ]
+    overrides = ["robots=[intentional]", f"scenarios=['{scenario}']", f"limit={number}"]
     return plan_trials(load_config("office", overrides))
 
 

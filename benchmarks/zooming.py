@@ -10,12 +10,7 @@ from matplotlib.figure import Figure
 
 from asp.domains.levels import LEVELS, LevelSize
 from asp.language import Problems, signature_of
-from asp.reasoning.fine_planning import (
-    FinePlan,
-    IncrementalFinePlanner,
-    LiteralProblem,
-    NoPlan,
-)
+from asp.reasoning.fine_planning import FinePlan, IncrementalFinePlanner, LiteralProblem, NoPlan
 from asp.refinement import zoom as zoomed_of
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, quantile, within

@@ -15,11 +15,7 @@ from asp.language.description import (
 from asp.language.errors import Problems, SourceError, suggestion
 from asp.language.functions import Function, excluding_place, functions, schematic, subject
 from asp.language.grounding import closed_world, ground_description, pattern_of, static_truth
-from asp.language.literals import (
-    Action,
-    Fluent,
-    Literal,
-)
+from asp.language.literals import Action, Fluent, Literal
 from asp.language.loading import (
     MOST_TEXTS,
     analyse,

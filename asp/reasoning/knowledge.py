@@ -6,12 +6,7 @@ from functools import cached_property, lru_cache
 
 from clingo import Symbol
 
-from asp.language import (
-    Action,
-    Description,
-    Literal,
-    parse_description,
-)
+from asp.language import Action, Description, Literal, parse_description
 from asp.solving import fact
 from asp.translation import translate
 

@@ -11,14 +11,7 @@ its components.
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from asp.language import (
-    Action,
-    Literal,
-    Signature,
-    named,
-    syntax,
-    variable_domains,
-)
+from asp.language import Action, Literal, Signature, named, syntax, variable_domains
 from asp.language import variable_sorts as roles
 
 Law = syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition

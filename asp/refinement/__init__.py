@@ -6,13 +6,7 @@ from asp.refinement.observation import TRUE
 from asp.refinement.refinement import Refinement
 from asp.refinement.refining import shared_places
 from asp.refinement.sensing import Sensing, sensing_of
-from asp.refinement.zooming import (
-    Transition,
-    fine_constants,
-    fine_goal,
-    relevant,
-    zoom,
-)
+from asp.refinement.zooming import Transition, fine_constants, fine_goal, relevant, zoom
 
 __all__ = [
     "TRUE",

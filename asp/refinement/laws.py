@@ -143,11 +143,7 @@ class Rewriting:
         return replace(law, actions=actions, body=(*body, *renaming.links()))
 
     def _about_any_component(
-        self,
-        part: syntax.Literal,
-        condition: syntax.Condition,
-        acted: set[str],
-        renaming: Renaming,
+        self, part: syntax.Literal, condition: syntax.Condition, acted: set[str], renaming: Renaming
     ) -> syntax.Condition:
         """A condition on what the action is about: any of its components may meet it.
 

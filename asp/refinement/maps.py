@@ -57,11 +57,7 @@ class _Map:
     """A coarse map, and what has to be so in the fine one."""
 
     def __init__(
-        self,
-        static: str,
-        fine: syntax.Source,
-        vocabulary: Vocabulary,
-        statics: frozenset[Literal],
+        self, static: str, fine: syntax.Source, vocabulary: Vocabulary, statics: frozenset[Literal]
     ) -> None:
         self._static, self._counterpart = static, vocabulary.counterparts[static]
         self._coarse, self._fine = _pairs(static, statics), _pairs(self._counterpart, statics)

@@ -5,13 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
-from asp.language import (
-    Description,
-    Literal,
-    Signature,
-    parse_description,
-    syntax,
-)
+from asp.language import Description, Literal, Signature, parse_description, syntax
 from asp.refinement.vocabulary import Vocabulary
 
 

@@ -5,13 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from papers.table1.commands import Sources, commands, played
 from papers.table1.drawing import drawing
 from papers.table1.failing import blindness, failures, meetings
-from papers.table1.hypotheses import (
-    Hypothesis,
-    both,
-    compared,
-    hypotheses,
-    weigh,
-)
+from papers.table1.hypotheses import Hypothesis, both, compared, hypotheses, weigh
 from papers.table1.measured import optimum, times
 from papers.table1.others import later, unaided
 from papers.table1.pairs import Pair

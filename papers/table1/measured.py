@@ -8,13 +8,7 @@ from papers.text import render
 from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.measures import Analysis, Row
 from testbed.studies.table1.published import PLANNING, PUBLISHED, SCENARIOS
-from testbed.studies.table1.tables import (
-    OPTIMUM,
-    READINGS,
-    TIMES,
-    optimum_rows,
-    times_rows,
-)
+from testbed.studies.table1.tables import OPTIMUM, READINGS, TIMES, optimum_rows, times_rows
 from testbed.studies.tables import Cells
 
 

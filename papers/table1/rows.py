@@ -100,7 +100,4 @@ def _medians(pairs: Sequence[Pair]) -> dict[str, float | None]:
     """Seconds of planning and units of execution of ATI; None without any pair."""
     times = [pair.treatment.measures["planning_time"] for pair in pairs]
     units = [pair.treatment.measures["execution_units"] for pair in pairs]
-    return {
-        "seconds": median(times) if times else None,
-        "units": median(units) if units else None,
-    }
+    return {"seconds": median(times) if times else None, "units": median(units) if units else None}

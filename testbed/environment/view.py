@@ -7,12 +7,7 @@ from gymnasium import spaces
 
 from asp.language import suggestion
 from testbed.environment.core import Core
-from testbed.environment.observation import (
-    Vector,
-    observation_spaces,
-    signs,
-    state_vector,
-)
+from testbed.environment.observation import Vector, observation_spaces, signs, state_vector
 from testbed.environment.rendering import MODES, Image, html_of, render
 from testbed.environment.rules import ADVERSARY, ROBOT, UnknownOptionError, check_agent
 

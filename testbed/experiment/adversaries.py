@@ -51,10 +51,7 @@ class _NoOptions:
 ADVERSARIES: Registry[AdversaryClass] = Registry(
     "adversary",
     "intention_testbed.adversaries",
-    {
-        "triggers": "agents.adversary.scripted:Triggered",
-        "random": "agents.adversary.random:Random",
-    },
+    {"triggers": "agents.adversary.scripted:Triggered", "random": "agents.adversary.random:Random"},
     _fault,
 )
 

@@ -8,13 +8,7 @@ from contextlib import contextmanager, suppress
 from itertools import count, takewhile
 from pathlib import Path
 
-from testbed.config import (
-    SCENARIO_KEYS,
-    ConfigError,
-    ExperimentConfig,
-    load_config,
-    write_yaml,
-)
+from testbed.config import SCENARIO_KEYS, ConfigError, ExperimentConfig, load_config, write_yaml
 from testbed.experiment.errors import StoreError
 
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"

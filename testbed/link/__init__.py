@@ -4,13 +4,7 @@ from testbed.link.exchange import InProcessRobot
 from testbed.link.process import RobotProcess, SpawnedRobot, connect, spawned_robot
 from testbed.link.remote import RemoteRobot
 from testbed.link.serving import serve, serve_forever
-from testbed.link.session import (
-    endpoint,
-    open_as_configured,
-    open_driver,
-    open_robot,
-    open_waiting,
-)
+from testbed.link.session import endpoint, open_as_configured, open_driver, open_robot, open_waiting
 
 __all__ = [
     "InProcessRobot",

@@ -55,11 +55,7 @@ def _begin_with(program: str) -> None:
 @contextmanager
 def _running(*command: str) -> Iterator[subprocess.Popen[str]]:
     process = subprocess.Popen(
-        command,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
     try:
         yield process

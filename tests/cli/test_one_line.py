@@ -129,10 +129,7 @@ def test_a_domain_that_is_no_text_is_told_with_its_place() -> None:
 @pytest.mark.parametrize(
     ("change", "place"),
     [
-        (
-            ("fluents\n", "fluents\n  inertial near(lamp, lamp).\n"),
-            "large.al:6",
-        ),
+        (("fluents\n", "fluents\n  inertial near(lamp, lamp).\n"), "large.al:6"),
         (("laws\n", "laws\n  -lit(X) if lit(Y), lit(Z), X != Y, Y != Z.\n"), "large.al:12"),
     ],
 )

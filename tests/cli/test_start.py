@@ -37,9 +37,7 @@ def test_what_is_mistyped_is_refused_before_anything_heavy_is_imported(mistyped:
     assert _loaded(mistyped).isdisjoint(HEAVY)
 
 
-def test_a_process_of_a_robot_loads_nothing_of_the_world_and_of_experiments(
-    tmp_path: Path,
-) -> None:
+def test_a_process_of_a_robot_loads_nothing_of_the_world_and_of_experiments(tmp_path: Path) -> None:
     """The module of the robot, which is imported before it is served, tells what is there then."""
     spy = "import json, sys\nprint(json.dumps(list(sys.modules)))\nraise SystemExit\n"
     (tmp_path / "spying_robot.py").write_text(spy, encoding="utf-8")

@@ -6,9 +6,7 @@ import pytest
 
 import asp
 from asp.language import load_description
-from testbed.config import (
-    load_config,
-)
+from testbed.config import load_config
 from tests.config.tiny import LAMP, VALID, file_of, refusal
 
 pytestmark = pytest.mark.versions

@@ -15,11 +15,7 @@ pytestmark = pytest.mark.versions
     [
         ("seed: 3", "sed: 3", "tiny.yaml:2: sed: unknown key; did you mean 'seed'?"),
         ("steps: 20", "stps: 20", "tiny.yaml:11: limits.stps: unknown key; did you mean 'steps'?"),
-        (
-            "seed: 3",
-            "seed: three",
-            "tiny.yaml:2: seed: should be an integer, not 'three'",
-        ),
+        ("seed: 3", "seed: three", "tiny.yaml:2: seed: should be an integer, not 'three'"),
         (
             "scenarios: [1, random]",
             "scenarios: 5",

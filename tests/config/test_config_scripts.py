@@ -5,9 +5,7 @@ from pathlib import Path
 import pytest
 
 from testbed.cli.loading import load
-from testbed.config import (
-    ConfigError,
-)
+from testbed.config import ConfigError
 from tests.config.tiny import VALID, file_of, refusal
 
 pytestmark = pytest.mark.versions

@@ -4,9 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from testbed.config import (
-    load_config,
-)
+from testbed.config import load_config
 from tests.config.tiny import LAMP, VALID, file_of, refusal
 
 pytestmark = pytest.mark.versions
@@ -38,10 +36,7 @@ def test_a_forbidden_initial_state_names_its_key_and_the_law(
     ("goal", "law"),
     [
         ("[loc(book1,library),loc(book1,kitchen)]", "-loc(book1,kitchen) if loc(book1,library)"),
-        (
-            "[in_hand(rob1,book1),loc(rob1,kitchen),loc(book1,library)]",
-            "if loc(book1,library)",
-        ),
+        ("[in_hand(rob1,book1),loc(rob1,kitchen),loc(book1,library)]", "if loc(book1,library)"),
         ("[in_hand(rob1,book1),in_hand(rob1,book2)]", "in_hand(rob1,book"),
     ],
 )
@@ -56,9 +51,7 @@ def test_a_goal_that_no_state_has_is_refused_with_the_law(
     assert line.startswith("command line: scenario_settings.1.goal: no state has")
 
 
-def test_a_goal_that_no_state_has_is_refused_where_no_law_says_so_by_itself(
-    tmp_path: Path,
-) -> None:
+def test_a_goal_that_no_state_has_is_refused_where_no_law_says_so_by_itself(tmp_path: Path) -> None:
     """That nothing else makes it safe is what `defined` says; and lit or not, the fuse is hot."""
     lamp = tmp_path / "lamp.al"
     fluents = "fluents\n  defined safe.\n  inertial hot.\n"

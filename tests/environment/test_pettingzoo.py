@@ -96,8 +96,7 @@ LOUD = {"observability": {"exo_move": {"mode": "always", "probability": 0.5}}}
 
 
 @pytest.mark.parametrize(
-    ("make", "episode"),
-    [(office_v0.env, aec_episodes), (office_v0.parallel_env, parallel_episode)],
+    ("make", "episode"), [(office_v0.env, aec_episodes), (office_v0.parallel_env, parallel_episode)]
 )
 def test_whole_episodes_follow_from_the_seed(
     make: Callable[..., Any], episode: Callable[..., Iterator[tuple[Any, ...]]]

@@ -70,10 +70,7 @@ def test_the_scene_says_where_everything_is() -> None:
 
 def test_the_scene_says_what_just_happened() -> None:
     core = office()
-    assert (
-        scene_of(core).robot,
-        scene_of(core).adversary,
-    ) == ("", "")
+    assert (scene_of(core).robot, scene_of(core).adversary) == ("", "")
     core.advance(Literal.parse("move(rob1,office1)"), Literal.parse("exo_lock(library)"))
     shown = scene_of(core)
     assert (shown.robot, shown.adversary) == ("move(rob1,office1) failed", "exo_lock(library)")

@@ -36,9 +36,7 @@ BAD: dict[str, dict[str, Any]] = {
     "a long text": {"reason": "x" * MANY},
     "a long name": {"plan": ["x" * MANY]},
     "a long list": {"plan": ["wait"] * MANY},
-    "a step that is none": {
-        "explanation": {"step": 2**63, "unobserved": [], "exceptions": []},
-    },
+    "a step that is none": {"explanation": {"step": 2**63, "unobserved": [], "exceptions": []}},
     "fine counts that are none": {"fine": {"plans": -1}},
 }
 NESTED = msgspec.Raw(b"\x82\xa7version\x01\xa5trace" + b"\x91" * MANY + b"\xc0")

@@ -255,9 +255,7 @@ def test_in_a_random_world_the_heuristic_is_consistent(
         check(world, goal, costs, 16)
 
 
-def test_what_is_too_much_to_enumerate_is_searched_without(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_what_is_too_much_to_enumerate_is_searched_without(monkeypatch: pytest.MonkeyPatch) -> None:
     world = world_of(parse_description(CARTS))
     start, goal, (costs, _) = next(world.states()), parsed(["at(jar,gate)"]), measures(world)
     assert Potentials(world.description).heuristic(start, goal, costs) is not blind

@@ -152,8 +152,7 @@ def test_an_answer_that_is_no_action_loses_the_robot(configure: Configure) -> No
 
 @pytest.mark.parametrize("played", [0, 5, 6])
 @pytest.mark.parametrize(
-    ("trouble", "outcome"),
-    [("fly(rob1,library)", "robot_lost"), ("put_down(rob1,book2)", "error")],
+    ("trouble", "outcome"), [("fly(rob1,library)", "robot_lost"), ("put_down(rob1,book2)", "error")]
 )
 def test_what_the_world_says_counts_also_where_a_trial_breaks_off(
     configure: Configure, played: int, trouble: str, outcome: str

@@ -2,11 +2,7 @@
 
 import pytest
 
-from papers.table1.evidence import (
-    closeness,
-    published_failures,
-    published_weights,
-)
+from papers.table1.evidence import closeness, published_failures, published_weights
 from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.pairs import Ratio
 from testbed.studies.table1.measures import Row, Table

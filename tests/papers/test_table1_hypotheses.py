@@ -7,13 +7,7 @@ import pytest
 
 from papers.table1.document import Sources, document
 from papers.table1.evidence import closeness
-from papers.table1.hypotheses import (
-    Hypothesis,
-    both,
-    compared,
-    hypotheses,
-    weigh,
-)
+from papers.table1.hypotheses import Hypothesis, both, compared, hypotheses, weigh
 from papers.table1.pairs import Pair, Side
 from papers.table1.released import released
 from papers.table1.runs import read_run, told_name, told_order

@@ -114,8 +114,7 @@ def test_where_events_come_while_the_robot_thinks_nothing_is_weighed(
 
 
 @pytest.mark.parametrize(
-    "overrides",
-    [["scenario_settings={random: {exogenous_while_thinking: true}}"], ["script=[]"]],
+    "overrides", [["scenario_settings={random: {exogenous_while_thinking: true}}"], ["script=[]"]]
 )
 def test_other_ways_of_drawing_are_not_weighed(runs: tuple[Run, Run], overrides: list[str]) -> None:
     config = load_config("table1", ["scenarios=[random]", *overrides])

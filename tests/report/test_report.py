@@ -76,13 +76,7 @@ def test_a_timeline_has_every_step_with_who_did_what() -> None:
         (1, "mental", "start(1)", "", ""),
         (2, "done", "go", "shift, unseen", ""),
         (3, "failed", "take failed", "", ""),
-        (
-            4,
-            "mental",
-            "wait",
-            "",
-            "exception -home, shift at step 2, distrusted shift at step 3",
-        ),
+        (4, "mental", "wait", "", "exception -home, shift at step 2, distrusted shift at step 3"),
         (5, "mental", "finish", "", ""),
     ]
 

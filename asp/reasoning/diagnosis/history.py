@@ -211,9 +211,7 @@ class Explanation:
             for happenings in (suffix.unobserved, suffix.distrusted)
         )
         return replace(
-            self,
-            unobserved=self.unobserved + unobserved,
-            distrusted=self.distrusted + distrusted,
+            self, unobserved=self.unobserved + unobserved, distrusted=self.distrusted + distrusted
         )
 
     def left(self, history: History) -> Explanation:

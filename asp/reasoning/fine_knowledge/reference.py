@@ -8,15 +8,7 @@ from typing import Protocol
 
 from clingo import Symbol
 
-from asp.language import (
-    Action,
-    Fluent,
-    Literal,
-    Signature,
-    narrowed,
-    restrict,
-    syntax,
-)
+from asp.language import Action, Fluent, Literal, Signature, narrowed, restrict, syntax
 from asp.language import variable_sorts as roles
 from asp.refinement import Refinement
 from asp.solving import Recent, fact, first_model, ground, literal_of, theory

@@ -1,10 +1,6 @@
 """Shortest plans at the fine resolution."""
 
-from asp.reasoning.fine_planning.incremental import (
-    Horizons,
-    IncrementalFinePlanner,
-    fine_planner,
-)
+from asp.reasoning.fine_planning.incremental import Horizons, IncrementalFinePlanner, fine_planner
 from asp.reasoning.fine_planning.reference import (
     FinePlan,
     FinePlanner,

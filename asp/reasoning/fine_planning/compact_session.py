@@ -13,13 +13,7 @@ from itertools import chain, product
 import clingo
 from clingo import Number, Symbol
 
-from asp.language import (
-    Action,
-    Fluent,
-    Literal,
-    Signature,
-    syntax,
-)
+from asp.language import Action, Fluent, Literal, Signature, syntax
 from asp.solving import fact, ground, literal_of, preparation, solving, theory
 from asp.translation import Part, Rule, compact
 

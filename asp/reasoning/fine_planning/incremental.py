@@ -7,15 +7,7 @@ from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from itertools import chain
 
-from asp.language import (
-    Fluent,
-    Function,
-    Literal,
-    Signature,
-    functions,
-    syntax,
-    without_exogenous,
-)
+from asp.language import Fluent, Function, Literal, Signature, functions, syntax, without_exogenous
 from asp.reasoning.fine_planning.compact_session import CompactDescription, CompactPart, Horizon
 from asp.reasoning.fine_planning.large.problem_program import Problem, ProblemPrograms
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed

@@ -62,11 +62,7 @@ class Change:
     """
 
     def __init__(
-        self,
-        laws: Laws,
-        facts: Facts,
-        literals: Iterable[Literal],
-        seeds: Iterable[Literal] = (),
+        self, laws: Laws, facts: Facts, literals: Iterable[Literal], seeds: Iterable[Literal] = ()
     ) -> None:
         self._laws, self._facts = laws, facts
         self._given = tuple(literals)

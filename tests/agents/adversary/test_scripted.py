@@ -80,12 +80,7 @@ def moves(book: str, *rooms: str) -> set[str]:
         ),
         ("4", HOLDS_1, "move(rob1,office2)", moves("book2", "office2")),
         ("4", HOLDS_1, "move(rob1,library)", {NONE}),
-        (
-            "4",
-            EMPTY_HANDED,
-            "move(rob1,kitchen)",
-            {NONE, *moves("book2", "kitchen")},
-        ),
+        ("4", EMPTY_HANDED, "move(rob1,kitchen)", {NONE, *moves("book2", "kitchen")}),
         (
             "4",
             ["loc(rob1,office2)", "loc(book1,library)", "loc(book2,library)", "locked(library)"],

@@ -12,13 +12,7 @@ from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import SELECT, Compression, Diagnosis, Explanation, incremental
 from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office
-from tests.agents.intentional.lives import (
-    BOTH_IN_THE_LIBRARY,
-    GOAL_LITERALS,
-    STATES,
-    Wish,
-    live,
-)
+from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, GOAL_LITERALS, STATES, Wish, live
 from tests.literals import parsed
 
 

@@ -10,13 +10,7 @@ from agents.shared.thought import Reasoner
 from asp.language import Literal
 from asp.reasoning.diagnosis import GOAL, SELECT, Explanation
 from asp.reasoning.knowledge import knowledge
-from tests.agents.intentional.lives import (
-    DOMAIN,
-    SOURCE,
-    WORLD,
-    Wish,
-    live,
-)
+from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
 from tests.literals import parsed
 from tests.oracle import minimal_actions
 

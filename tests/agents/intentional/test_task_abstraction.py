@@ -51,13 +51,7 @@ def test_decisions_are_those_of_the_whole_task(
 
 def _shown(decision: Decision) -> tuple[object, ...]:
     trace = decision.trace
-    return (
-        decision.action,
-        decision.believes_goal,
-        trace.mental,
-        trace.plan,
-        trace.futile_at,
-    )
+    return (decision.action, decision.believes_goal, trace.mental, trace.plan, trace.futile_at)
 
 
 def _explained(decisions: Sequence[Decision], abstract: AbstractTask) -> list[Assumed]:
@@ -110,10 +104,7 @@ def test_what_the_robot_holds_is_kept() -> None:
     )
     assert abstract.seen(
         parsed(["loc(object3,room1)", "loc(object4,room1)", "loc(object1,room1)"])
-    ) == [
-        "loc(object1,room1)",
-        "loc(object2,room1)",
-    ]
+    ) == ["loc(object1,room1)", "loc(object2,room1)"]
 
 
 def test_what_may_be_in_the_hand_is_kept() -> None:

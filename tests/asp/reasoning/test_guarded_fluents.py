@@ -59,8 +59,7 @@ def test_what_does_not_forbid_it_always_is_no_guard(other: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "law",
-    ["hand_over(R, O) causes in_hand(R, O).", "in_hand(R, O) if glued(R, O)."],
+    "law", ["hand_over(R, O) causes in_hand(R, O).", "in_hand(R, O) if glued(R, O)."]
 )
 def test_another_way_for_it_to_come_true_is_not_guarded(law: str) -> None:
     assert not guarded(f"{HAND}  {law}\n")

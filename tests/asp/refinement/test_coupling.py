@@ -56,11 +56,7 @@ def test_every_transition_of_the_robot_has_a_path_in_the_zoomed_description(name
 
 
 def check_zoomed(
-    refinement: Refinement,
-    transition: Transition,
-    goal: list[str],
-    rng: random.Random,
-    steps: int,
+    refinement: Refinement, transition: Transition, goal: list[str], rng: random.Random, steps: int
 ) -> tuple[list[str], list[str]]:
     """The start drawn for a transition and the path that the zoomed description has from it."""
     constants = relevant(refinement, transition, goal)

@@ -97,9 +97,7 @@ def one_cell_tells_of_the_room(text: str) -> bool:
 
 def one_part_tells_of_the_object(text: str) -> bool:
     return "observed_in_hand(rob1,object1,true)" in knows(
-        text,
-        (*AT_HOME, "fine_in_hand(rob1,object1_1)"),
-        "test_fine_in_hand(rob1,object1_1)",
+        text, (*AT_HOME, "fine_in_hand(rob1,object1_1)"), "test_fine_in_hand(rob1,object1_1)"
     )
 
 

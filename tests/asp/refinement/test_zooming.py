@@ -89,7 +89,7 @@ class TestThePaperSExample:
     def test_the_fine_constants_are_the_cells_of_the_rooms_the_robot_and_the_book(self) -> None:
         refinement = of("assistant")
         assert fine_constants(refinement, self.constants) == {
-            *("c1", "c2", "c5", "c6", "c7", "c8", "rob1", "tb1"),
+            *("c1", "c2", "c5", "c6", "c7", "c8", "rob1", "tb1")
         }
         for source in (
             zoom(refinement.weak, refinement, self.constants),
@@ -107,7 +107,7 @@ class TestThePaperSExample:
         constants = relevant(refinement, self.MOVE, parsed(["loc(rob1,office1)"]))
         fine = signature(zoom(refinement.strong, refinement, constants))
         assert {s for s, d in fine.symbols.items() if d.kind in ("agent", "exogenous")} == {
-            *("fine_move", "test_fine_loc"),
+            *("fine_move", "test_fine_loc")
         }
         assert "in_hand" not in fine.symbols
 

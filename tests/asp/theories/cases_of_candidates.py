@@ -132,12 +132,7 @@ CASES = (
         n=3,
     ),
     Case(
-        53,
-        "a robot with an intention has one",
-        _CROSSING,
-        Always("has_intention(2)"),
-        n=3,
-        rule=1,
+        53, "a robot with an intention has one", _CROSSING, Always("has_intention(2)"), n=3, rule=1
     ),
     Case(
         53,

@@ -83,10 +83,7 @@ def test_the_preferred_explanation_is_the_best_of_all(
 ) -> None:
     control = _story(story, size)
     atoms = control.symbolic_atoms
-    numbers = (
-        fact("number_unobserved", events, NOW),
-        fact("number_exceptions", exceptions),
-    )
+    numbers = (fact("number_unobserved", events, NOW), fact("number_exceptions", exceptions))
     assumptions = [atoms[number].literal for number in numbers]  # type: ignore[union-attr]
     assert _preferred(control, assumptions) == _best(control, assumptions)
 
@@ -109,11 +106,7 @@ def test_levels_stay_below_what_clasp_tells_apart(size: int) -> None:
 
 # What each paragraph says: a story, how many events and exceptions explain it, what is decided.
 SAID = {
-    "order.a": (
-        lines(GATE_OPEN, "obs(shut,true,3)."),
-        (1, 0),
-        {"unobserved(shut_gate,2)": True},
-    ),
+    "order.a": (lines(GATE_OPEN, "obs(shut,true,3)."), (1, 0), {"unobserved(shut_gate,2)": True}),
     "order.b": (
         "initially(0,at(left)). initially(0,at(right)). initially(1,lit). initially(1,shut).",
         (0, 0),

@@ -150,9 +150,7 @@ def _inside(own: Any, value: float | None) -> None:
         assert own["inside"] == (own["low"] - 0.005 <= own["published"] <= own["high"] + 0.005)
 
 
-def test_where_nothing_happens_nobody_needs_more_actions_than_the_fewest(
-    summary: Any,
-) -> None:
+def test_where_nothing_happens_nobody_needs_more_actions_than_the_fewest(summary: Any) -> None:
     found = summary["table1"]["intentional"]["triggered"]["rows"]
     for robot in ("intentional", "traditional"):
         own = found["1"]["optimum"][robot]

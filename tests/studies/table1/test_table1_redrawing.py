@@ -15,12 +15,7 @@ WORLD = load_world("office")
 STATED, PASSED_ON = as_stated(WORLD, "random"), passed_on(WORLD, "random")
 TRIED = 0.92
 HOLDING = ["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book1,kitchen)", "loc(book2,office2)"]
-LOCKED = [
-    "loc(rob1,kitchen)",
-    "loc(book1,office1)",
-    "loc(book2,office2)",
-    "locked(library)",
-]
+LOCKED = ["loc(rob1,kitchen)", "loc(book1,office1)", "loc(book2,office2)", "locked(library)"]
 ELSEWHERE = ("kitchen", "office1", "library")
 
 

@@ -32,11 +32,7 @@ def _level(rooms: int, cells: int, objects: tuple[tuple[int, int], ...]) -> Refi
 
 ROW = _level(3, 4, ((2, 2),))
 ONE_ROOM_AWAY = parsed(
-    [
-        "fine_loc(rob1,room1_1)",
-        "fine_loc(object1_1,room1_3)",
-        "fine_loc(object2_1,room3_4)",
-    ]
+    ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_3)", "fine_loc(object2_1,room3_4)"]
 )
 
 

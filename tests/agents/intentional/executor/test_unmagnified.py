@@ -98,11 +98,7 @@ TABLE = _table()
 @pytest.mark.parametrize("zooms", [True, False])
 def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: bool) -> None:
     start = parsed(
-        [
-            "fine_over(left_arm,green_3)",
-            "fine_held(left_arm,base2)",
-            "fine_lies(base1,yellow_1)",
-        ]
+        ["fine_over(left_arm,green_3)", "fine_held(left_arm,base2)", "fine_lies(base1,yellow_1)"]
     )
     went = play(RefinedRobot(zooms=zooms), TABLE, start, parsed(["lies(block1,red)"]))
     assert went.achieved
