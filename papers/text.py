@@ -6,7 +6,7 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from papers.markdown import markdown, paragraph
-from testbed.text.wording import number
+from testbed.text import number
 
 TEMPLATES = Path(__file__).with_name("templates")
 

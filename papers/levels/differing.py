@@ -10,7 +10,7 @@ from papers.levels.runs import Run
 from testbed.studies.levels.published import FIRST, NO_ZOOM, PAPER, ZOOM
 from testbed.studies.levels.tables import CONDITIONS, RATIO, ratios, seconds, shares
 from testbed.studies.levels.tables import growth as grown
-from testbed.text.wording import number
+from testbed.text import number
 
 
 def differences(run: Run) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from papers.text import percent, render
 from testbed.analysis.bootstrap import Estimate
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS
-from testbed.text.wording import number
+from testbed.text import number
 
 AS_PLAYED, PASSED_ON = "as played", "released draw"
 Weights = Callable[[Pair], float]

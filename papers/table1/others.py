@@ -12,7 +12,7 @@ from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS
 from testbed.studies.tables import Cell
-from testbed.text.wording import number
+from testbed.text import number
 from testbed.world import load_world
 
 

@@ -12,7 +12,7 @@ from papers.text import render
 from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import MEASURES, NO_FAILURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS
-from testbed.text.wording import number
+from testbed.text import number
 from testbed.world import World
 
 

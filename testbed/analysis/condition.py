@@ -6,7 +6,7 @@ from agents.adversary import RANDOM_RATE
 from asp.language import read_domain
 from testbed.config import ExperimentConfig, Observability, ScenarioSettings
 from testbed.experiment.timeline import in_words
-from testbed.text.wording import listed
+from testbed.text import listed
 
 NO_RESULT = {"answer_s"}
 """Limits on which no logical result depends."""

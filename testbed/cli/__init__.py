@@ -15,7 +15,7 @@ import typer
 from testbed.cli import check, export, repair, replay, report, robot, run, translate
 from testbed.cli.common import BAD_INPUT, DONE, refuse
 from testbed.cli.importing import displaced
-from testbed.text.terminal import mute, tolerant, warn
+from testbed.text import mute, tolerant, warn
 
 __all__ = ["app", "main"]
 

@@ -8,7 +8,7 @@ from typing import Annotated, NoReturn
 
 import typer
 
-from testbed.text.terminal import mute, plain, warn
+from testbed.text import mute, plain, warn
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 

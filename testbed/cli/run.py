@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from testbed.cli.common import Config, Overrides, examples, input_errors, refuse
-from testbed.text.terminal import warn
+from testbed.text import warn
 
 EPILOG = examples(
     "testbed run quickstart",

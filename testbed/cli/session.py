@@ -14,8 +14,7 @@ from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_r
 from testbed.experiment.runner import RunStatus, run_in
 from testbed.protocol import shortened
 from testbed.report import Tables, grid, write_report
-from testbed.text.terminal import Printer, Say, columns
-from testbed.text.wording import counted
+from testbed.text import Printer, Say, columns, counted
 
 MOST_OF_REASON = 200
 """Characters of a reason that are said on the terminal; the report has all of it."""

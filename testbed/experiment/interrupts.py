@@ -12,7 +12,7 @@ from multiprocessing.process import BaseProcess
 from threading import Thread, current_thread, main_thread
 from types import FrameType
 
-from testbed.text.terminal import mute
+from testbed.text import mute
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 """What ends a run early; for the driver to handle, where all of a group get one."""

@@ -17,7 +17,7 @@ from testbed.experiment.seeds import drawn_part, generator_of
 from testbed.experiment.specs import FineSetting, TrialSpec, pair_specs, setting_of
 from testbed.experiment.store import read_records
 from testbed.experiment.timeline import place
-from testbed.text.wording import listed
+from testbed.text import listed
 from testbed.world import World, load_world, world_of
 
 SCENARIO = "levels"

@@ -17,8 +17,7 @@ from rich.progress import (
 from rich.text import Text
 
 from testbed.experiment.runner import Notify, RunStatus
-from testbed.text.terminal import warn
-from testbed.text.wording import counted
+from testbed.text import counted, warn
 
 EVERY_S = 30.0
 

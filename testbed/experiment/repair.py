@@ -15,7 +15,7 @@ from testbed.experiment.recorder import strangeness
 from testbed.experiment.run_folder import TRIALS, locked, read_config, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import settle
-from testbed.text.wording import counted
+from testbed.text import counted
 
 
 def repair(folder: Path, say: Callable[[str], None]) -> None:

@@ -19,9 +19,8 @@ from testbed.experiment.trial import Moment, play_trial
 from testbed.experiment.trial_setup import load_ground
 from testbed.link import InProcessRobot
 from testbed.protocol import FineTrace, Trace
+from testbed.text import columns, counted
 from testbed.text.grid import Grid
-from testbed.text.terminal import columns
-from testbed.text.wording import counted
 from testbed.world import World, load_world, world_of
 
 Say = Callable[[str], None]

@@ -20,7 +20,7 @@ from testbed.experiment.recorder import strangeness
 from testbed.experiment.run_folder import TRIALS, naming, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import shortened
-from testbed.text.terminal import warn
+from testbed.text import warn
 
 RETRIES = "retries.jsonl"
 

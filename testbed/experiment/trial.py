@@ -28,7 +28,7 @@ from testbed.protocol import (
     in_one_line,
     shortened,
 )
-from testbed.text.wording import listed
+from testbed.text import listed
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
 from testbed.experiment.record import COARSE
 from testbed.experiment.timeline import in_words
 from testbed.studies import Chart, Colour, Series, points
-from testbed.text.wording import number
+from testbed.text import number
 
 OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in MINIMAL))
 LEAST = 2

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
 from testbed.studies import Chart, Point, Series
-from testbed.text.terminal import plain
+from testbed.text import plain
 
 WIDTH = 3.2
 ROW_HEIGHT, FRAME_HEIGHT = 0.33, 0.45

@@ -8,8 +8,7 @@ from markupsafe import Markup
 
 from testbed.experiment.timeline import in_words, of_place, timeline
 from testbed.studies import Chart, Section
-from testbed.text.terminal import plain
-from testbed.text.wording import chance, counted, number
+from testbed.text import chance, counted, number, plain
 
 
 def rendered(section: Section) -> Markup:

@@ -10,8 +10,8 @@ import polars as pl
 from testbed.analysis.comparison import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
 from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome
 from testbed.experiment.timeline import exception, in_words, of_place, place
+from testbed.text import counted
 from testbed.text.grid import Grid
-from testbed.text.wording import counted
 
 COLUMNS = (
     "scenario",

@@ -19,7 +19,7 @@ from testbed.config import ExperimentConfig, Finding, load_config
 from testbed.registry import Registry, RegistryError
 from testbed.studies.charts import Chart, Key
 from testbed.studies.tables import Sheet, View
-from testbed.text.wording import listed
+from testbed.text import listed
 
 if TYPE_CHECKING:  # which loads polars
     from testbed.analysis import Run

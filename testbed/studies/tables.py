@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.statistics import Test
+from testbed.text import chance
 from testbed.text.grid import Grid
-from testbed.text.wording import chance
 
 MEDIAN, OF_SUMS, PUBLISHED = "  median", "  of sums", "  published"
 OUTSIDE, MARKED = " *", " (*: outside of our interval)"

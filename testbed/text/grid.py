@@ -7,7 +7,7 @@ from itertools import zip_longest
 
 from rich.cells import cell_len
 
-from testbed.text.terminal import plain
+from testbed.text import plain
 
 GAP, INDENT = 2, 4
 LEAST_TEXT = 24

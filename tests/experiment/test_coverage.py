@@ -14,7 +14,7 @@ from testbed.experiment.plan import Coverage, coverage_of, plan_trials, planned_
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.runner import play_missing
 from testbed.experiment.timeline import place
-from testbed.text.wording import listed
+from testbed.text import listed
 
 LEVELS = ["levels=[L3,L1]", "limit=3"]
 TABLE1 = ["limit=2", "repeats=1", "scenario_settings={}", "link=inprocess"]

@@ -11,7 +11,7 @@ from testbed.studies.table1.measures import Analysis, Optimum, Row, Seconds, Tab
 from testbed.studies.table1.pairs import MEETINGS
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
-from testbed.text.wording import counted, number
+from testbed.text import counted, number
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
