@@ -5,14 +5,12 @@ of each other (repeats from one initial state) have the same label. A resample d
 replacement, each with all of its values; without labels each value is a cluster of its own.
 """
 
-# What a command refuses at once needs no scipy, which takes a second to import.
-# ruff: noqa: PLC0415
-
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
+import scipy  # type: ignore[import-untyped]  # its parts load when they are used
 from numpy.typing import ArrayLike, NDArray
 
 CONFIDENCE = 0.95
@@ -112,12 +110,10 @@ def proportion(sample: Observations) -> Estimate | None:
 
 def exact(share: float, trials: float) -> Estimate:
     """The exact (Clopper-Pearson) interval of a share of trials, whose number need not be whole."""
-    from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
-
     tail, right = (1 - CONFIDENCE) / 2, min(share, 1.0) * trials
     wrong = trials - right
-    low = float(stats.beta.ppf(tail, right, wrong + 1)) if right else 0.0
-    high = float(stats.beta.ppf(1 - tail, right + 1, wrong)) if wrong else 1.0
+    low = float(scipy.stats.beta.ppf(tail, right, wrong + 1)) if right else 0.0
+    high = float(scipy.stats.beta.ppf(1 - tail, right + 1, wrong)) if wrong else 1.0
     return Estimate(share, low, high)
 
 
@@ -126,8 +122,6 @@ def bootstrap(statistic: Statistic, *samples: Observations) -> Estimate | None:
 
     The interval has the percentiles over resamples, each sample being resampled by itself.
     """
-    from scipy import stats
-
     if not all(sample.clusters for sample in samples):
         return None
     value = float(_of_all(statistic, samples, [_once(sample) for sample in samples])[0])
@@ -141,7 +135,7 @@ def bootstrap(statistic: Statistic, *samples: Observations) -> Estimate | None:
         counts = [next(drawn) if own.clusters > 1 else _once(own) for own in samples]
         return _of_all(statistic, samples, counts).reshape(indices[0].shape[:-1])
 
-    interval = stats.bootstrap(
+    interval = scipy.stats.bootstrap(
         [np.arange(size) for size in varying],
         of_resamples,
         n_resamples=RESAMPLES,

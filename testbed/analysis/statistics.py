@@ -1,12 +1,10 @@
 """Paired tests, effect sizes, and Holm's correction of p-values."""
 
-# What a command refuses at once needs no scipy, which takes a second to import.
-# ruff: noqa: PLC0415
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # type: ignore[import-untyped]  # its parts load when they are used
 from numpy.typing import NDArray
 
 from testbed.analysis.bootstrap import Labels, Values, numbered
@@ -38,17 +36,15 @@ def signed_rank(
     Pairs without a difference are left out; None where there is no other. With labels both are of
     the clusters' mean differences, which are independent; in these means the weights count.
     """
-    from scipy import stats  # type: ignore[import-untyped]  # scipy ships no types
-
     if not differences.any():
         return None
     tested = cluster_means(differences, clusters, weights)
     nonzero = tested[tested != 0]
     if not len(nonzero):
         return Test(1.0, 0.0)
-    ranks = stats.rankdata(np.abs(nonzero))
+    ranks = scipy.stats.rankdata(np.abs(nonzero))
     effect = float(ranks @ np.sign(nonzero) / ranks.sum())
-    return Test(float(stats.wilcoxon(nonzero).pvalue), effect)
+    return Test(float(scipy.stats.wilcoxon(nonzero).pvalue), effect)
 
 
 def mcnemar(
@@ -62,15 +58,13 @@ def mcnemar(
     None where no pair differs. With labels the test counts the clusters in which one of the two is
     right more often than the other, by weight where there are weights.
     """
-    from scipy import stats
-
     differences = first.astype(float) - second.astype(float)
     if not differences.any():
         return None
     tested = cluster_means(differences, clusters, weights)
     only_first, only_second = int((tested > 0).sum()), int((tested < 0).sum())
     number = only_first + only_second
-    p = float(stats.binomtest(only_first, number).pvalue) if number else 1.0
+    p = float(scipy.stats.binomtest(only_first, number).pvalue) if number else 1.0
     return Test(p, float(np.average(differences, weights=weights)))
 
 

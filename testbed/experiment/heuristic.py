@@ -13,8 +13,7 @@ from functools import cached_property
 from math import ceil, prod
 
 import numpy as np
-from scipy.optimize import linprog  # type: ignore[import-untyped]  # scipy ships no types
-from scipy.sparse import coo_array  # type: ignore[import-untyped]  # scipy ships no types
+import scipy  # type: ignore[import-untyped]  # its parts load when they are used
 
 from asp.language import Description, Literal
 from testbed.experiment.changes import Changes, changes
@@ -72,7 +71,7 @@ class Potentials:
         return changes(self._description, self._variables)
 
     @cached_property
-    def _lowering(self) -> tuple[list[tuple[int, int]], coo_array]:
+    def _lowering(self) -> tuple[list[tuple[int, int]], "scipy.sparse.csr_array"]:
         """The columns of the linear program, and by how much each change lowers the sum.
 
         There is a column per value of a variable that changes, and a row per change.
@@ -88,7 +87,7 @@ class Potentials:
         number = {column: n for n, column in enumerate(dict.fromkeys(places))}
         columns = [number[column] for column in places]
         shape = len(found), len(number)
-        return [*number], coo_array((signs, (rows, columns)), shape).tocsr()
+        return [*number], scipy.sparse.coo_array((signs, (rows, columns)), shape).tocsr()
 
     def _numbers(
         self, changes: Changes, state: int, goal: Sequence[Literal], costs: Mapping[str, int]
@@ -100,7 +99,7 @@ class Potentials:
         most_lowered = np.array([costs.get(action, 0) for action, _ in changes.found], dtype=float)
         at_start = [state & variable == value for variable, value in columns]
         most = [0.0 if self._agree(goal, *column) else LARGEST for column in columns]
-        solved = linprog(
+        solved = scipy.optimize.linprog(
             -np.array(at_start, dtype=float),
             A_ub=lowering,
             b_ub=most_lowered,
