@@ -10,8 +10,8 @@ from agents.shared.thought import Intention, Reasoner
 from asp.language import Action, Literal, parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation
 from benchmarks.measuring import forget, timed
-from testbed.environment import NONE, Core, Observability, Rules
-from testbed.protocol import Decision, Task
+from testbed.environment import Core, Observability, Rules
+from testbed.protocol import NONE, Decision, Task
 from testbed.world import World, world_of
 
 

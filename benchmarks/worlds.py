@@ -11,7 +11,8 @@ from asp.language import Action
 from asp.refinement import Refinement, load
 from benchmarks.measuring import median, no_collection, quantile, timed
 from benchmarks.sheets import Row, Sheet, gathered
-from testbed.environment import WAIT, Core, Rules, fine_core
+from testbed.environment import Core, Rules, fine_core
+from testbed.protocol import WAIT
 from testbed.world import world_of
 
 _STEPS = {"small": 40, "full": 400}

@@ -16,15 +16,9 @@ from typing import Any, TypeAlias
 from asp import load_description
 from asp.language import suggestion
 from testbed.config import ConfigError, ExperimentConfig, grounds, lists_keys, load_config
-from testbed.environment import (
-    AECView,
-    Core,
-    OrderedView,
-    ParallelView,
-    RandomGoal,
-    Rules,
-    fine_core,
-)
+from testbed.environment import Core, RandomGoal, Rules, fine_core
+from testbed.environment.aec import AECView, OrderedView
+from testbed.environment.parallel import ParallelView
 from testbed.world import world_of
 
 Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None

@@ -10,8 +10,8 @@ from functools import cache
 from typing import TypeAlias
 
 from asp.language import Action, Literal, Trigger
-from testbed.environment import NONE
 from testbed.experiment.record import TrialRecord
+from testbed.protocol import NONE
 from testbed.world import World
 
 Chances: TypeAlias = Mapping[str, float]

@@ -1,7 +1,8 @@
-"""A game between a robot and an adversary in a world, and its PettingZoo environments."""
+"""A game between a robot and an adversary in a world, and its PettingZoo environments.
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+Import `AECView` and `ParallelView` from the modules `aec` and `parallel`: PettingZoo takes longer
+to import than all the rest.
+"""
 
 from testbed.environment.core import Core
 from testbed.environment.execution import Execution
@@ -19,19 +20,10 @@ from testbed.environment.rules import (
     UnknownOptionError,
     rewards,
 )
-from testbed.protocol import FINISH, NONE, WAIT
-
-if TYPE_CHECKING:
-    from testbed.environment.aec import AECView, OrderedView
-    from testbed.environment.parallel import ParallelView
 
 __all__ = [
     "ADVERSARY",
-    "FINISH",
-    "NONE",
     "ROBOT",
-    "WAIT",
-    "AECView",
     "Core",
     "Ending",
     "Execution",
@@ -39,9 +31,7 @@ __all__ = [
     "Mode",
     "NotResetError",
     "Observability",
-    "OrderedView",
     "Pace",
-    "ParallelView",
     "RandomGoal",
     "RandomStart",
     "Rules",
@@ -50,12 +40,3 @@ __all__ = [
     "fine_core",
     "rewards",
 ]
-
-_VIEWS = {"AECView": "aec", "OrderedView": "aec", "ParallelView": "parallel"}
-"""Imported when they are asked for: PettingZoo takes longer to import than all the rest."""
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _VIEWS:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_VIEWS[name]}"), name)

@@ -1,15 +1,14 @@
 """The game as a PettingZoo AEC environment: the robot answers, then the adversary beside it."""
 
 from copy import deepcopy
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from asp.language import Action
 from testbed.environment.core import Core
-from testbed.environment.observation import Observation, infos, observe
+from testbed.environment.observation import Observation, View, infos, observe
 from testbed.environment.rules import (
     ADVERSARY,
     ROBOT,
@@ -19,7 +18,6 @@ from testbed.environment.rules import (
     name_of,
     rewards,
 )
-from testbed.environment.view import View
 
 _TURN = (
     "agents",
@@ -34,12 +32,8 @@ _TURN = (
 """The attributes that belong to the turn: PettingZoo's, and the robot's answer."""
 
 
-@dataclass(frozen=True)
-class AECSnapshot:
-    """The core's snapshot, and whose turn it is with what PettingZoo has told so far."""
-
-    core: Snapshot
-    turn: dict[str, Any]
+AECSnapshot: TypeAlias = tuple[Snapshot, dict[str, Any]]
+"""The core's snapshot, and whose turn it is with what PettingZoo has told so far."""
 
 
 class AECView(View, AECEnv[str, Observation, int | None]):
@@ -110,12 +104,13 @@ class AECView(View, AECEnv[str, Observation, int | None]):
 
     def snapshot(self) -> AECSnapshot:
         """A copy of all that the rest of the episode depends on."""
-        return AECSnapshot(self.core.snapshot(), deepcopy({k: getattr(self, k) for k in _TURN}))
+        return self.core.snapshot(), deepcopy({name: getattr(self, name) for name in _TURN})
 
     def restore(self, snapshot: AECSnapshot) -> None:
         """Goes back to the snapshot, which may be used again."""
-        self.core.restore(snapshot.core)
-        for name, value in deepcopy(snapshot.turn).items():
+        core, turn = snapshot
+        self.core.restore(core)
+        for name, value in deepcopy(turn).items():
             setattr(self, name, value)
 
 

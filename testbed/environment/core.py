@@ -11,7 +11,7 @@ import numpy as np
 
 from asp.language import Action, Literal
 from testbed.environment.execution import Execution, Played
-from testbed.environment.legality import LegalEvents, Legality
+from testbed.environment.legality import LegalEvents
 from testbed.environment.rules import (
     Ending,
     IllegalActionError,
@@ -52,12 +52,11 @@ class Core:
         self.draw_goal = draw_goal
         self.execution = execution or Execution(world, world.description.robots[0])
         self.robot = self.execution.robot
-        self._legality = Legality(self.execution, rules.exogenous_while_thinking)
         self.robot_actions = (WAIT, FINISH, *self.execution.actions)
         self.adversary_actions = (NONE, *world.exogenous_actions)
         self._random = np.random.default_rng()
         self._situation: Situation | None = None
-        self._listed: tuple[tuple[Situation, Action | None], tuple[Action, ...]] | None = None
+        self._legal: LegalEvents | None = None
 
     @property
     def situation(self) -> Situation:
@@ -65,10 +64,6 @@ class Core:
         if self._situation is None:
             raise NotResetError
         return self._situation
-
-    @situation.setter
-    def situation(self, situation: Situation) -> None:
-        self._situation = situation
 
     def reset(
         self, seed: int | None = None, initial: Sequence[Literal] | None = None, trial: str = ""
@@ -86,16 +81,15 @@ class Core:
         else:
             state = self._draw(self.initial)
         goal = self.draw_goal(state, self._random) if self.draw_goal else self.rules.goal
-        self.situation = Situation(trial=trial, step=1, state=state, goal=goal)
+        self._situation = Situation(trial=trial, step=1, state=state, goal=goal)
 
     def snapshot(self) -> Snapshot:
         """What `restore` needs to play on from here, as often as wanted, in the same way."""
-        return Snapshot(self.situation, self._random.bit_generator.state)
+        return self.situation, self._random.bit_generator.state
 
     def restore(self, snapshot: Snapshot) -> None:
         """Goes back to where the snapshot was taken, in this or an equal core."""
-        self.situation = snapshot.situation
-        self._random.bit_generator.state = snapshot.generator
+        self._situation, self._random.bit_generator.state = snapshot
 
     @property
     def achieved(self) -> bool:
@@ -127,18 +121,20 @@ class Core:
 
         Not knowing it (None), the adversary may try all that is possible by itself.
         """
-        asked = (self.situation, robot_action)
-        if self._listed is None or self._listed[0] != asked:
-            self._listed = (asked, tuple(self.legal_events(robot_action)))
-        return self._listed[1]
+        return tuple(self.legal_events(robot_action))
 
     def legal_events(self, robot_action: Action | None) -> LegalEvents:
-        """The same, each asked for only when it is looked at; another step makes it stale."""
-        return LegalEvents(self.adversary_actions, lambda event: self.legal(robot_action, event))
+        """The same, each tested only when it is asked for. Those asked for last are remembered."""
+        state, last = self.situation.state, self._legal
+        if last is None or (last.state, last.robot_action) != (state, robot_action):
+            thinking, candidates = self.rules.exogenous_while_thinking, self.adversary_actions
+            last = LegalEvents(self.execution, thinking, candidates, state, robot_action)
+            self._legal = last
+        return last
 
     def legal(self, robot_action: Action | None, event: Action) -> bool:
         """Whether `event` is among `events(robot_action)`."""
-        return self._legality.allows(self.situation.state, robot_action, event)
+        return self.legal_events(robot_action).allows(event)
 
     def is_physical(self, robot_action: Action) -> bool:
         """Whether an action of the robot is to change the world: neither mental nor a test."""
@@ -146,7 +142,7 @@ class Core:
 
     def why_not(self, robot_action: Action, event: Action) -> str | None:
         """One line that says why the event is impossible beside the robot's action; else None."""
-        return self._legality.why_not(self.situation.state, robot_action, event)
+        return self.legal_events(robot_action).why_not(event)
 
     def advance(self, robot_action: Action, event: Action = NONE) -> None:
         """Plays a step: both actions at once. An attempt at the impossible changes nothing.
@@ -166,11 +162,11 @@ class Core:
             effective=effective,
             event=None if event == NONE else event,
             after=state,
-            possible=lambda other: self.legal(robot_action, other),
+            possible=self.legal_events(robot_action).allows,
         )
         sensed = execution.sensed(robot_action, state, self._random) if happened else ()
         news = (*now.pending, *played.reports(self.rules.observability, self._random))
-        self.situation = Situation(
+        self._situation = Situation(
             trial=now.trial,
             step=now.step + 1,
             state=state,
@@ -201,10 +197,9 @@ class Core:
             raise IllegalActionError(f"step {step}: {event} beside {robot_action}: {reason}")
 
     def _takes_effect(self, robot_action: Action) -> bool:
-        if not self._legality.possible(self.situation.state, robot_action):
-            return False
         chance = self.execution.chance(robot_action)
-        return chance >= 1 or bool(self._random.random() < chance)
+        possible = self.execution.possible(self.situation.state, robot_action)
+        return possible and (chance >= 1 or bool(self._random.random() < chance))
 
     def _answers(self, robot_action: Action) -> bool:
         """Whether this is a wrong `finish` to which the game goes on."""

@@ -9,7 +9,7 @@ import numpy as np
 from asp.language import Action, Fluent, Literal
 from asp.refinement import Sensing
 from testbed.environment.rules import Observability, Situation
-from testbed.protocol import Event
+from testbed.protocol import FINISH, WAIT, Event
 from testbed.world import World
 
 Statistics = Mapping[str, float]
@@ -44,7 +44,9 @@ class Execution:
         self._coarse = sum(is_coarse << number for number, is_coarse in are_coarse)
 
     def possible(self, state: int, action: Action) -> bool:
-        """Whether an attempt can come to anything in the state."""
+        """Whether the robot attempts something, and what can come to anything in the state."""
+        if action in (WAIT, FINISH):
+            return False
         if self.sensing and not self.physical(action):
             return self.sensing.can(action, self.world.facts(state))
         return self.world.executable(state, (action,))

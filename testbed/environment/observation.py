@@ -1,37 +1,25 @@
-"""What each agent sees of a game: vectors for learners, literals for reasoners."""
+"""What each agent sees of a game: vectors for learners, literals for reasoners, and pictures."""
 
 from collections.abc import Sequence
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
-from asp.language import Action, Fluent, Literal
+from asp.language import Action, Fluent, Literal, suggestion
 from testbed.environment.core import Core
-from testbed.environment.rules import ADVERSARY, ROBOT, check_agent
+from testbed.environment.rendering import MODES, Image, html_of, render
+from testbed.environment.rules import ADVERSARY, ROBOT, UnknownOptionError, known_agent
 from testbed.protocol import NONE, WAIT
 
 Vector: TypeAlias = NDArray[np.int8]
 Observation: TypeAlias = dict[str, Vector]
 """`observation` and `action_mask`, as the spaces say."""
-
-
-def observation_spaces(core: Core) -> dict[str, spaces.Space[Any]]:
-    """One entry a fluent: 1 true, 0 unknown, -1 false; then, for the adversary, one entry an
-    action of the robot: 1 for the chosen one. Beside it the mask over the agent's own actions.
-    """
-    fluents, robot = len(core.world.fluents), len(core.robot_actions)
-    lengths = {ROBOT: (fluents, robot), ADVERSARY: (fluents + robot, len(core.adversary_actions))}
-    return {
-        agent: spaces.Dict({"observation": signs(seen), "action_mask": spaces.MultiBinary(actions)})
-        for agent, (seen, actions) in lengths.items()
-    }
-
-
-def signs(length: int) -> spaces.Box:
-    """The space of vectors with this many entries of -1, 0, and 1."""
-    return spaces.Box(-1, 1, (length,), np.int8)
+OPTIONS = ("initial", "trial")
+"""The keys of `reset(options=...)`."""
+_PROBE = "options"
+"""A key that PettingZoo's own tests give, and that means nothing."""
 
 
 def observe(core: Core, agent: str, robot_action: Action | None) -> Observation:
@@ -39,23 +27,17 @@ def observe(core: Core, agent: str, robot_action: Action | None) -> Observation:
 
     Raises UnknownAgentError, and NotResetError before the first game.
     """
-    check_agent(agent)
-    own = legal = core.robot_actions
-    if agent == ROBOT:
-        seen = _vector(core.world.fluents, core.visible)
+    world, own, legal = core.world, core.robot_actions, core.robot_actions
+    if known_agent(agent) == ROBOT:
+        seen = _vector(world.fluents, core.visible)
     else:
-        chosen = () if robot_action is None else (robot_action,)
-        seen = np.concatenate([state_vector(core), _mask(core.robot_actions, chosen)])
+        state = _vector(world.fluents, world.literals(core.situation.state))
+        seen = np.concatenate([state, _mask(core.robot_actions, (robot_action,))])
         own, legal = core.adversary_actions, core.events(robot_action)
     if core.situation.ending is not None:
         # A mask without any action would be sampled as action 0 without a word.
         legal = (WAIT, NONE)
     return {"observation": seen, "action_mask": _mask(own, legal)}
-
-
-def state_vector(core: Core) -> Vector:
-    """The true state, shaped as `state_space`."""
-    return _vector(core.world.fluents, core.world.literals(core.situation.state))
 
 
 def infos(core: Core, robot_action: Action | None) -> dict[str, dict[str, Any]]:
@@ -77,5 +59,93 @@ def _vector(fluents: Sequence[Fluent], literals: Sequence[Literal]) -> Vector:
     return np.array([known.get(fluent, 0) for fluent in fluents], np.int8)
 
 
-def _mask(names: Sequence[str], chosen: Sequence[str]) -> Vector:
+def _mask(names: Sequence[str], chosen: Sequence[str | None]) -> Vector:
     return np.array([name in chosen for name in names], np.int8)
+
+
+class View:
+    """A core as PettingZoo shows it. Raises ValueError for an unknown render mode.
+
+    An observation has one entry per fluent: 1 true, 0 unknown, -1 false; then, for the adversary,
+    one entry per action of the robot: 1 for the chosen one. Beside it stands the mask over the
+    agent's own actions.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {
+        "name": "office_v0",
+        "render_modes": list(MODES),
+        "render_fps": 2,
+        # PettingZoo's conversion would show the adversary a mask from before the robot's answer,
+        # and the environment refuse what it then picks: there is a parallel view of our own.
+        "is_parallelizable": False,
+    }
+
+    def __init__(self, core: Core, render_mode: str | None = None) -> None:
+        if render_mode not in (None, *MODES):
+            raise ValueError(f"{render_mode!r} is not a render mode; there are {', '.join(MODES)}")
+        self.core = core
+        self.render_mode = render_mode
+        self.possible_agents = [ROBOT, ADVERSARY]
+        self.agents: list[str] = []
+        self.observation_spaces: dict[str, spaces.Space[Any]] = {}
+        self.action_spaces: dict[str, spaces.Space[Any]] = {}
+        fluents, robot = len(core.world.fluents), len(core.robot_actions)
+        for agent, seen, actions in (
+            (ROBOT, fluents, robot),
+            (ADVERSARY, fluents + robot, len(core.adversary_actions)),
+        ):
+            vector, mask = spaces.Box(-1, 1, (seen,), np.int8), spaces.MultiBinary(actions)
+            both = {"observation": vector, "action_mask": mask}
+            self.observation_spaces[agent] = spaces.Dict(both)
+            self.action_spaces[agent] = spaces.Discrete(actions)
+        self.state_space = spaces.Box(-1, 1, (fluents,), np.int8)
+
+    def observation_space(self, agent: str) -> spaces.Space[Any]:
+        """The same object on every call. Raises UnknownAgentError."""
+        return self.observation_spaces[known_agent(agent)]
+
+    def action_space(self, agent: str) -> spaces.Space[Any]:
+        """The same object on every call. Raises UnknownAgentError."""
+        return self.action_spaces[known_agent(agent)]
+
+    def state(self) -> Vector:
+        """The true state, one entry per fluent: 1 true, -1 false. Raises NotResetError."""
+        world = self.core.world
+        return _vector(world.fluents, world.literals(self.core.situation.state))
+
+    def render(self) -> str | Image | None:
+        """`ansi`: text; `rgb_array`: a picture (height, width, 3) of uint8; `human`: prints.
+
+        Raises NotResetError.
+        """
+        self._check_begun()
+        return render(self.core, self.render_mode)
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the picture, the goal, and how the game stands."""
+        return html_of(self.core)
+
+    def close(self) -> None:
+        """Nothing is held: no window, no process, no connection."""
+
+    def _check_begun(self) -> None:
+        """Raises NotResetError before the first game."""
+        _ = self.core.situation
+
+    def _begin(self, seed: int | None, options: dict[str, Any] | None) -> None:
+        """Begins a game; of the options `initial` are literals and `trial` an id, both optional."""
+        chosen = options or {}
+        for key in chosen:
+            if key not in (*OPTIONS, _PROBE):
+                near = suggestion(key, OPTIONS)
+                raise UnknownOptionError(f"reset: {key!r} is not an option; {near}")
+        self.core.reset(seed, chosen.get("initial"), chosen.get("trial", ""))
+        self.agents = list(self.possible_agents)
+
+    def _ends(self) -> tuple[dict[str, bool], dict[str, bool]]:
+        """Terminations and truncations: agents end together, the first by the robot's answer."""
+        ending = self.core.situation.ending
+        terminated = ending is not None and ending.by_answer
+        truncated = ending is not None and not ending.by_answer
+        both = self.possible_agents
+        return dict.fromkeys(both, terminated), dict.fromkeys(both, truncated)

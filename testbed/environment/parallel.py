@@ -5,7 +5,7 @@ from typing import Any, TypeAlias
 
 from pettingzoo import ParallelEnv
 
-from testbed.environment.observation import Observation, infos, observe
+from testbed.environment.observation import Observation, View, infos, observe
 from testbed.environment.rules import (
     ADVERSARY,
     ROBOT,
@@ -14,7 +14,6 @@ from testbed.environment.rules import (
     name_of,
     rewards,
 )
-from testbed.environment.view import View
 from testbed.protocol import NONE
 
 Shown: TypeAlias = tuple[dict[str, Observation], dict[str, dict[str, Any]]]
@@ -63,5 +62,5 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
     def restore(self, snapshot: Snapshot) -> Shown:
         """Goes back to the snapshot, which may be used again; returns what `reset` would."""
         self.core.restore(snapshot)
-        self.agents = list(self.possible_agents) if snapshot.situation.ending is None else []
+        self.agents = list(self.possible_agents) if self.core.situation.ending is None else []
         return self._shown(None)

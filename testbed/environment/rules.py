@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from operator import index
-from typing import Any
+from typing import Any, TypeAlias
 from typing import Literal as Choice
 
 from asp.language import Action, Literal
@@ -101,12 +101,8 @@ class Situation:
     ending: Ending | None = None
 
 
-@dataclass(frozen=True)
-class Snapshot:
-    """A situation with the state of the random generator: all that a game's future depends on."""
-
-    situation: Situation
-    generator: Any
+Snapshot: TypeAlias = tuple[Situation, Any]
+"""A situation with the state of the random generator: all that a game's future depends on."""
 
 
 def name_of(agent: str, answer: Any, actions: Sequence[Action]) -> Action:
@@ -123,10 +119,11 @@ def name_of(agent: str, answer: Any, actions: Sequence[Action]) -> Action:
     raise IllegalActionError(f"{agent}: {answer!r} is not an action; there are {listed(actions)}")
 
 
-def check_agent(agent: str) -> None:
-    """Raises UnknownAgentError for a name that is neither agent's."""
-    if agent not in (ROBOT, ADVERSARY):
-        raise UnknownAgentError(f"{agent!r} is not an agent; there are {ROBOT} and {ADVERSARY}")
+def known_agent(agent: str) -> str:
+    """The name of an agent. Raises UnknownAgentError for one that is neither agent's."""
+    if agent in (ROBOT, ADVERSARY):
+        return agent
+    raise UnknownAgentError(f"{agent!r} is not an agent; there are {ROBOT} and {ADVERSARY}")
 
 
 def listed(actions: Sequence[Action], legal: Sequence[Action] | None = None) -> str:

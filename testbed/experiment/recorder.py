@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import msgspec
 
 from asp.language import Action
-from testbed.environment import FINISH, WAIT, Ending
+from testbed.environment import Ending
 from testbed.experiment.record import (
     Activity,
     At,
@@ -18,7 +18,7 @@ from testbed.experiment.record import (
     TrialRecord,
 )
 from testbed.experiment.specs import TrialSpec
-from testbed.protocol import Decision, Event, Explanation, FineTrace, Trace, shortened
+from testbed.protocol import FINISH, WAIT, Decision, Event, Explanation, FineTrace, Trace, shortened
 
 NAMED = ("trial", "pair", "scenario", "seed", "robot", "domain", "level")
 """Keys of a record that its trial has in the plan."""

@@ -5,7 +5,6 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from asp.language import Action, Fluent, suggestion
-from testbed.environment import FINISH
 from testbed.experiment.digest import logical
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
@@ -18,7 +17,7 @@ from testbed.experiment.timeline import explanation, in_words, of_place, place
 from testbed.experiment.trial import Moment, play_trial
 from testbed.experiment.trial_setup import load_ground
 from testbed.link import InProcessRobot
-from testbed.protocol import FineTrace, Trace
+from testbed.protocol import FINISH, FineTrace, Trace
 from testbed.text import columns, counted
 from testbed.text.grid import Grid
 from testbed.world import World, load_world, world_of

@@ -10,7 +10,7 @@ import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Script, Sight
 from asp.language import Action
-from testbed.environment import NONE, Core, IllegalActionError
+from testbed.environment import Core, IllegalActionError
 from testbed.experiment.encoding import check
 from testbed.experiment.record import Occurrence, Rejected
 from testbed.experiment.recorder import Recorder, Result
@@ -18,6 +18,7 @@ from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import setup_of
 from testbed.protocol import (
+    NONE,
     NOT_UNDERSTOOD,
     Decision,
     Percept,

@@ -242,8 +242,8 @@ class World(ABC):
         """The number of a literal's fluent, and its sign. Raises UnknownFluentError."""
         try:
             return self._numbers[literal]
-        except KeyError:
-            atom = literal.removeprefix("-")
+        except (KeyError, TypeError):
+            atom = str(literal).removeprefix("-")
             raise UnknownFluentError(f"{atom} is not a fluent of the domain") from None
 
     def _listed(self, literals: Iterable[Literal]) -> str:

@@ -8,9 +8,6 @@ import pytest
 from asp import Description, load_description, parse_description
 from asp.language import Literal
 from testbed.environment import (
-    FINISH,
-    NONE,
-    WAIT,
     Core,
     Ending,
     Execution,
@@ -19,6 +16,7 @@ from testbed.environment import (
     Observability,
     Rules,
 )
+from testbed.protocol import FINISH, NONE, WAIT
 from testbed.world import StateError, UnknownFluentError, world_of
 from tests.literals import parsed
 
@@ -226,12 +224,12 @@ def test_late_news_says_when_it_happened() -> None:
 def test_a_false_report_is_of_something_possible_that_did_not_happen() -> None:
     how = {"exo_move": Observability("always", false_reports=0.3)}
     core = begin(replace(RULES, observability=how))
-    start = core.situation
+    start, _ = core.snapshot()
     happened = Literal.parse("exo_move(book2,office1)")
     possible = {event for event in core.events(TO_LIBRARY) if event.startswith("exo_move")}
     reports = []
     for _ in range(500):
-        core.situation = start
+        core.restore((start, core.snapshot()[1]))
         core.advance(TO_LIBRARY, happened)
         (step, first), *others = _news(core)
         assert (step, first) == (1, happened)
@@ -252,10 +250,10 @@ def test_nothing_is_reported_of_steps_at_which_nothing_can_happen() -> None:
 def test_an_event_is_told_with_its_probability() -> None:
     rules = replace(RULES, observability={"exo_lock": Observability("always", 0.3)})
     core = begin(rules)
-    start = core.situation
+    start, _ = core.snapshot()
     told = 0
     for _ in range(500):
-        core.situation = start
+        core.restore((start, core.snapshot()[1]))
         core.advance(TO_LIBRARY, Literal.parse("exo_lock(library)"))
         told += len(core.percept.events)
     assert 0.2 < told / 500 < 0.4  # the standard deviation is 0.02

@@ -9,9 +9,6 @@ from asp.domains.levels import level_text
 from asp.language import Literal, read_domain
 from asp.refinement import Refinement, load
 from testbed.environment import (
-    FINISH,
-    NONE,
-    WAIT,
     Core,
     IllegalActionError,
     Observability,
@@ -20,6 +17,7 @@ from testbed.environment import (
     Rules,
     fine_core,
 )
+from testbed.protocol import FINISH, NONE, WAIT
 from testbed.world import world_of
 
 START = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"]

@@ -1,6 +1,7 @@
 """What is asked of an environment at the wrong time, of the wrong agent, or in the wrong form."""
 
 import pickle
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from testbed.environment import (
     UnknownAgentError,
     UnknownOptionError,
 )
+from testbed.world import StateError
 
 MAKERS = [office_v0.env, office_v0.raw_env, office_v0.parallel_env]
 UNWRAPPED = [office_v0.raw_env, office_v0.parallel_env]
@@ -68,13 +70,15 @@ def _seen(env: Any, agent: str) -> dict[str, np.ndarray]:
 def test_each_exogenous_action_is_tested_once_for_a_mask(garden: dict[str, Any]) -> None:
     env = office_v0.raw_env(**garden)
     core, asked = env.core, list[str]()
-    legal = core.legal
-    core.legal = lambda robot, event: asked.append(event) or legal(robot, event)  # type: ignore
+    world, executable = core.world, core.world.executable
+    world.executable = lambda state, names: asked.extend(names) or executable(state, names)  # type: ignore
     env.reset(seed=0, options={"initial": ["watered(north)"]})
     env.step(core.robot_actions.index("water(ida,south)"))
     asked.clear()
     mask = env.observe(ADVERSARY)["action_mask"]
-    assert asked == list(core.adversary_actions)
+    assert [name for name in asked if name in world.exogenous_actions] == list(
+        world.exogenous_actions
+    )
     beside = dict(zip(core.adversary_actions, mask, strict=True))
     assert beside == {"none": 1, "dry_out(north)": 1, "dry_out(south)": 0}
 
@@ -154,6 +158,12 @@ def test_an_unknown_option_of_reset_is_told_what_was_meant(make: Callable[..., A
     with pytest.raises(UnknownOptionError, match=r"'intial'.*'initial'"):
         env.reset(seed=0, options={"intial": []})
     env.reset(seed=0, options={"options": 1})  # as PettingZoo's own tests do
+
+
+@pytest.mark.parametrize("item", [3, None, ["watered(north)"]])
+def test_an_initial_state_of_what_are_no_literals(item: object, garden: dict[str, Any]) -> None:
+    with pytest.raises(StateError, match=re.escape(str(item))):
+        office_v0.raw_env(**garden).reset(options={"initial": [item]})
 
 
 @pytest.mark.parametrize("make", MAKERS)

@@ -9,7 +9,8 @@ from agents.adversary import AdversaryView, Game, Random
 from asp import parse_description
 from asp.domains.levels import level_text
 from asp.refinement import load
-from testbed.environment import FINISH, NONE, Rules, fine_core
+from testbed.environment import Rules, fine_core
+from testbed.protocol import FINISH, NONE
 from tests.greenhouse import GREENHOUSE
 from tests.literals import parsed
 

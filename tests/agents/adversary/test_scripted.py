@@ -5,7 +5,8 @@ import pytest
 from agents.adversary import AdversaryView, Game, Script, Triggered
 from asp import load_description
 from asp.language import Literal
-from testbed.environment import FINISH, NONE, WAIT, Core, Rules
+from testbed.environment import Core, Rules
+from testbed.protocol import FINISH, NONE, WAIT
 from testbed.world import world_of
 
 BOOKS, ROOMS = ("book1", "book2"), ("kitchen", "office1", "office2", "library")

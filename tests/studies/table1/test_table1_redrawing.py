@@ -6,8 +6,8 @@ import pytest
 
 from agents.adversary import AdversaryView, Game, Triggered
 from papers.table1.redrawing import Chances, as_stated, passed_on, weight
-from testbed.environment import NONE
 from testbed.experiment.record import Attempt, Occurrence
+from testbed.protocol import NONE
 from testbed.world import load_world
 from tests.experiment.samples import a_record
 
