@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 
 from asp import load_description
 from asp.language import suggestion
-from testbed.config import ConfigError, ExperimentConfig, grounds, lists_keys, load_config
+from testbed.config import ConfigError, ExperimentConfig, lists_keys, load_config, refinements
 from testbed.environment import Core, RandomGoal, Rules, fine_core
 from testbed.environment.aec import AECView, OrderedView
 from testbed.environment.parallel import ParallelView
@@ -77,8 +77,7 @@ def _fine(config: ExperimentConfig, rules: Rules) -> Core:
     if len(config.levels) > 1:
         example = f"level='{config.levels[0]}'"
         raise ConfigError([f"{config.name}: there are several levels; give one, as in {example}"])
-    ((_, ground),) = grounds(config)
-    refinement = ground.refinement
+    ((_, refinement),) = refinements(config)
     world, sorts = world_of(refinement), refinement.description.sorts
     return fine_core(
         refinement,

@@ -30,18 +30,18 @@ from asp.refinement.vocabulary import Vocabulary, vocabulary_of
 
 
 @lru_cache(maxsize=MOST_TEXTS)
-def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> Refinement:
+def load(coarse_text: str, coarse_file: str, text: str, file: str) -> Refinement:
     """The refinement of a coarse AL_d text by the text of a refinement. Raises SourceError."""
     coarse, signature = analyse(coarse_text, coarse_file)
-    fine = parse_fine(fine_text, fine_file)
-    problems = Problems(fine_file)
+    fine = parse_fine(text, file)
+    problems = Problems(file)
     vocabulary = vocabulary_of(fine, signature, problems)
     check_tested(fine, vocabulary, problems)
     problems.raise_first()
     in_coarse = Problems(coarse_file)
-    text = weak_text(coarse, fine, vocabulary, in_coarse)
+    refined = weak_text(coarse, fine, vocabulary, in_coarse)
     in_coarse.raise_first()
-    weak = parse(text, f"{fine_file} (refined)")
+    weak = parse(refined, f"{file} (refined)")
     weak_signature = _signature(weak, fine)
     check(fine, weak_signature, problems)
     problems.raise_first()
@@ -54,7 +54,7 @@ def load(coarse_text: str, coarse_file: str, fine_text: str, fine_file: str) -> 
     strong = _with(weak, observation_text(fine, vocabulary, tested))
     strong_signature = _signature(strong, fine)
     return Refinement(
-        coarse, signature, vocabulary, weak, weak_signature, strong, strong_signature, statics
+        coarse, signature, vocabulary, weak, weak_signature, strong, strong_signature, statics, text
     )
 
 

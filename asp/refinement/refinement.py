@@ -13,7 +13,7 @@ from asp.refinement.vocabulary import Vocabulary
 class Refinement:
     """D_c and D_f: `weak` is the physics of D_f, `strong` has the theory of observation, too.
 
-    `statics` are those that are true, the same in both.
+    `statics` are those that are true, the same in both. `text` is what refines D_c, as it was read.
 
     The refined descriptions are texts and their syntax: their instances are many more than a
     program needs, so that nothing here makes them.
@@ -27,6 +27,7 @@ class Refinement:
     strong: syntax.Source
     strong_signature: Signature
     statics: frozenset[Literal]
+    text: str
 
     @cached_property
     def description(self) -> Description:

@@ -3,11 +3,10 @@
 from testbed.config.composing import write_yaml
 from testbed.config.levels import (
     SCENARIO_KEYS,
-    Ground,
-    ground_of_files,
-    ground_of_size,
-    grounds,
     level_size,
+    refinement_of_files,
+    refinement_of_size,
+    refinements,
 )
 from testbed.config.loading import config_names, find_config, lists_keys, load_config
 from testbed.config.models import (
@@ -31,7 +30,6 @@ __all__ = [
     "ConfigError",
     "ExperimentConfig",
     "Finding",
-    "Ground",
     "Limits",
     "Observability",
     "ScenarioSettings",
@@ -40,11 +38,11 @@ __all__ = [
     "dotted",
     "early_script_findings",
     "find_config",
-    "ground_of_files",
-    "ground_of_size",
-    "grounds",
     "level_size",
     "lists_keys",
     "load_config",
+    "refinement_of_files",
+    "refinement_of_size",
+    "refinements",
     "write_yaml",
 ]

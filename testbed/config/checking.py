@@ -19,7 +19,7 @@ from asp.language import (
 from asp.reasoning.diagnosis import cannot_hold, never_together
 from asp.refinement import Refinement
 from asp.translation import translate
-from testbed.config.levels import drawn_findings, grounds, map_findings, settings_findings
+from testbed.config.levels import drawn_findings, map_findings, refinements, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings
 from testbed.config.places import (
     ConfigError,
@@ -93,8 +93,8 @@ def _of_the_levels(config: ExperimentConfig, places: Places) -> list[str]:
             check_one_robot(*reversed(read_domain(config.domain)))
         if findings := list(map_findings(config)):
             return lines_of(findings, places)
-        for _, ground in grounds(config):
-            if findings := list(_level_findings(config, ground.refinement)):
+        for _, refinement in refinements(config):
+            if findings := list(_level_findings(config, refinement)):
                 return lines_of_the_map(findings, places)
     return []
 

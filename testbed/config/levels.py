@@ -1,7 +1,6 @@
 """The levels of a configuration: their descriptions, and whether its settings fit these."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -12,23 +11,15 @@ from testbed.config.models import TRIGGERS, Drawing, ExperimentConfig
 from testbed.config.places import FLUENTS, Finding
 
 
-@dataclass(frozen=True)
-class Ground:
-    """A refinement and the text that it was read from, beside the coarse one."""
-
-    refinement: Refinement
-    text: str
-
-
-def grounds(config: ExperimentConfig) -> Iterator[tuple[str, Ground]]:
+def refinements(config: ExperimentConfig) -> Iterator[tuple[str, Refinement]]:
     """The levels of a configuration by name; a map of one's own is called as its file is.
 
     Raises SourceError for a mistake in a map's texts, OSError where one cannot be read.
     """
     if config.refinement is not None:
-        yield Path(config.refinement).stem, ground_of_files(config.domain, config.refinement)
+        yield Path(config.refinement).stem, refinement_of_files(config.domain, config.refinement)
     for name in config.levels:
-        yield name, ground_of_size(level_size(config, name))
+        yield name, refinement_of_size(level_size(config, name))
 
 
 def level_size(config: ExperimentConfig, name: str) -> LevelSize:
@@ -39,17 +30,17 @@ def level_size(config: ExperimentConfig, name: str) -> LevelSize:
 
 
 @cache
-def ground_of_size(size: LevelSize) -> Ground:
+def refinement_of_size(size: LevelSize) -> Refinement:
     """The generated level of a size."""
     coarse, fine = level_text(size.rooms, size.rows, size.columns, size.objects)
-    return Ground(load(coarse, "level.al", fine, "level.fine"), fine)
+    return load(coarse, "level.al", fine, "level.fine")
 
 
-def ground_of_files(domain: str, refinement: str) -> Ground:
+def refinement_of_files(domain: str, refinement: str) -> Refinement:
     """A domain and its refinement, by names or paths. Raises SourceError and OSError."""
     file, text = read_domain(domain)
     fine_file, fine = read_refinement(refinement)
-    return Ground(load(text, file, fine, fine_file), fine)
+    return load(text, file, fine, fine_file)
 
 
 MOST_CELLS = 20_000

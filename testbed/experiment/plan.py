@@ -10,7 +10,7 @@ import numpy as np
 
 from asp.language import Description, Literal, Trigger
 from asp.refinement import Refinement
-from testbed.config import ExperimentConfig, grounds, level_size
+from testbed.config import ExperimentConfig, level_size, refinements
 from testbed.environment import RandomGoal, RandomStart
 from testbed.experiment.record import COARSE
 from testbed.experiment.seeds import drawn_part, generator_of
@@ -96,15 +96,15 @@ def _open(probability: float) -> bool:
 
 def _at_levels(config: ExperimentConfig) -> Iterator[TrialSpec]:
     domain, common = Path(config.domain).stem, setting_of(config, SCENARIO)
-    for level, ground in grounds(config):
+    for level, refinement in refinements(config):
         fine = FineSetting(
             size=None if config.refinement else level_size(config, level),
             refinement=config.refinement,
             statistics=dict(sorted(config.statistics.items())),
             pace=config.adversary.pace,
         )
-        draw = _drawing(config, ground.refinement)
-        texts = [ground.refinement.coarse.text, ground.text] if config.refinement else []
+        draw = _drawing(config, refinement)
+        texts = [refinement.coarse.text, refinement.text] if config.refinement else []
         for number in range(1, (config.limit or 0) + 1):
             drawn = [level, *texts, number]
             initial, goal = draw(generator_of(config.seed, drawn))

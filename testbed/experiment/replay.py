@@ -15,7 +15,7 @@ from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import read_records
 from testbed.experiment.timeline import explanation, in_words, of_place, place
 from testbed.experiment.trial import Moment, play_trial
-from testbed.experiment.trial_setup import load_ground
+from testbed.experiment.trial_setup import refinement_of
 from testbed.link import InProcessRobot
 from testbed.protocol import FINISH, FineTrace, Trace
 from testbed.text import columns, counted
@@ -230,5 +230,5 @@ def narrator_of(setting: Setting, say: Say) -> Narrator:
     """Tells the trials of a setting."""
     if setting.fine is None:
         return Narrator(load_world(setting.domain), say)
-    refinement = load_ground(setting).refinement
+    refinement = refinement_of(setting)
     return FineNarrator(world_of(refinement), refinement.description.fluents, say)

@@ -6,7 +6,8 @@ import msgspec
 
 from agents.adversary import Adversary, Game
 from asp.language import Fluent, Literal
-from testbed.config import Ground, ground_of_files, ground_of_size
+from asp.refinement import Refinement
+from testbed.config import refinement_of_files, refinement_of_size
 from testbed.environment import Core, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.judge import Judge, Narrowing
@@ -66,11 +67,10 @@ class TrialSetup:
 class FineTrialSetup(TrialSetup):
     """The setup in a refined domain: the game is of cells and parts, costs and goals are coarse."""
 
-    def __init__(self, ground: Ground) -> None:
-        refinement = ground.refinement
+    def __init__(self, refinement: Refinement) -> None:
         description, coarse = refinement.description, refinement.coarse
         super().__init__(world_of(description))
-        self._refinement, self._text, self._source = refinement, ground.text, coarse.text
+        self._refinement, self._source = refinement, coarse.text
         self._fine = world_of(refinement)
         self._exogenous = self._fine.exogenous_actions
         narrowing = Narrowing(description, coarse, refinement.coarse_signature)
@@ -91,7 +91,7 @@ class FineTrialSetup(TrialSetup):
         true = frozenset(self._fine.true_atoms(state))
         own = [fluent if fluent in true else fluent.complement for fluent in self._about_robot]
         task = super().task(spec, self._world.state(self._coarse_atoms(state)), seed)
-        return msgspec.structs.replace(task, refinement=self._text, initial_fine=own)
+        return msgspec.structs.replace(task, refinement=self._refinement.text, initial_fine=own)
 
     def _coarse_atoms(self, state: int) -> frozenset[Fluent]:
         return frozenset(self._fine.true_atoms(state)).intersection(self._world.fluents)
@@ -99,15 +99,15 @@ class FineTrialSetup(TrialSetup):
 
 def setup_of(setting: Setting) -> TrialSetup:
     """The setup of a setting; its world is loaded once. Raises what `asp.load_description` does."""
-    return _coarse(setting.domain) if setting.fine is None else _fine(load_ground(setting))
+    return _coarse(setting.domain) if setting.fine is None else _fine(refinement_of(setting))
 
 
-def load_ground(setting: Setting) -> Ground:
+def refinement_of(setting: Setting) -> Refinement:
     """The descriptions of a setting of the fine resolution. Raises SourceError and OSError."""
     assert setting.fine is not None
     if setting.fine.size is not None:
-        return ground_of_size(setting.fine.size)
-    return ground_of_files(setting.domain, setting.fine.refinement or "")
+        return refinement_of_size(setting.fine.size)
+    return refinement_of_files(setting.domain, setting.fine.refinement or "")
 
 
 def _rules(setting: Setting) -> Rules:

@@ -7,7 +7,7 @@ import pytest
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
 from testbed.cli.loading import load
-from testbed.config import ConfigError, grounds, level_size, load_config
+from testbed.config import ConfigError, level_size, load_config, refinements
 
 VALID = """\
 name: tiny
@@ -38,11 +38,11 @@ def _refusal(folder: Path, text: str, *overrides: str) -> list[str]:
 def test_levels_are_the_published_ones_and_those_of_a_size_of_ones_own(tmp_path: Path) -> None:
     config = load_config(_file(tmp_path, VALID))
     assert config.is_fine
-    assert [name for name, _ in grounds(config)] == ["L1", "wide"]
+    assert [name for name, _ in refinements(config)] == ["L1", "wide"]
     assert level_size(config, "L1") == LEVELS["L1"]
     assert level_size(config, "wide") == LevelSize(3, 2, 1, ((1, 2), (1, 1)))
-    _, wide = dict(grounds(config)).popitem()
-    assert wide.refinement.components["object1"] == ("object1_1", "object1_2")
+    _, wide = dict(refinements(config)).popitem()
+    assert wide.components["object1"] == ("object1_1", "object1_2")
     assert config.goal == ()
 
 
@@ -160,7 +160,7 @@ def own_map(tmp_path: Path) -> Path:
 def test_a_map_of_ones_own_is_found_beside_and_is_called_as_its_file(own_map: Path) -> None:
     config = load_config(own_map)
     assert config.refinement == str(own_map.with_name("flat.fine"))
-    assert [name for name, _ in grounds(config)] == ["flat"]
+    assert [name for name, _ in refinements(config)] == ["flat"]
 
 
 def test_a_mistake_in_a_map_is_told_with_its_place(own_map: Path) -> None:

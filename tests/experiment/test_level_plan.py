@@ -7,7 +7,7 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial_setup import load_ground
+from testbed.experiment.trial_setup import refinement_of
 from testbed.world import world_of
 
 
@@ -86,10 +86,10 @@ def test_neither_the_link_nor_a_larger_limit_nor_other_levels_change_an_id() -> 
 
 def test_a_drawn_goal_is_a_room_in_which_the_object_is_not() -> None:
     for spec in _specs("levels=[L3]", "limit=20"):
-        state = world_of(load_ground(spec.setting).refinement).state(spec.initial)
+        state = world_of(refinement_of(spec.setting)).state(spec.initial)
         (goal,) = spec.setting.goal
         assert goal.startswith("loc(object")
-        assert not world_of(load_ground(spec.setting).refinement).satisfies(state, (goal,))
+        assert not world_of(refinement_of(spec.setting)).satisfies(state, (goal,))
 
 
 def test_goals_and_places_are_drawn_from_all() -> None:

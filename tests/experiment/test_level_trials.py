@@ -12,7 +12,7 @@ from testbed.experiment.record import FineCounts, TrialRecord
 from testbed.experiment.replay import narrator_of
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
-from testbed.experiment.trial_setup import load_ground, setup_of
+from testbed.experiment.trial_setup import refinement_of, setup_of
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, FineTrace, Percept, Task, Trace
 from testbed.world import world_of
@@ -237,7 +237,7 @@ def test_a_replay_says_which_action_took_no_effect_and_what_others_did() -> None
 
 def test_the_oracle_counts_abstract_actions() -> None:
     setup = setup_of(_specs("levels=[L1]")[0].setting)
-    state = world_of(load_ground(_specs("levels=[L1]")[0].setting).refinement).state(
+    state = world_of(refinement_of(_specs("levels=[L1]")[0].setting)).state(
         ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room2_2)"]
     )
     alone, both = parsed(["loc(object1,room1)"]), parsed(["loc(object1,room1)", "loc(rob1,room2)"])
