@@ -10,7 +10,8 @@ from asp.reasoning.diagnosis import (
     IncrementalDiagnoser,
     ReferenceDiagnoser,
 )
-from asp.reasoning.knowledge import Knowledge, goal_facts
+from asp.reasoning.knowledge import Knowledge
+from asp.reasoning.planning import ReferencePlanner
 from asp.solving import first_model, ground, literal_of, select, theory
 from testbed.protocol import FINISH
 
@@ -21,27 +22,20 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
     def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         super().__init__(knowledge, goal)
-        self._known = (*knowledge.ranks, *knowledge.start)
-        self._goal = tuple(goal_facts(goal))
+        self._goal = goal
+        self._planner = ReferencePlanner(knowledge)
         self._plan_limit = plan_limit
 
     def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
-        """To carry out a shortest plan, by iterative deepening; to finish where there is none."""
-        texts = [*self._base, theory("traditional")]
-        known = [*self._known, *history.facts(), *diagnosis.explanation.facts("explained")]
-        for length in range(self._plan_limit + 1):
-            constants = {"n": history.step + length}
-            model = first_model(ground(texts, constants, [*known, *self._goal]))
-            if model is not None:
-                steps = sorted(
-                    (i.number, literal_of(action)) for i, action in select(model, "plan", 2)
-                )
-                believed = (literal_of(fluent) for (fluent,) in select(model, "believed", 1))
-                return intention_of(tuple(action for _, action in steps), frozenset(believed))
-        model = first_model(ground(texts, {"n": history.step}, known))
+        """To carry out a shortest plan from what is believed; to finish where there is none."""
+        facts = [*self._facts(history), *diagnosis.explanation.facts("explained")]
+        texts = [*self._base, theory("belief")]
+        model = first_model(ground(texts, self._constants(history, history.step), facts))
         assert model is not None, "an explanation explains every step"
-        believed = (literal_of(fluent) for (fluent,) in select(model, "believed", 1))
-        return intention_of(None, frozenset(believed))
+        state = frozenset(literal_of(fluent) for (fluent,) in select(model, "believed", 1))
+        if all((literal.atom in state) == literal.is_positive for literal in self._goal):
+            return intention_of((), state)
+        return intention_of(self._planner.shortest(state, self._goal, self._plan_limit), state)
 
 
 def intention_of(plan: tuple[Action, ...] | None, believed: frozenset[Fluent]) -> Intention:

@@ -1,0 +1,40 @@
+"""Shortest plans from scratch, to which incremental planning is held equal."""
+
+from typing import Protocol
+
+from asp.language import Action, Literal
+from asp.reasoning.knowledge import Knowledge, goal_facts
+from asp.solving import State, fact, first_model, ground, literal_of, select, theory
+
+
+class Planner(Protocol):
+    """Shortest plans of a domain from complete states."""
+
+    def shortest(
+        self, state: State, goal: tuple[Literal, ...], limit: int
+    ) -> tuple[Action, ...] | None:
+        """The first of the shortest plans of at most `limit` actions, or None.
+
+        Earlier actions count before later ones, at one step the action declared first. The goal
+        does not hold in the state. Raises LimitError.
+        """
+
+
+class ReferencePlanner:
+    """`Planner` by the theory `shortest_plan.lp`, solved anew for every length."""
+
+    def __init__(self, knowledge: Knowledge) -> None:
+        self._texts = knowledge.program, theory("shortest_plan")
+        self._ranks = knowledge.ranks
+
+    def shortest(
+        self, state: State, goal: tuple[Literal, ...], limit: int
+    ) -> tuple[Action, ...] | None:
+        """The first of the shortest plans of at most `limit` actions, or None."""
+        facts = [*self._ranks, *goal_facts(goal), *(fact("starts", f) for f in sorted(state))]
+        for length in range(1, limit + 1):
+            model = first_model(ground(self._texts, {"n": length}, facts))
+            if model is not None:
+                steps = sorted((i.number, literal_of(a)) for i, a in select(model, "plan", 2))
+                return tuple(action for _, action in steps)
+        return None
