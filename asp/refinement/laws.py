@@ -12,8 +12,8 @@ from itertools import product
 
 from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
+from asp.refinement.language import Vocabulary
 from asp.refinement.renaming import Renaming, effects_of
-from asp.refinement.vocabulary import Vocabulary
 
 KEPT, REFINED, LIFTED = "kept", "refined", "lifted"
 
@@ -82,14 +82,7 @@ class Rewriting:
                 action = renaming.atom(action)
                 renaming.note(law.fluent, *(part.atom for part in roles.literals(law.body)))
                 yield replace(law, action=action, body=(*renaming.links(), *law.body)), REFINED
-            case (
-                syntax.Fact()
-                | syntax.CausalLaw()
-                | syntax.ExecutabilityCondition()
-                | syntax.InitiallyStatement()
-                | syntax.SeesStatement()
-                | syntax.ShowsStatement()
-            ):
+            case _:
                 yield law, KEPT
 
     def _causal(self, law: syntax.CausalLaw, renaming: Renaming) -> syntax.CausalLaw:

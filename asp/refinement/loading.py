@@ -21,12 +21,20 @@ from asp.language import (
     static_truth,
     syntax,
 )
-from asp.refinement.language import Components, Counterpart, Refines, TestsStatement, parse_fine
+from asp.refinement.language import (
+    Components,
+    Counterpart,
+    Mistakes,
+    Refines,
+    TestsStatement,
+    Vocabulary,
+    parse_fine,
+    vocabulary_of,
+)
 from asp.refinement.maps import check_maps
-from asp.refinement.observation import check_tested, observation_text, tested_fluents
+from asp.refinement.observation import observation_text, tested_fluents
 from asp.refinement.refinement import Refinement
 from asp.refinement.refining import weak_text
-from asp.refinement.vocabulary import Vocabulary, vocabulary_of
 
 
 @lru_cache(maxsize=MOST_TEXTS)
@@ -36,7 +44,6 @@ def load(coarse_text: str, coarse_file: str, text: str, file: str) -> Refinement
     fine = parse_fine(text, file)
     problems = Problems(file)
     vocabulary = vocabulary_of(fine, signature, problems)
-    check_tested(fine, vocabulary, problems)
     problems.raise_first()
     in_coarse = Problems(coarse_file)
     refined = weak_text(coarse, fine, vocabulary, in_coarse)
@@ -49,7 +56,7 @@ def load(coarse_text: str, coarse_file: str, text: str, file: str) -> Refinement
     statics, _ = static_truth(weak, weak_signature)
     check_maps(fine, coarse, vocabulary, statics, problems)
     tested = tested_fluents(fine, weak_signature, problems)
-    check_complete(fine, coarse, vocabulary, problems)
+    problems.report_all(_left_unsaid(fine, coarse, vocabulary))
     problems.raise_first()
     strong = _with(weak, observation_text(fine, vocabulary, tested))
     strong_signature = _signature(strong, fine)
@@ -137,47 +144,28 @@ def _coarse(file: str, text: str) -> tuple[str, str]:
         raise SourceError(file, named.place.line, named.place.column, str(error)) from None
 
 
-def check_complete(
-    fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary, problems: Problems
-) -> None:
-    """Reports a fluent that nobody can test, and wholes whose parts could part.
+def _left_unsaid(fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary) -> Mistakes:
+    """Fluents that nobody can test, and wholes whose parts could part.
 
     Of a fluent with a counterpart a robot knows what tests tell. A thing that is in one place at
     most is not, if nothing is said of its components.
     """
-    _check_tests(fine, vocabulary, problems)
-    _check_parts(fine, coarse, vocabulary, problems)
-
-
-def _check_tests(fine: syntax.Source, vocabulary: Vocabulary, problems: Problems) -> None:
+    symbols, components = vocabulary.coarse.symbols, vocabulary.components
     tested = {statement.fluent.name for statement in fine.each(TestsStatement)}
     for statement in fine.each(Counterpart):
         name = statement.symbol.name
         counterpart = vocabulary.counterparts[name]
-        if vocabulary.coarse.symbols[name].kind == "inertial" and counterpart not in tested:
-            problems.report(
-                statement.place,
-                f"'{name}' has a counterpart that nobody can test; say in tests when a robot "
-                f"tests '{counterpart}'",
-            )
-
-
-def _check_parts(
-    fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary, problems: Problems
-) -> None:
+        if symbols[name].kind == "inertial" and counterpart not in tested:
+            say = f"say in tests when a robot tests '{counterpart}'"
+            yield statement.place, f"'{name}' has a counterpart that nobody can test; {say}"
     said = {law.head.atom.name for law in fine.each(syntax.StateConstraint) if law.head.positive}
     listed = {statement.whole.name: statement.place for statement in fine.each(Components)}
     for name, function in functions(coarse, vocabulary.coarse).items():
-        counterpart = vocabulary.counterparts.get(name)
-        if counterpart is None or counterpart in said:
-            continue
-        sorts = vocabulary.coarse.symbols[name].sorts
-        others = (sort.name for place, sort in enumerate(sorts) if place != function.place)
+        counterpart = vocabulary.counterparts.get(name, "")
+        others = (sort.name for sort in function.others(symbols[name].sorts))
         members = (member for sort in others for member in vocabulary.coarse.sorts[sort])
-        whole = next((one for one in members if len(vocabulary.components[one]) > 1), None)
-        if whole is not None:
-            problems.report(
-                listed[whole],
-                f"'{whole}' has one value of '{name}' at most, and its components could have "
-                f"several; add a law by which they share '{counterpart}'",
-            )
+        whole = next((one for one in members if len(components[one]) > 1), None)
+        if counterpart and counterpart not in said and whole is not None:
+            several = f"has one value of '{name}' at most, and its components could have several"
+            add = f"add a law by which they share '{counterpart}'"
+            yield listed[whole], f"'{whole}' {several}; {add}"

@@ -9,11 +9,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from asp.language import Literal, Problems, reachable, syntax
 from asp.language import variable_sorts as roles
-from asp.refinement.language import Components, Magnification
-from asp.refinement.vocabulary import Vocabulary
+from asp.refinement.language import Components, Magnification, Mistakes, Vocabulary
 
 Pairs = frozenset[tuple[str, str]]
-Found = Iterator[tuple[syntax.Place, str]]
 
 
 def check_maps(
@@ -83,7 +81,7 @@ class _Map:
             if parts == (whole,) and whole not in named
         }
 
-    def mistakes(self) -> Found:
+    def mistakes(self) -> Mistakes:
         """Where the fine map does not fit the coarse one, and how."""
         for whole in self._lost:
             yield self._place(whole), f"'{whole}' has no components, and no fact speaks of it"
@@ -101,7 +99,7 @@ class _Map:
     def _place(self, constant: str) -> syntax.Place:
         return self._listed.get(constant, self._anywhere)
 
-    def _unconnected(self) -> Found:
+    def _unconnected(self) -> Mistakes:
         """Where the coarse map has a way there is one between components."""
         ways = {(self._owner[one], self._owner[other]) for one, other in self._fine}
         missing = {(a, b) for a, b in self._coarse - ways if a != b and not self._lost & {a, b}}
@@ -112,7 +110,7 @@ class _Map:
                 f"{self._counterpart} to one of '{other}'",
             )
 
-    def _too_many(self) -> Found:
+    def _too_many(self) -> Mistakes:
         """A way between components of two wholes that have none between them."""
         owner = self._owner
         crossing = {(a, b): (owner[a], owner[b]) for a, b in self._fine if owner[a] != owner[b]}

@@ -6,9 +6,8 @@ from functools import cached_property
 from itertools import chain
 
 from asp.language import Problems, Signature, syntax, text_of, variable_domains
-from asp.refinement.language import TestsStatement
+from asp.refinement.language import COMPONENT, TestsStatement, Vocabulary
 from asp.refinement.refining import law_section, section, shared_places
-from asp.refinement.vocabulary import COMPONENT, Vocabulary
 
 OUTCOME, TRUE, FALSE = "outcome", "true", "false"
 TEST, CAN_TEST = "test_", "can_test_"
@@ -40,18 +39,6 @@ class Tested:
     def said(self, prefix: str, *last: str) -> str:
         """What is said of the test, or is observed, in laws."""
         return _atom(prefix + self.fluent, "R", *self.others(self.terms), *last)
-
-
-def check_tested(fine: syntax.Source, vocabulary: Vocabulary, problems: Problems) -> None:
-    """Reports tests of coarse fluents, which are observed by way of their components only."""
-    for statement in fine.each(TestsStatement):
-        fluent = statement.fluent
-        if fluent.name in vocabulary.counterparts:
-            counterpart = vocabulary.counterparts[fluent.name]
-            problems.report(
-                fluent.place,
-                f"'{fluent.name}' is observed by way of its components only; test '{counterpart}'",
-            )
 
 
 def tested_fluents(fine: syntax.Source, weak: Signature, problems: Problems) -> list[Tested]:

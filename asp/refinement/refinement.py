@@ -6,7 +6,7 @@ from functools import cached_property
 from itertools import product
 
 from asp.language import Description, Literal, Signature, parse_description, syntax
-from asp.refinement.vocabulary import Vocabulary
+from asp.refinement.language import Vocabulary
 
 
 @dataclass(frozen=True, eq=False)

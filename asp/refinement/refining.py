@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
+from asp.refinement.language import COARSE, COMPONENT, FINE, Vocabulary
 from asp.refinement.laws import KEPT, LIFTED, REFINED, Rewriting
-from asp.refinement.vocabulary import COARSE, COMPONENT, FINE, Vocabulary
 
 _HEADINGS = {
     KEPT: "As in the coarse description; what has a counterpart is a defined fluent here.",
@@ -23,7 +23,8 @@ def weak_text(
     Reports, with the place in the coarse text, each law that cannot be refined.
     """
     rewriting = Rewriting(vocabulary, coarse, shared_places(fine), problems)
-    results = [result for s in coarse.statements for result in rewriting.refine(s)]
+    told = (s for s in coarse.statements if isinstance(s, (*_LAWS, *_FURTHER.values())))
+    results = [result for statement in told for result in rewriting.refine(statement)]
     laws = [result for result in results if isinstance(result.statement, _LAWS)]
     groups = {
         **{t: [law.text for law in laws if law.manner == m] for m, t in _HEADINGS.items()},
@@ -40,7 +41,7 @@ def weak_text(
     }
     sections = [
         f"% The refinement of {coarse.file} by {fine.file}. Lines are those of {coarse.file}.",
-        *declarations(coarse, vocabulary, [r.statement for r in results], fine),
+        *_declarations(coarse, vocabulary, [*(r.statement for r in results), *fine.statements]),
         law_section(groups),
         _facts(coarse, fine, vocabulary),
         *(
@@ -91,40 +92,30 @@ def law_section(groups: Mapping[str, Iterable[str]]) -> str:
 
 def _bridge(name: str, vocabulary: Vocabulary) -> str:
     """A bridge axiom, (15)."""
-    wholes, parts, links = [], [], []
-    for place, sort in enumerate(vocabulary.coarse.symbols[name].sorts, start=1):
-        whole, part = f"X{place}", f"Y{place}"
-        wholes.append(whole)
-        if vocabulary.touches(sort.name):
-            parts.append(part)
-            links.append(f"{COMPONENT}({part}, {whole})")
-        else:
-            parts.append(whole)
-    counterpart = f"{vocabulary.counterparts[name]}({', '.join(parts)})"
-    return f"{name}({', '.join(wholes)}) if {', '.join([*links, counterpart])}."
+    sorts = enumerate(vocabulary.coarse.symbols[name].sorts, start=1)
+    refined = {place: vocabulary.touches(sort.name) for place, sort in sorts}
+    wholes = ", ".join(f"X{place}" for place in refined)
+    parts = ", ".join(f"{'Y' if finer else 'X'}{place}" for place, finer in refined.items())
+    links = [f"{COMPONENT}(Y{place}, X{place})" for place, finer in refined.items() if finer]
+    body = ", ".join([*links, f"{vocabulary.counterparts[name]}({parts})"])
+    return f"{name}({wholes}) if {body}."
 
 
 def _facts(coarse: syntax.Source, fine: syntax.Source, vocabulary: Vocabulary) -> str:
-    wholes = dict.fromkeys(
-        constant for sort in vocabulary.bridged() for constant in vocabulary.coarse.sorts[sort]
-    )
-    components = (
-        f"{COMPONENT}({part}, {whole})."
-        for whole in wholes
-        for part in vocabulary.components[whole]
-    )
+    sorts = vocabulary.coarse.sorts
+    wholes = dict.fromkeys(whole for sort in vocabulary.bridged() for whole in sorts[sort])
+    pairs = ((part, whole) for whole in wholes for part in vocabulary.components[whole])
+    components = (f"{COMPONENT}({part}, {whole})." for part, whole in pairs)
     stated = (text_of(fact) for text in (coarse, fine) for fact in text.each(syntax.Fact))
     return section("facts", [*stated, *components])
 
 
-def declarations(
-    coarse: syntax.Source,
-    vocabulary: Vocabulary,
-    statements: Iterable[syntax.Statement],
-    fine: syntax.Source,
+def _declarations(
+    coarse: syntax.Source, vocabulary: Vocabulary, statements: Iterable[syntax.Statement]
 ) -> Iterator[str]:
-    """The sections that declare what the refined statements and the text's own laws are about."""
-    yield section("sorts", _sorts(coarse, vocabulary, _named_sorts(statements, fine)))
+    """The sections that declare what the statements, refined and particular, are about."""
+    named = {use.atom.name for statement in statements for use in roles.uses(statement)}
+    yield section("sorts", _sorts(coarse, vocabulary, named))
     declared = list(coarse.each(syntax.Declaration))
     statics = [d for d in declared if d.kind == "static"]
     fluents = [d for d in declared if d.kind in roles.FLUENTS]
@@ -142,19 +133,9 @@ def _counterpart(declaration: syntax.Declaration, vocabulary: Vocabulary) -> syn
     """The declaration of a symbol's counterpart; the declaration itself where there is none."""
     if declaration.name not in vocabulary.counterparts:
         return declaration
-    sorts = vocabulary.fine_sorts(declaration.name)
-    return replace(
-        declaration,
-        name=vocabulary.counterparts[declaration.name],
-        sorts=tuple(
-            replace(sort, name=fine) for sort, fine in zip(declaration.sorts, sorts, strict=True)
-        ),
-    )
-
-
-def _named_sorts(statements: Iterable[syntax.Statement], fine: syntax.Source) -> set[str]:
-    """The names that stand as sorts, or as anything else, in laws."""
-    return {use.atom.name for law in (*statements, *fine.statements) for use in roles.uses(law)}
+    fine_sort, name = vocabulary.fine_sort, vocabulary.counterparts[declaration.name]
+    sorts = tuple(replace(sort, name=fine_sort(sort.name)) for sort in declaration.sorts)
+    return replace(declaration, name=name, sorts=sorts)
 
 
 def _sorts(coarse: syntax.Source, vocabulary: Vocabulary, named: set[str]) -> Iterator[str]:
@@ -163,7 +144,8 @@ def _sorts(coarse: syntax.Source, vocabulary: Vocabulary, named: set[str]) -> It
     for name, definition in definitions.items():
         yield text_of(definition)
         if name in vocabulary.magnified:
-            yield f"{vocabulary.magnified[name]} = {{{', '.join(vocabulary.fine_members(name))}}}."
+            members = _components(vocabulary.coarse.sorts[name], vocabulary)
+            yield f"{vocabulary.magnified[name]} = {members}."
         elif name in wanted:
             yield f"{vocabulary.fine_sort(name)} = {_fine_parts(definition, vocabulary)}."
     bridged = vocabulary.bridged()
@@ -188,14 +170,18 @@ def _wanted(
 
 
 def _fine_parts(definition: syntax.SortDefinition, vocabulary: Vocabulary) -> str:
-    parts = []
-    for part in definition.parts:
-        if isinstance(part, syntax.Term):
-            parts.append(vocabulary.fine_sort(part.name))
-        else:
-            members = (fine for whole in part for fine in vocabulary.components[whole.name])
-            parts.append("{" + ", ".join(dict.fromkeys(members)) + "}")
-    return " + ".join(parts)
+    return " + ".join(
+        vocabulary.fine_sort(part.name)
+        if isinstance(part, syntax.Term)
+        else _components((whole.name for whole in part), vocabulary)
+        for part in definition.parts
+    )
+
+
+def _components(wholes: Iterable[str], vocabulary: Vocabulary) -> str:
+    """The set of the components of these constants."""
+    found = dict.fromkeys(part for whole in wholes for part in vocabulary.components[whole])
+    return f"{{{', '.join(found)}}}"
 
 
 def section(title: str, lines: Iterable[str]) -> str:

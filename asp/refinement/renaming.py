@@ -7,7 +7,7 @@ from typing import Any
 
 from asp.language import syntax, variable_domains
 from asp.language import variable_sorts as roles
-from asp.refinement.vocabulary import COMPONENT, Vocabulary
+from asp.refinement.language import COMPONENT, Vocabulary
 
 
 class Renaming:
