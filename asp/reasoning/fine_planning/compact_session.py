@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, product
 
@@ -46,30 +47,27 @@ class CompactDescription:
             for static, terms in self._facts.get(first, ())
             if all(a in names for a in terms)
         )
-        return CompactPart(self, sorts, facts, names)
+        return CompactPart(sorts, facts, names, self)
 
 
+@dataclass(frozen=True)
 class CompactPart:
     """A part of a description in canonical names.
 
-    `sorts` are the members of each sort and `facts` the true statics that are stated; two parts
-    with equal ones have the same transitions. `names` leads from the old names to the canonical
-    ones.
+    `members` are those of each sort and `facts` the true statics that are stated; two parts with
+    equal ones have the same transitions, and are equal. `names` leads from the old names to the
+    canonical ones.
     """
 
-    def __init__(
-        self,
-        whole: CompactDescription,
-        sorts: tuple[tuple[str, tuple[str, ...]], ...],
-        facts: frozenset[str],
-        names: Mapping[str, str],
-    ) -> None:
-        self.names = names
-        self.sorts = dict(sorts)
-        self.key = sorts, facts
-        self._whole = whole
-        self._facts = facts
-        self._back = {new: old for old, new in names.items()}
+    members: tuple[tuple[str, tuple[str, ...]], ...]
+    facts: frozenset[str]
+    names: Mapping[str, str] = field(compare=False)
+    whole: CompactDescription = field(compare=False)
+
+    @cached_property
+    def sorts(self) -> Mapping[str, Sequence[str]]:
+        """The members of each sort."""
+        return dict(self.members)
 
     def seen(self, literals: Iterable[Literal]) -> tuple[Literal, ...]:
         """Those of the literals that name nothing else, in canonical names."""
@@ -81,19 +79,20 @@ class CompactPart:
 
     def back(self, actions: Iterable[Action]) -> tuple[Literal, ...]:
         """Actions in the names of the description."""
-        return tuple(action.renamed(self._back) for action in actions)
+        back = {new: old for old, new in self.names.items()}
+        return tuple(action.renamed(back) for action in actions)
 
     @cached_property
     def rules(self) -> Sequence[Rule]:
         """The rules that name nothing else."""
-        return [rule for rule in self._whole.rules if rule.constants <= self.names.keys()]
+        return [rule for rule in self.whole.rules if rule.constants <= self.names.keys()]
 
     @cached_property
     def actions(self) -> Sequence[Action]:
         """The agent actions in the order of declaration, in canonical names."""
         return [
             Literal.of(symbol.name, chosen)
-            for symbol in self._whole.signature.symbols.values()
+            for symbol in self.whole.signature.symbols.values()
             if symbol.kind == "agent"
             for chosen in product(*(self.sorts[sort.name] for sort in symbol.sorts))
         ]
@@ -102,7 +101,7 @@ class CompactPart:
     def program(self) -> str:
         """The compact program."""
         facts = [f"{sort}({member})." for sort, ms in self.sorts.items() for member in ms]
-        facts += (f"{static}." for static in sorted(self._facts))
+        facts += (f"{static}." for static in sorted(self.facts))
         return "\n".join([self.worded(Rule.plain), f"#program {Part.BASE}.", *facts])
 
     def worded(self, wording: Callable[[Rule], Iterable[str]]) -> str:
@@ -111,7 +110,7 @@ class CompactPart:
         for rule in self.rules:
             parts[rule.part] += wording(rule)
         parts[Part.BASE] += (f"#defined {sort}/1." for sort in self.sorts)
-        for symbol in self._whole.signature.symbols.values():
+        for symbol in self.whole.signature.symbols.values():
             if symbol.kind == "static":
                 parts[Part.BASE].append(f"#defined {symbol.name}/{len(symbol.sorts)}.")
         return "\n".join(f"#program {part}.\n" + "\n".join(lines) for part, lines in parts.items())
@@ -127,14 +126,14 @@ class Horizon:
     of decisions apart: actions beyond step 32,767 / (number of actions) come in any order.
     """
 
-    def __init__(self, program: str, actions: Sequence[Action], length: int) -> None:
-        """`actions` are the agent actions in the order of declaration."""
+    def __init__(self, part: CompactPart, length: int) -> None:
         self._length = length
-        ranks = [fact("rank", a, n) for n, a in enumerate(actions)]
-        ranks.append(fact("ranks", len(actions)))
-        constants = {"n": length, "ordered": min(length, MOST_LEVELS // (len(actions) + 1))}
+        count = len(part.actions)
+        ranks = [fact("ranks", count), *(fact("rank", a, n) for n, a in enumerate(part.actions))]
+        constants = {"n": length, "ordered": min(length, MOST_LEVELS // (count + 1))}
         with preparation():
-            self.control = ground([program, theory("incremental_fine_planning")], constants, ranks)
+            texts = part.program, theory("incremental_fine_planning")
+            self.control = ground(texts, constants, ranks)
             self.control.ground([("open", [])])
             self._initial = _literals(self.control, "holds", 2)
             self._placed = _literals(self.control, "placed", 1)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from itertools import chain
 
-from asp.language import Fluent, Function, Literal, Signature, functions, syntax, without_exogenous
+from asp.language import Fluent, Function, Literals, Signature, functions, syntax, without_exogenous
 from asp.reasoning.fine_planning.compact_session import CompactDescription, CompactPart, Horizon
 from asp.reasoning.fine_planning.large.problem_program import Problem, ProblemPrograms
 from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
@@ -94,18 +94,15 @@ class IncrementalFinePlanner:
         self._horizons: Horizons = Recent(MOST_STEPS) if horizons is None else horizons
 
     def plan(
-        self,
-        start: FineStart,
-        goal: tuple[Literal, ...],
-        limit: int,
-        constants: frozenset[str] | None = None,
+        self, start: FineStart, goal: Literals, limit: int, constants: frozenset[str] | None = None
     ) -> FinePlan | NoPlan:
         """The first of the shortest plans of at most `limit` actions.
 
         A goal is out of reach if it is even where nothing becomes false again, or if no state
         satisfies it; others of which no plan is found are beyond the limit, though there may be
         none of any length.
-        Raises LimitError, NotCandidatesError, ValueError for a goal about other constants.
+        Raises LimitError, and ValueError for a goal about other constants or for candidates that
+        are not values of one total function.
         """
         if not all(start.candidates):
             return NoPlan.OUT_OF_REACH
@@ -116,7 +113,7 @@ class IncrementalFinePlanner:
         kept -= self._relevance.spare(chain(start.true, *start.candidates), goal)
         names = self._narrowed(kept)
         problem = self._problem(names, start.within(kept), goal)
-        part = self._parts.get(names.key, lambda: _Part(names, self._functions))
+        part = self._parts.get(names, lambda: _Part(names, self._functions))
         plan = self._search(part, problem, limit)
         return plan if isinstance(plan, NoPlan) else names.back(plan)
 
@@ -148,17 +145,15 @@ class IncrementalFinePlanner:
         return horizon.plan(horizon.start(problem.true, problem.candidates), problem.goal)
 
     def _horizon(self, part: _Part, length: int) -> Horizon:
-        def made() -> Horizon:
-            return Horizon(part.part.program, part.part.actions, length)
+        key, weight = (part, length), length * part.size
+        return self._horizons.get(key, lambda: Horizon(part.part, length), weight)
 
-        return self._horizons.get((part, length), made, length * part.size)
-
-    def _problem(self, part: CompactPart, start: FineStart, goal: tuple[Literal, ...]) -> Problem:
-        """The problem in canonical names. Raises NotCandidatesError."""
+    def _problem(self, part: CompactPart, start: FineStart, goal: Literals) -> Problem:
+        """The problem in canonical names. Raises ValueError."""
         candidates: dict[Fluent, tuple[Fluent, ...]] = {}
         for group in map(part.seen, start.candidates):
             function, *others = function_of(group, self._functions)
-            candidates[Literal.of(function, others)] = group
+            candidates[Fluent.of(function, others)] = group
         return Problem(frozenset(part.seen(start.true)), candidates, part.seen(goal))
 
 

@@ -15,6 +15,7 @@ from asp.language import (
     Fluent,
     Function,
     Literal,
+    Literals,
     Signature,
     functions,
     narrowed,
@@ -29,10 +30,6 @@ FinePlan = tuple[Action, ...]
 """Concrete actions, in order."""
 
 _TEST, _OBSERVED = "test_", "observed_"
-
-
-class NotCandidatesError(ValueError):
-    """Fluents one of which is to hold, that are not values of one function that always has one."""
 
 
 class NoPlan(Enum):
@@ -64,18 +61,14 @@ class FinePlanner(Protocol):
     """Shortest plans in a refined description, or in parts of it."""
 
     def plan(
-        self,
-        start: FineStart,
-        goal: tuple[Literal, ...],
-        limit: int,
-        constants: frozenset[str] | None = None,
+        self, start: FineStart, goal: Literals, limit: int, constants: frozenset[str] | None = None
     ) -> FinePlan | NoPlan:
         """The first of the shortest plans of at most `limit` actions.
 
         Of candidates those are assumed that make it short. `constants` are those of the part of
         the description that is planned in (None: the whole). A goal is out of reach if no plan of
         any length achieves it, as far as the planner can tell.
-        Raises LimitError, NotCandidatesError.
+        Raises LimitError, and ValueError for candidates that are not values of one total function.
         """
 
 
@@ -103,9 +96,7 @@ class LiteralProblem:
         self._facts += (fact("candidate", n, fluent) for n, group in groups for fluent in group)
         if any(symbol.startswith(_TEST) for symbol in signature.symbols):
             self._facts += _dealing(start, actions, functions(source, signature))
-        self._facts += (
-            fact("wanted" if literal.is_positive else "unwanted", literal.atom) for literal in goal
-        )
+        self._facts += (fact("wanted" if g.is_positive else "unwanted", g.atom) for g in goal)
 
     def plan(self, length: int) -> FinePlan | None:
         """The first plan of exactly so many actions and tests, or None. Raises LimitError."""
@@ -125,23 +116,15 @@ class ReferenceFinePlanner:
         self._signature = signature
 
     def plan(
-        self,
-        start: FineStart,
-        goal: tuple[Literal, ...],
-        limit: int,
-        constants: frozenset[str] | None = None,
+        self, start: FineStart, goal: Literals, limit: int, constants: frozenset[str] | None = None
     ) -> FinePlan | NoPlan:
         """The first of the shortest plans of at most `limit` actions and tests."""
         if not all(start.candidates):
             return NoPlan.OUT_OF_REACH
         kept = self._signature.constants if constants is None else constants
         dropped = self._signature.constants - kept
-        problem = LiteralProblem(
-            restrict(self._source, dropped),
-            narrowed(self._signature, dropped),
-            start.within(kept),
-            goal,
-        )
+        source, signature = restrict(self._source, dropped), narrowed(self._signature, dropped)
+        problem = LiteralProblem(source, signature, start.within(kept), goal)
         for length in range(limit + 1):
             plan = problem.plan(length)
             if plan is not None:
@@ -201,11 +184,9 @@ def _dealing(
 def function_of(group: Sequence[Literal], known: Mapping[str, Function]) -> tuple[str, ...]:
     """The function, with its other arguments, that candidates are values of.
 
-    Raises NotCandidatesError for a group that is not made of values of one total function.
+    Raises ValueError for a group that is not made of values of one total function.
     """
     first, *others = {subject(fluent, known) for fluent in group}
     if others or first is None:
-        raise NotCandidatesError(
-            f"not values of one function that always has one: {', '.join(group)}"
-        )
+        raise ValueError(f"not values of one function that always has one: {', '.join(group)}")
     return first

@@ -62,9 +62,9 @@ class _Ways:
         layers = self._layers(goal, most)
         if layers is None:
             return False
-        for step, found in enumerate(landmarks(self._reach, goal, self._functions, layers)):
+        for step, found in enumerate(self._landmarks(goal, layers)):
             self.values[step] |= found
-            self.values[step] |= implied(self.values[step], self._functions, self._reach.relaxed)
+            self.values[step] |= self._implied(self.values[step])
             self._leave_out(step)
         return True
 
@@ -112,47 +112,72 @@ class _Ways:
         level = self._reach.level.get(node)
         return level is not None and level <= step and node not in self._impossible[step]
 
+    def _landmarks(self, goal: int, layers: Sequence[Layer]) -> Iterator[Values]:
+        """For each step the landmarks there of a literal, each with the values that lead to it."""
+        width = len(layers)
+        numbers = set(self._functions.values())
+        underivable = 1 << (max(numbers, default=0) + 1) * width
+        labels = self._labels(layers, 2 * underivable - 1)
+        label = labels[-1][goal]
+        for step in range(width):
+            left: Values = {n: [] for n in numbers if label >> (n * width + step) & 1}
+            for node, own in labels[step].items():
+                if self._functions.get(node) in left and own < underivable:
+                    left[self._functions[node]].append(node)
+            yield left
 
-def landmarks(
-    reach: Reach, goal: int, functions: Mapping[int, int], layers: Sequence[Layer]
-) -> Iterator[Values]:
-    """For each step the landmarks there of the goal, a node, each with the values that lead to it.
+    def _labels(self, layers: Sequence[Layer], everything: int) -> list[dict[int, int]]:
+        """For each step the labels of the nodes that lead to the goal.
 
-    `functions` maps each node that states the value of a function to the number of that function.
-    """
-    width = len(layers)
-    numbers = set(functions.values())
-    underivable = 1 << (max(numbers, default=0) + 1) * width
-    labels = _all_labels(reach, functions, layers, 2 * underivable - 1)
-    label = labels[-1][goal]
-    for step in range(width):
-        left: Values = {n: [] for n in numbers if label >> (n * width + step) & 1}
-        for node, own in labels[step].items():
-            if functions.get(node) in left and own < underivable:
-                left[functions[node]].append(node)
-        yield left
+        A label has a bit for each function and step, set if all that leads to the node has a value
+        of it, and a last one that is left to what nothing leads to.
+        """
+        width, following, functions = len(layers), self._reach.relaxed.following, self._functions
+        found: list[dict[int, int]] = []
+        known = dict.fromkeys(self._reach.start, 0)
+        for step, layer in enumerate(layers):
+            own = {n: 1 << functions[n] * width + step for n in layer if n in functions}
+            labels = _greatest_labels(layer, own, known, everything)
+            known = {following[n]: label for n, label in labels.items() if n in following}
+            found.append(labels)
+        return found
+
+    def _implied(self, values: Values) -> Values:
+        """Functions with all the values that they can have as far as others have theirs.
+
+        `values` are the nodes left of the values of functions, one of which each is sure to have.
+        """
+        groups = [list(self._groups(nodes)) for nodes in values.values()]
+        certain = {node for group in groups if len(group) == 1 for node in group[0]}
+        found: Values = {}
+        for group in groups:
+            images = [self._images(nodes, certain) for nodes in group]
+            if images:
+                for number in set(images[0]).intersection(*images[1:]) - values.keys():
+                    found[number] = [node for image in images for node in image[number]]
+        return found
+
+    def _groups(self, nodes: Iterable[int]) -> Iterator[set[int]]:
+        """What is always true together is one value."""
+        seen: set[int] = set()
+        for node in nodes:
+            if node not in seen:
+                together = self._reach.relaxed.same(node)
+                seen |= together
+                yield together
+
+    def _images(self, nodes: Iterable[int], certain: set[int]) -> dict[int, set[int]]:
+        """The values, by function, that are sure where a value is had and what is certain holds."""
+        relaxed, functions = self._reach.relaxed, self._functions
+        found: dict[int, set[int]] = {}
+        for node in nodes:
+            for others, head in relaxed.implied.get(node, ()):
+                if certain.issuperset(others) and head in functions:
+                    found.setdefault(functions[head], set()).update(relaxed.same(head))
+        return found
 
 
-def _all_labels(
-    reach: Reach, functions: Mapping[int, int], layers: Sequence[Layer], everything: int
-) -> list[dict[int, int]]:
-    """For each step the labels of the nodes that lead to the goal.
-
-    A label has a bit for each function and step, set if all that leads to the node has a value of
-    it, and a last one that is left to what nothing leads to.
-    """
-    width, following = len(layers), reach.relaxed.following
-    found: list[dict[int, int]] = []
-    known = dict.fromkeys(reach.start, 0)
-    for step, layer in enumerate(layers):
-        own = {n: 1 << functions[n] * width + step for n in layer if n in functions}
-        labels = _labels(layer, own, known, everything)
-        known = {following[n]: label for n, label in labels.items() if n in following}
-        found.append(labels)
-    return found
-
-
-def _labels(
+def _greatest_labels(
     layer: Layer, own: Mapping[int, int], known: Mapping[int, int], everything: int
 ) -> dict[int, int]:
     """The greatest labels that are consistent: what all ways to a node share, and its own.
@@ -172,47 +197,6 @@ def _labels(
             if label != labels[node]:
                 labels[node], changed = label, True
     return labels
-
-
-def implied(
-    values: Mapping[int, Sequence[int]], functions: Mapping[int, int], relaxed: Relaxed
-) -> dict[int, list[int]]:
-    """Functions, by number, with all the values that they can have as far as others have those.
-
-    `values` are the nodes left of the values of functions, one of which each is sure to have;
-    `functions` maps each node that states the value of a function to the number of that function.
-    """
-    groups = [list(_groups(nodes, relaxed)) for nodes in values.values()]
-    certain = {node for group in groups if len(group) == 1 for node in group[0]}
-    found: dict[int, list[int]] = {}
-    for group in groups:
-        images = [_images(nodes, certain, functions, relaxed) for nodes in group]
-        if images:
-            for number in set(images[0]).intersection(*images[1:]) - values.keys():
-                found[number] = [node for image in images for node in image[number]]
-    return found
-
-
-def _groups(nodes: Iterable[int], relaxed: Relaxed) -> Iterator[set[int]]:
-    """What is always true together is one value."""
-    seen: set[int] = set()
-    for node in nodes:
-        if node not in seen:
-            together = relaxed.same(node)
-            seen |= together
-            yield together
-
-
-def _images(
-    nodes: Iterable[int], certain: set[int], functions: Mapping[int, int], relaxed: Relaxed
-) -> dict[int, set[int]]:
-    """The values, by function, that are sure where a value is had and what is certain is true."""
-    found: dict[int, set[int]] = {}
-    for node in nodes:
-        for others, head in relaxed.implied.get(node, ()):
-            if certain.issuperset(others) and head in functions:
-                found.setdefault(functions[head], set()).update(relaxed.same(head))
-    return found
 
 
 class Functions:
