@@ -8,24 +8,17 @@ coarse action does.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import chain, product
 
 from asp.language import Problems, syntax, text_of
 from asp.language import variable_sorts as roles
 from asp.refinement.language import Vocabulary
 from asp.refinement.renaming import Renaming, effects_of
 
-KEPT, REFINED, LIFTED = "kept", "refined", "lifted"
-
-
-@dataclass(frozen=True)
-class Result:
-    """A statement of the refined description, and its text with what it came from."""
-
-    statement: syntax.Statement
-    manner: str
-    text: str
-
+KEPT = "As in the coarse description; what has a counterpart is a defined fluent here."
+REFINED = "About the counterparts of what the coarse law is about."
+LIFTED = "Conditions on coarse attributes, for what would bring about the coarse effect."
+"""How laws of the refined description came about, as the heading above them says."""
 
 Refined = Iterator[tuple[syntax.Statement, str]]
 
@@ -42,18 +35,11 @@ class Rewriting:
     shared: frozenset[tuple[str, int]]
     problems: Problems
 
-    def refine(self, law: syntax.Statement) -> Iterator[Result]:
-        """The statements that a coarse one becomes. Reports a law that cannot be refined."""
-        for statement, manner in self._refined(law):
-            text = f"{text_of(statement)}  % line {law.place.line}: {text_of(law)}"
-            yield Result(statement, manner, text)
+    def refine(self, law: syntax.Statement) -> Refined:
+        """The statements that a coarse one becomes, each with how; none where it falls away.
 
-    def _concerns(self, *atoms: syntax.Atom) -> bool:
-        """Whether one of the atoms has a counterpart."""
-        return any(atom.name in self.vocabulary.counterparts for atom in atoms)
-
-    def _refined(self, law: syntax.Statement) -> Refined:
-        """What a statement becomes, with the manner in which; nothing: it falls away."""
+        Reports a law that cannot be refined.
+        """
         renaming = Renaming(law, self.vocabulary)
         match law:
             case syntax.CausalLaw(action=action) if self._concerns(action):
@@ -84,6 +70,10 @@ class Rewriting:
                 yield replace(law, action=action, body=(*renaming.links(), *law.body)), REFINED
             case _:
                 yield law, KEPT
+
+    def _concerns(self, *atoms: syntax.Atom) -> bool:
+        """Whether one of the atoms has a counterpart."""
+        return any(atom.name in self.vocabulary.counterparts for atom in atoms)
 
     def _causal(self, law: syntax.CausalLaw, renaming: Renaming) -> syntax.CausalLaw:
         action, head = renaming.atom(law.action), renaming.literal(law.head)
@@ -121,11 +111,8 @@ class Rewriting:
     ) -> syntax.ExecutabilityCondition:
         """The condition about the counterparts of what it is about."""
         actions = tuple(map(renaming.atom, law.actions))
-        effects = {
-            text_of(head.atom)
-            for action in law.actions
-            for head, _ in effects_of(action, self.coarse)
-        }
+        brought = chain.from_iterable(effects_of(action, self.coarse) for action in law.actions)
+        effects = {text_of(head.atom) for head, _ in brought}
         acted = {term.name for action in law.actions for term in action.args}
         body: list[syntax.Condition] = []
         for part in law.body:
@@ -159,9 +146,8 @@ class Rewriting:
 
     def _lifted(self, law: syntax.ExecutabilityCondition) -> Refined:
         """The condition as it is, for the fine actions that would bring about the effects."""
-        effects = [
-            effects_of(action, self.coarse) for action in law.actions if self._concerns(action)
-        ]
+        concerned = filter(self._concerns, law.actions)
+        effects = [effects_of(action, self.coarse) for action in concerned]
         given = set(map(text_of, law.body))
         for brought in product(*filter(None, effects)):
             if any(text_of(head) in given for head, _ in brought):

@@ -8,10 +8,11 @@ from asp.language import variable_sorts as roles
 from asp.refinement.language import COARSE, COMPONENT, FINE, Vocabulary
 from asp.refinement.laws import KEPT, LIFTED, REFINED, Rewriting
 
-_HEADINGS = {
-    KEPT: "As in the coarse description; what has a counterpart is a defined fluent here.",
-    REFINED: "About the counterparts of what the coarse law is about.",
-    LIFTED: "Conditions on coarse attributes, for what would bring about the coarse effect.",
+_LAWS = (syntax.CausalLaw, syntax.StateConstraint, syntax.ExecutabilityCondition)
+_FURTHER: Mapping[str, type[syntax.Statement]] = {
+    "initially": syntax.InitiallyStatement,
+    "sees": syntax.SeesStatement,
+    "shows": syntax.ShowsStatement,
 }
 
 
@@ -23,41 +24,38 @@ def weak_text(
     Reports, with the place in the coarse text, each law that cannot be refined.
     """
     rewriting = Rewriting(vocabulary, coarse, shared_places(fine), problems)
-    told = (s for s in coarse.statements if isinstance(s, (*_LAWS, *_FURTHER.values())))
-    results = [result for statement in told for result in rewriting.refine(statement)]
-    laws = [result for result in results if isinstance(result.statement, _LAWS)]
+    results = [
+        (statement, manner, f"{text_of(statement)}  % line {law.place.line}: {text_of(law)}")
+        for law in coarse.statements
+        if isinstance(law, (*_LAWS, *_FURTHER.values()))
+        for statement, manner in rewriting.refine(law)
+    ]
     groups = {
-        **{t: [law.text for law in laws if law.manner == m] for m, t in _HEADINGS.items()},
-        "Bridge axioms: a coarse fluent holds where its counterpart holds of components.": [
-            f"{_bridge(name, vocabulary)}  % {name}"
-            for name in vocabulary.counterparts
-            if vocabulary.coarse.symbols[name].kind in roles.FLUENTS
-        ],
-        "Particular to the fine resolution.": [
-            f"{text_of(law)}  % {fine.file}, line {law.place.line}"
-            for law in fine.statements
-            if isinstance(law, _LAWS)
-        ],
+        heading: [text for s, how, text in results if how == heading and isinstance(s, _LAWS)]
+        for heading in (KEPT, REFINED, LIFTED)
     }
+    groups["Bridge axioms: a coarse fluent holds where its counterpart holds of components."] = [
+        f"{_bridge(name, vocabulary)}  % {name}"
+        for name in vocabulary.counterparts
+        if vocabulary.coarse.symbols[name].kind in roles.FLUENTS
+    ]
+    groups["Particular to the fine resolution."] = [
+        f"{text_of(law)}  % {fine.file}, line {law.place.line}"
+        for law in fine.statements
+        if isinstance(law, _LAWS)
+    ]
+    statements = [*(statement for statement, _, _ in results), *fine.statements]
     sections = [
         f"% The refinement of {coarse.file} by {fine.file}. Lines are those of {coarse.file}.",
-        *_declarations(coarse, vocabulary, [*(r.statement for r in results), *fine.statements]),
+        *_declarations(coarse, vocabulary, statements),
         law_section(groups),
         _facts(coarse, fine, vocabulary),
         *(
-            section(title, (r.text for r in results if isinstance(r.statement, kind)))
+            section(title, (text for s, _, text in results if isinstance(s, kind)))
             for title, kind in _FURTHER.items()
         ),
     ]
     return "\n\n".join(filter(None, sections)) + "\n"
-
-
-_LAWS = (syntax.CausalLaw, syntax.StateConstraint, syntax.ExecutabilityCondition)
-_FURTHER: Mapping[str, type[syntax.Statement]] = {
-    "initially": syntax.InitiallyStatement,
-    "sees": syntax.SeesStatement,
-    "shows": syntax.ShowsStatement,
-}
 
 
 def shared_places(fine: syntax.Source) -> frozenset[tuple[str, int]]:

@@ -171,13 +171,12 @@ Effect = tuple[syntax.Literal, syntax.Body]
 
 def effects_of(action: syntax.Atom, coarse: syntax.Source) -> list[Effect]:
     """What the coarse action causes and under which conditions, in the terms of this atom."""
-    found = []
-    for law in coarse.each(syntax.CausalLaw):
-        terms = _matched(law.action, action)
-        if terms is not None:
-            body = tuple(_substituted(part, terms) for part in law.body)
-            found.append((_substituted(law.head, terms), body))
-    return found
+    found = ((law, _matched(law.action, action)) for law in coarse.each(syntax.CausalLaw))
+    return [
+        (_substituted(law.head, terms), _substituted(law.body, terms))
+        for law, terms in found
+        if terms is not None
+    ]
 
 
 def _matched(of_law: syntax.Atom, action: syntax.Atom) -> dict[str, syntax.Term] | None:
@@ -195,17 +194,14 @@ def _matched(of_law: syntax.Atom, action: syntax.Atom) -> dict[str, syntax.Term]
 
 
 def _substituted(part: Any, terms: Mapping[str, syntax.Term]) -> Any:
-    """An atom or a condition with these terms for the variables of the action."""
-    if isinstance(part, syntax.Literal):
-        return replace(part, atom=_substituted(part.atom, terms))
-    if isinstance(part, syntax.Comparison):
-        left, right = _term(part.left, terms), _term(part.right, terms)
-        return replace(part, left=left, right=right)
-    return replace(part, args=tuple(_term(term, terms) for term in part.args))
+    """A part of a law with these terms for the variables of its action.
 
-
-def _term(term: syntax.Term, terms: Mapping[str, syntax.Term]) -> syntax.Term:
-    """The term for a variable of the action; another variable gets a name of the effect's own."""
-    if not term.is_variable:
-        return term
-    return terms.get(term.name, replace(term, name=f"{term.name}_"))
+    Another variable gets a name of the effect's own.
+    """
+    if isinstance(part, tuple):
+        return tuple(_substituted(each, terms) for each in part)
+    if isinstance(part, syntax.Term):
+        own = replace(part, name=f"{part.name}_")
+        return terms.get(part.name, own) if part.is_variable else part
+    inside = {"atom", "args", "left", "right"} & vars(part).keys()
+    return replace(part, **{name: _substituted(getattr(part, name), terms) for name in inside})
