@@ -35,16 +35,16 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
     on_fluents = (
         law for law in source.each(syntax.StateConstraint) if not instances.is_static(law.head)
     )
-    agent_actions = _symbols("agent", signature)
+    agent_actions = signature.atoms("agent")
     return Description(
         name=name,
         source=source.text,
         sorts=dict(signature.sorts),
         statics=instances.statics,
-        inertial=_symbols("inertial", signature),
-        defined=_symbols("defined", signature),
+        inertial=signature.atoms("inertial"),
+        defined=signature.atoms("defined"),
         agent_actions=agent_actions,
-        exogenous_actions=_symbols("exogenous", signature),
+        exogenous_actions=signature.atoms("exogenous"),
         causal=instances.ground(source.each(syntax.CausalLaw), Causal),
         constraints=instances.ground(on_fluents, Constraint),
         executability=instances.ground(source.each(syntax.ExecutabilityCondition), Executability),
@@ -192,15 +192,6 @@ def instance(part: Any, binding: Binding) -> Any:
     if isinstance(part, syntax.Term):
         return binding.get(part.name, part.name)
     return tuple(instance(each, binding) for each in part) if isinstance(part, tuple) else part
-
-
-def _symbols(kind: syntax.SymbolKind, signature: Signature) -> tuple[Literal, ...]:
-    return tuple(
-        Literal.of(declaration.name, args)
-        for declaration in signature.symbols.values()
-        if declaration.kind == kind
-        for args in product(*(signature.sorts[sort.name] for sort in declaration.sorts))
-    )
 
 
 def _costs(instances: Instances) -> dict[str, int]:

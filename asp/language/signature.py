@@ -8,12 +8,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from itertools import product
 
 from clingo import SymbolType, ast
 from clingo.ast import ASTType
 
 from asp.language import syntax
 from asp.language.errors import Problems, suggestion
+from asp.language.literals import Literal
 
 _CONSTANTS = frozenset({"n", "not"})
 _ENVIRONMENT = frozenset({"wait", "none"})
@@ -31,6 +33,15 @@ class Signature:
     @property
     def constants(self) -> frozenset[str]:
         return frozenset(member for members in self.sorts.values() for member in members)
+
+    def atoms(self, kind: syntax.SymbolKind) -> tuple[Literal, ...]:
+        """The ground fluents or actions of a kind, in the order of declaration."""
+        return tuple(
+            Literal.of(symbol.name, arguments)
+            for symbol in self.symbols.values()
+            if symbol.kind == kind
+            for arguments in product(*(self.sorts[sort.name] for sort in symbol.sorts))
+        )
 
 
 def signature_of(source: syntax.Source, problems: Problems) -> Signature:

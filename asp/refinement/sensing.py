@@ -7,7 +7,6 @@ constraints on `can_test_...` say when it is possible.
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from functools import cached_property, lru_cache
-from itertools import product
 from typing import NamedTuple
 
 from asp.language import (
@@ -71,22 +70,17 @@ class Sensing:
         defining: dict[str, list[syntax.StateConstraint]] = defaultdict(list)
         needs: dict[str, set[str]] = defaultdict(set)
         for law in self._refinement.strong.each(syntax.StateConstraint):
-            name, args, body = (
-                law.head.atom.name,
-                law.head.atom.args,
-                list(roles.literals(law.body)),
-            )
+            head, body = law.head.atom, list(roles.literals(law.body))
+            name, args = head.name, head.args
             if signature.symbols[name].kind == "defined":
                 needs[name].update(part.atom.name for part in body)
                 defining[name].append(law)
             if name.startswith(CAN_TEST):
                 bound = {term.name for part in body if part.positive for term in part.atom.args}
                 free = {term.name for term in args[1:]} - bound
-                of_robot, of_test = (
-                    pattern_of(law, signature, statics, given, law.head)
-                    for given in (args[:1], args)
-                )
-                ability = _Ability(law.head.atom, of_robot, of_test, free)
+                of_robot = pattern_of(law, signature, statics, args[:1], law.head)
+                of_test = pattern_of(law, signature, statics, args, law.head)
+                ability = _Ability(head, of_robot, of_test, free)
                 self._abilities[name.removeprefix(CAN_TEST)].append(ability)
         tested = {CAN_TEST + fluent for fluent in self._abilities}
         for name in {needed for each in tested for needed in reachable(each, needs)} - tested:
@@ -100,13 +94,8 @@ class Sensing:
     @cached_property
     def actions(self) -> tuple[Action, ...]:
         """All tests."""
-        signature = self._refinement.strong_signature
-        return tuple(
-            Literal.of(name, args)
-            for name, symbol in signature.symbols.items()
-            if name in self.names
-            for args in product(*(signature.sorts[sort.name] for sort in symbol.sorts))
-        )
+        every = self._refinement.strong_signature.atoms("agent")
+        return tuple(action for action in every if action.name in self.names)
 
     def _fluent(self, action: str) -> Fluent:
         """The fluent that a test observes."""

@@ -9,7 +9,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import chain, product
+from itertools import chain
 
 import clingo
 from clingo import Number, Symbol
@@ -65,7 +65,7 @@ class CompactPart:
     whole: CompactDescription = field(compare=False)
 
     @cached_property
-    def sorts(self) -> Mapping[str, Sequence[str]]:
+    def sorts(self) -> Mapping[str, tuple[str, ...]]:
         """The members of each sort."""
         return dict(self.members)
 
@@ -90,12 +90,7 @@ class CompactPart:
     @cached_property
     def actions(self) -> Sequence[Action]:
         """The agent actions in the order of declaration, in canonical names."""
-        return [
-            Literal.of(symbol.name, chosen)
-            for symbol in self.whole.signature.symbols.values()
-            if symbol.kind == "agent"
-            for chosen in product(*(self.sorts[sort.name] for sort in symbol.sorts))
-        ]
+        return Signature(self.sorts, self.whole.signature.symbols).atoms("agent")
 
     @cached_property
     def program(self) -> str:

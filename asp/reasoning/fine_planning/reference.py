@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from itertools import product
 from typing import Protocol
 
 from clingo import Symbol
@@ -88,7 +87,7 @@ class LiteralProblem:
             "\n".join([*_tests(signature), *_changes(source)]),
             theory("fine_planning"),
         )
-        actions = _concrete_actions(signature)
+        actions = [a for a in signature.atoms("agent") if not a.name.startswith(_TEST)]
         self._facts = [fact("ranks", len(actions))]
         self._facts += (fact("rank", action, number) for number, action in enumerate(actions))
         self._facts += (fact("certain", fluent) for fluent in sorted(start.true))
@@ -159,16 +158,6 @@ def _changes(source: syntax.Source) -> Iterator[str]:
     for law in source.each(syntax.CausalLaw):
         action, fluent = law.action, law.head.atom
         yield f"changes({action},{fluent}) :- agent_action({action}), inertial({fluent})."
-
-
-def _concrete_actions(signature: Signature) -> list[Action]:
-    """The agent actions that are no tests, in the order of declaration."""
-    return [
-        Literal.of(symbol.name, members)
-        for symbol in signature.symbols.values()
-        if symbol.kind == "agent" and not symbol.name.startswith(_TEST)
-        for members in product(*(signature.sorts[sort.name] for sort in symbol.sorts))
-    ]
 
 
 def _dealing(
