@@ -28,10 +28,10 @@ class CompactDescription:
         self._constants = tuple(dict.fromkeys(m for ms in signature.sorts.values() for m in ms))
         # What laws name keeps its name.
         self._fixed = frozenset(c for rule in self.rules for c in rule.constants)
-        self._facts: dict[str, list[tuple[str, tuple[str, ...]]]] = defaultdict(list)
-        for stated in source.each(syntax.Fact):
-            terms = tuple(term.name for term in stated.literal.atom.args)
-            self._facts[terms[0] if terms else ""].append((stated.literal.atom.name, terms))
+        self._facts: dict[str, list[Literal]] = defaultdict(list)
+        for atom in (statement.literal.atom for statement in source.each(syntax.Fact)):
+            stated = Literal.of(atom.name, (term.name for term in atom.args))
+            self._facts[next(iter(stated.arguments), "")].append(stated)
 
     def part(self, constants: frozenset[str]) -> CompactPart:
         """The description with these constants only."""
@@ -42,10 +42,10 @@ class CompactDescription:
             for sort, members in self.signature.sorts.items()
         )
         facts = frozenset(
-            Literal.of(static, (names[a] for a in terms))
+            stated.renamed(names)
             for first in (*kept, "")
-            for static, terms in self._facts.get(first, ())
-            if all(a in names for a in terms)
+            for stated in self._facts.get(first, ())
+            if all(a in names for a in stated.arguments)
         )
         return CompactPart(sorts, facts, names, self)
 
