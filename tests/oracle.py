@@ -8,7 +8,7 @@ from testbed.world import World
 
 def minimal_actions(world: World, state: int, goal: Iterable[str]) -> int | None:
     """The length of a shortest plan, None where there is none."""
-    plan = cheapest_plan(world, state, goal)
+    plan = cheapest_plan((world, state, goal))
     return None if plan is None else len(plan)
 
 
@@ -16,5 +16,5 @@ def minimal_units(
     world: World, state: int, goal: Iterable[str], costs: Mapping[str, int]
 ) -> int | None:
     """The execution units of a cheapest plan, None where there is none."""
-    plan = cheapest_plan(world, state, goal, costs)
+    plan = cheapest_plan((world, state, goal), costs)
     return None if plan is None else sum(costs.get(action, 0) for action in plan)

@@ -64,7 +64,7 @@ def _refusal(error: Exception) -> Iterable[str] | None:
     """The lines of an error that is one of the input; None of another."""
     from asp.language import SourceError
     from testbed.config import ConfigError
-    from testbed.experiment.errors import ServingError, StoreError, WorkerError
+    from testbed.experiment.errors import StoreError, WorkerError
     from testbed.registry import RegistryError
 
     match error:
@@ -72,7 +72,7 @@ def _refusal(error: Exception) -> Iterable[str] | None:
             return map(str, error.all)
         case ConfigError():
             return error.lines
-        case StoreError() | ServingError() | WorkerError() | RegistryError():
+        case StoreError() | WorkerError() | RegistryError():
             return str(error).split("\n")
         case UnicodeDecodeError():
             return [f"not a text file in UTF-8: {error.reason} at byte {error.start}"]

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple
 
 from clingo import Control, Symbol
 
@@ -21,12 +20,8 @@ MOST_CHANGES = 5_000
 MOST_CONFLICTS = 100_000
 
 
-class Effect(NamedTuple):
-    """The values of a variable before and after."""
-
-    variable: int
-    before: int
-    after: int
+Effect = tuple[int, int, int]
+"""A variable, and its values before and after."""
 
 
 @dataclass(frozen=True)
@@ -115,4 +110,4 @@ def _change(
         if rest:
             time, number = rest
             own[time] |= 1 << number
-    return action, tuple(Effect(variable, *own) for variable, own in sorted(values.items()))
+    return action, tuple((own, before, after) for own, (before, after) in sorted(values.items()))

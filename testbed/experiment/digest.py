@@ -13,10 +13,7 @@ from typing import Any
 
 import msgspec
 
-from testbed.experiment.record import At, TrialRecord
-
-TIMES = ("_time_s", "_cpu_s")
-"""How keys of a record end that hold times."""
+from testbed.experiment.record import TIMES, At, TrialRecord
 
 
 def logical(record: TrialRecord) -> dict[str, object]:

@@ -7,7 +7,3 @@ class StoreError(ValueError):
 
 class WorkerError(RuntimeError):
     """No trial can be played, for a process that is to play them does not start: one line."""
-
-
-class ServingError(ValueError):
-    """A robot that cannot be served as asked: one line that says why."""

@@ -16,7 +16,7 @@ import numpy as np
 import scipy  # type: ignore[import-untyped]  # its parts load when they are used
 
 from asp.language import Description, Literal
-from testbed.experiment.changes import Changes, changes
+from testbed.experiment.changes import changes
 
 Heuristic = Callable[[int], int]
 """A lower bound on what it costs to get from a state to the goal."""
@@ -34,12 +34,12 @@ def blind(_: int) -> int:
 
 
 class Potentials:
-    """The heuristics of a description; its changes are enumerated when they are first needed."""
+    """The heuristics of a description, whose changes are enumerated at once."""
 
     def __init__(self, description: Description) -> None:
-        self._description = description
         self._fluents = {fluent: 1 << i for i, fluent in enumerate(description.fluents)}
         self._variables = variables_of(description)
+        self._changes = changes(description, self._variables)
 
     def heuristic(self, state: int, goal: Iterable[Literal], costs: Mapping[str, int]) -> Heuristic:
         """One that is as large as possible in `state`, for it and what can be reached from it.
@@ -47,10 +47,7 @@ class Potentials:
         It is admissible and consistent; `blind` where the changes are too many. What has no cost
         costs 0, and no cost is negative.
         """
-        changes = self._changes
-        if changes is None or not changes.cover(state):
-            return blind
-        numbers = self._numbers(changes, state, tuple(goal), costs)
+        numbers = self._numbers(state, tuple(goal), costs)
         if numbers is None:
             return blind
         potentials, excess = numbers
@@ -67,10 +64,6 @@ class Potentials:
         return heuristic
 
     @cached_property
-    def _changes(self) -> Changes | None:
-        return changes(self._description, self._variables)
-
-    @cached_property
     def _lowering(self) -> tuple[list[tuple[int, int]], "scipy.sparse.csr_array"]:
         """The columns of the linear program, and by how much each change lowers the sum.
 
@@ -78,10 +71,10 @@ class Potentials:
         """
         found = () if self._changes is None else self._changes.found
         entries = [
-            (sign, row, (effect.variable, value))
+            (sign, row, (variable, value))
             for row, (_, effects) in enumerate(found)
-            for effect in effects
-            for value, sign in ((effect.before, 1.0), (effect.after, -1.0))
+            for variable, before, after in effects
+            for value, sign in ((before, 1.0), (after, -1.0))
         ]
         signs, rows, places = zip(*entries, strict=True) if entries else ((), (), ())
         number = {column: n for n, column in enumerate(dict.fromkeys(places))}
@@ -90,11 +83,11 @@ class Potentials:
         return [*number], scipy.sparse.coo_array((signs, (rows, columns)), shape).tocsr()
 
     def _numbers(
-        self, changes: Changes, state: int, goal: Sequence[Literal], costs: Mapping[str, int]
+        self, state: int, goal: Sequence[Literal], costs: Mapping[str, int]
     ) -> tuple[dict[tuple[int, int], float], float] | None:
         """The potentials of the columns and what to take off their sum; None: there are none."""
-        columns, lowering = self._lowering
-        if not columns:
+        changes, (columns, lowering) = self._changes, self._lowering
+        if changes is None or not changes.cover(state) or not columns:
             return None
         most_lowered = np.array([costs.get(action, 0) for action, _ in changes.found], dtype=float)
         at_start = [state & variable == value for variable, value in columns]

@@ -54,7 +54,7 @@ class Judge:
     ) -> tuple[int | None, MinimalReason | None]:
         """The fewest actions; where they are not known, why."""
         try:
-            plan = cheapest_plan(*self._problem(state, goal), most_states=most_states)
+            plan = cheapest_plan(self._problem(state, goal), most_states=most_states)
         except BudgetError:
             return None, "budget"
         return (None, "no plan") if plan is None else (len(plan), None)
@@ -68,7 +68,7 @@ class Judge:
         if actions is None:
             return Minimal(None, None, reason)
         try:
-            plan = cheapest_plan(*self._problem(state, goal), self._costs, most_states)
+            plan = cheapest_plan(self._problem(state, goal), self._costs, most_states)
         except BudgetError:
             return Minimal(actions, None, None)
         return Minimal(actions, sum(self._costs.get(own, 0) for own in plan or ()), None)
@@ -79,18 +79,14 @@ class BudgetError(RuntimeError):
 
 
 def cheapest_plan(
-    world: World,
-    initial: int,
-    goal: Iterable[Literal],
-    costs: Mapping[str, int] | None = None,
-    most_states: int | None = None,
+    problem: Problem, costs: Mapping[str, int] | None = None, most_states: int | None = None
 ) -> tuple[str, ...] | None:
-    """Of the cheapest plans of robot actions to a state of `goal` the first; None if none.
+    """Of the cheapest plans of robot actions to a state of the goal the first; None if none.
 
     What has no cost costs 0; without costs the plan is one with the fewest actions. Raises
     BudgetError where more than `most_states` states would have to be expanded.
     """
-    wanted, number = tuple(goal), count()
+    (world, initial, goal), number = problem, count()
     alike: dict[str, int] = dict.fromkeys(world.agent_actions, 1)
     price = alike if costs is None else costs
     heuristic: Heuristic = blind
@@ -102,7 +98,7 @@ def cheapest_plan(
         total, left, _, state = heappop(frontier)
         if total - left > least[state]:
             continue
-        if world.satisfies(state, wanted):
+        if world.satisfies(state, goal):
             return _path(came_from, state)
         if expanded == most_states:
             raise BudgetError(f"more than {most_states} states")
@@ -114,7 +110,7 @@ def cheapest_plan(
                 left = heuristic(reached)
                 heappush(frontier, (spent + left, left, next(number), reached))
         if expanded == UNINFORMED:
-            heuristic = _potentials(world).heuristic(initial, wanted, price)
+            heuristic = _potentials(world).heuristic(initial, goal, price)
             current = [(n, s) for total, _, n, s in frontier if total == least[s]]
             frontier = [(least[s] + (left := heuristic(s)), left, n, s) for n, s in current]
             heapify(frontier)

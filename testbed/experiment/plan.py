@@ -1,12 +1,11 @@
 """From a configuration to the list of its trials, before anything runs."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
-import numpy as np
 
 from asp.language import Description, Literal, Trigger
 from asp.refinement import Refinement
@@ -103,33 +102,29 @@ def _at_levels(config: ExperimentConfig) -> Iterator[TrialSpec]:
             statistics=dict(sorted(config.statistics.items())),
             pace=config.adversary.pace,
         )
-        draw = _drawing(config, refinement)
         texts = [refinement.coarse.text, refinement.text] if config.refinement else []
-        for number in range(1, (config.limit or 0) + 1):
-            drawn = [level, *texts, number]
-            initial, goal = draw(generator_of(config.seed, drawn))
-            path = [*drawn, list(initial), sorted(goal)]
+        for path, initial, goal in _drawn(config, refinement, (level, *texts)):
             setting = msgspec.structs.replace(common, goal=goal, fine=fine)
             yield from pair_specs(config, SCENARIO, level, path, initial, setting, domain)
 
 
-def _drawing(
-    config: ExperimentConfig, refinement: Refinement
-) -> Callable[[np.random.Generator], tuple[tuple[Literal, ...], tuple[Literal, ...]]]:
-    """What draws the trials of one level: the inertial atoms true at first, and a goal.
+def _drawn(
+    config: ExperimentConfig, refinement: Refinement, place: Sequence[str]
+) -> Iterator[tuple[list[object], tuple[Literal, ...], tuple[Literal, ...]]]:
+    """The pairs of a level: their seed paths, the inertial atoms true at first, and goals.
 
-    The goal does not hold at first. What the configuration gives is not drawn.
+    A goal does not hold at first. What the configuration gives is not drawn.
     """
     world, description = world_of(refinement), refinement.description
     start = RandomStart(world, description.robots[0], config.draw.holding)
-    goal = None if config.goal else RandomGoal(world, config.draw.goal, description.sorts)
-
-    def draw(generator: np.random.Generator) -> tuple[tuple[Literal, ...], tuple[Literal, ...]]:
+    goals = None if config.goal else RandomGoal(world, config.draw.goal, description.sorts)
+    for number in range(1, (config.limit or 0) + 1):
+        generator = generator_of(config.seed, [*place, number])
         state = start(generator) if config.initial is None else world.state(config.initial)
         inertial = frozenset(world.true_atoms(state)).intersection(world.description.inertial)
-        return tuple(sorted(inertial)), config.goal if goal is None else goal(state, generator)
-
-    return draw
+        initial = tuple(sorted(inertial))
+        goal = config.goal if goals is None else goals(state, generator)
+        yield [*place, number, list(initial), sorted(goal)], initial, goal
 
 
 @dataclass(frozen=True)

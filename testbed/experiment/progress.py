@@ -5,16 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    ProgressColumn,
-    Task,
-    TextColumn,
-    TimeRemainingColumn,
-)
-from rich.text import Text
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from testbed.experiment.runner import Notify, RunStatus
 from testbed.text import counted, warn
@@ -65,23 +56,17 @@ class Lines:
         return f"{trials}, {rate:.1f}/s, {left // 3600}:{left // 60 % 60:02}:{left % 60:02} left"
 
 
-class _Rate(ProgressColumn):
-    """Trials a second."""
-
-    def render(self, task: Task) -> Text:
-        speed = task.finished_speed or task.speed
-        return Text("" if speed is None else f"{speed:.1f}/s")
-
-
 @contextmanager
 def _bar(console: Console) -> Iterator[Notify]:
-    done, rest = MofNCompleteColumn(), TimeRemainingColumn()
-    columns = TextColumn("{task.description}"), BarColumn(), done, _Rate(), rest
+    told, rate = TextColumn("{task.description}"), TextColumn("{task.fields[rate]}")
+    columns = told, BarColumn(), MofNCompleteColumn(), rate, TimeRemainingColumn()
     with Progress(*columns, console=console) as bar:
-        task = bar.add_task("planning the trials", total=None)
+        task = bar.add_task("planning the trials", total=None, rate="")
 
         def notify(run: RunStatus) -> None:
-            told = f"trials{_failed(run)}"
-            bar.update(task, total=run.planned, completed=run.done, description=told)
+            bar.update(task, total=run.planned, completed=run.done)
+            speed = bar.tasks[task].speed
+            rate = "" if speed is None else f"{speed:.1f}/s"
+            bar.update(task, description=f"trials{_failed(run)}", rate=rate)
 
         yield notify

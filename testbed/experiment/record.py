@@ -20,6 +20,8 @@ Cause = Choice["robot", "infrastructure", "testbed"]
 """What a trial failed for: the robot's own error; a process that ended, or the link to it; ours."""
 COARSE = "coarse"
 """The level of trials at the coarse resolution."""
+TIMES = ("_time_s", "_cpu_s")
+"""How keys of a record end that hold times."""
 Total: TypeAlias = Annotated[float, msgspec.Meta(ge=0.0, le=1e15)]
 """A finite sum of seconds."""
 

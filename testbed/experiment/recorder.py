@@ -7,6 +7,7 @@ import msgspec
 from asp.language import Action
 from testbed.environment import Ending
 from testbed.experiment.record import (
+    TIMES,
     Activity,
     At,
     Attempt,
@@ -38,6 +39,7 @@ class Result(msgspec.Struct):
 class Recorder:
     """The record of the trial under way, complete up to the last step that was played.
 
+    `costs` are the execution units of actions; what has none counts 0.
     At the fine resolution its actions are the abstract ones. The robot says which concrete actions
     belong to which; whether an abstract action happened is what the robot inferred of it. One that
     the trial ends in the middle of did not happen.
@@ -46,28 +48,25 @@ class Recorder:
     def __init__(self, spec: TrialSpec) -> None:
         fine = spec.setting.fine
         self.record = blank_record(spec)
+        self.costs: Mapping[str, int] = {}
         # Whether every action and every test comes out as it should.
         self._certain = fine is None or all(p == 1.0 for p in fine.statistics.values())
         self._last: Decision | None = None
 
-    def step(self, decision: Decision, happened: bool | None, costs: Mapping[str, int]) -> None:
+    def step(self, decision: Decision, happened: bool | None) -> None:
         """What the robot decided; `happened` is None unless it attempted a physical action."""
         record, trace = self.record, decision.trace
         self._last = decision
         record.steps = decision.step
         record.plans = max(record.plans, trace.plans)
-        record.planning_time_s += trace.planning_time_s
-        record.diagnosis_time_s += trace.diagnosis_time_s
+        _add_times(trace, record)
         record.reasoning_time_s = record.planning_time_s + record.diagnosis_time_s
-        record.planning_cpu_s += trace.planning_cpu_s
-        record.diagnosis_cpu_s += trace.diagnosis_cpu_s
-        record.preparation_cpu_s += trace.preparation_cpu_s
         record.deadline = record.deadline or trace.deadline
         if record.fine is None:
             if decision.action not in (WAIT, FINISH):
-                self._attempt(decision.step, decision.action, bool(happened), costs)
+                self._attempt(decision.step, decision.action, bool(happened))
         elif trace.fine is not None:
-            self._acted(decision.step, trace.fine, record.fine, costs)
+            self._acted(decision.step, trace.fine, record.fine)
         mental = FINISH if decision.action == FINISH else trace.mental
         if mental is not None:
             record.mental.append(At(decision.step, mental))
@@ -75,24 +74,19 @@ class Recorder:
             record.explanations.append(_explained(decision.step, trace, trace.explanation))
         self._activity(decision.step, trace)
 
-    def _attempt(self, step: int, action: Action, happened: bool, costs: Mapping[str, int]) -> None:
+    def _attempt(self, step: int, action: Action, happened: bool) -> None:
         self.record.actions.append(Attempt(step, action, happened))
         self.record.action_count += 1
-        self.record.execution_units += costs.get(action, 0)
+        self.record.execution_units += self.costs.get(action, 0)
 
-    def _acted(
-        self, step: int, fine: FineTrace, counts: FineCounts, costs: Mapping[str, int]
-    ) -> None:
+    def _acted(self, step: int, fine: FineTrace, counts: FineCounts) -> None:
         """What was done at the fine resolution."""
         if fine.happened and self.record.actions:
             self.record.actions[-1].happened = True
         if fine.abstract is not None and fine.begun == step:
-            self._attempt(step, fine.abstract, False, costs)
+            self._attempt(step, fine.abstract, False)
         counts.plans, counts.actions, counts.tests = fine.plans, fine.actions, fine.tests
-        counts.planning_time_s += fine.planning_time_s
-        counts.infer_time_s += fine.infer_time_s
-        counts.planning_cpu_s += fine.planning_cpu_s
-        counts.infer_cpu_s += fine.infer_cpu_s
+        _add_times(fine, counts)
         self.record.reasoning_time_s += counts.planning_time_s + counts.infer_time_s
 
     def _activity(self, step: int, trace: Trace) -> None:
@@ -119,18 +113,11 @@ class Recorder:
     def end(self, ending: Ending) -> None:
         """The end of the game; after the record has `achieved` and the fewest actions."""
         record, last = self.record, self._last
-        record.finished = ending is not Ending.STEP_LIMIT
-        if ending is Ending.STEP_LIMIT:
-            record.outcome = "step_limit"
-        elif ending is Ending.ACHIEVED:
-            record.outcome = "achieved"
-        elif last is not None and last.believes_goal:
-            record.outcome = "false_finish"
-        else:
+        record.finished, record.outcome = ending.by_answer, ending.value
+        if ending is Ending.FALSE_FINISH and last is not None and not last.believes_goal:
             record.outcome = "gave_up"
-            if last is not None:
-                record.reason = record.reason or last.trace.reason or None
-                record.no_plan = last.trace.no_plan
+            record.reason = record.reason or last.trace.reason or None
+            record.no_plan = last.trace.no_plan
         record.correct = record.achieved and record.finished and self._is_minimal()
 
     def _is_minimal(self) -> bool | None:
@@ -145,6 +132,13 @@ class Recorder:
         self.record.outcome = outcome
         self.record.correct = False if cause == "robot" else None
         self.record.reason, self.record.cause = shortened(reason), cause
+
+
+def _add_times(trace: Trace | FineTrace, sums: TrialRecord | FineCounts) -> None:
+    """Add the times of a step to those of the same names in the record."""
+    for name in trace.__struct_fields__:
+        if name.endswith(TIMES):
+            setattr(sums, name, getattr(sums, name) + getattr(trace, name))
 
 
 def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:

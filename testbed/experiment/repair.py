@@ -9,12 +9,11 @@ from pathlib import Path
 import msgspec
 
 from testbed.experiment.digest import logical
-from testbed.experiment.encoding import read_lines
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import strangeness
 from testbed.experiment.run_folder import TRIALS, locked, read_config, replace_lines
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import settle
+from testbed.experiment.store import read_lines, settle
 from testbed.text import counted
 
 

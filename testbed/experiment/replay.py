@@ -1,7 +1,7 @@
 """Play a stored trial again, in this process, and tell it step by step."""
 
 import shlex
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator
 from pathlib import Path
 
 from asp.language import Action, Fluent, suggestion
@@ -14,8 +14,7 @@ from testbed.experiment.run_folder import read_config
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import read_records
 from testbed.experiment.timeline import explanation, in_words, of_place, place
-from testbed.experiment.trial import Moment, play_trial
-from testbed.experiment.trial_setup import refinement_of
+from testbed.experiment.trial import Moment, play_trial, refinement_of
 from testbed.link import InProcessRobot
 from testbed.protocol import FINISH, FineTrace, Trace
 from testbed.text import columns, counted
@@ -42,8 +41,8 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
     if levels and trial:
         config = config.model_copy(update={"levels": levels})
     spec = find_trial(plan_trials(config), trial)
-    listed = of_place(spec.scenario, spec.level)
-    say(f"trial {spec.trial}: {listed}, {spec.robot}, seed {spec.seed}")
+    where = of_place(spec.scenario, spec.level)
+    say(f"trial {spec.trial}: {where}, {spec.robot}, seed {spec.seed}")
     say(f"goal: {' '.join(spec.setting.goal)}")
     narrator = narrator_of(spec.setting, say)
     now = play_trial(spec, InProcessRobot(make_robot), narrator.tell).record
@@ -126,7 +125,7 @@ class Narrator:
         if percept.events:
             news = (f"{event.action} at step {event.step}" for event in percept.events)
             yield f"  told         {', '.join(news)}"
-        yield from self._thought(moment, true)
+        yield from self._mind(moment, true)
         gives_up = action == FINISH and not moment.decision.believes_goal
         ended = ": did not happen" if moment.happened is False else ": gives up" * gives_up
         yield f"  action       {action}{ended}"
@@ -137,13 +136,11 @@ class Narrator:
     def _state(self, true: frozenset[Fluent]) -> Iterator[str]:
         yield f"  world        {' '.join(sorted(true))}"
 
-    def _thought(self, moment: Moment, true: frozenset[Fluent]) -> Iterator[str]:
-        return self._mind(moment.decision.trace, sorted(true))
-
-    def _mind(self, trace: Trace, truth: Sequence[str]) -> Iterator[str]:
+    def _mind(self, moment: Moment, true: frozenset[Fluent]) -> Iterator[str]:
+        trace = moment.decision.trace
         yield f"  belief       {self._belief(trace)}"
-        if trace.belief and sorted(trace.belief) != truth:
-            yield f"               in truth {_difference(trace.belief, truth)}"
+        if trace.belief and sorted(trace.belief) != sorted(true):
+            yield f"               in truth {_difference(trace.belief, true)}"
         for contrary in trace.contradictions:
             against = f"{contrary.observed} at step {contrary.step} against {contrary.believed}"
             yield f"  unexpected   {against}"
@@ -197,15 +194,14 @@ class FineNarrator(Narrator):
         elif before != self._told_of:
             yield f"  world        now {_difference(before, self._told_of)}"
 
-    def _thought(self, moment: Moment, true: frozenset[Fluent]) -> Iterator[str]:
-        trace, step = moment.decision.trace, moment.percept.step
-        fine = trace.fine or FineTrace()
+    def _mind(self, moment: Moment, true: frozenset[Fluent]) -> Iterator[str]:
+        fine, step = moment.decision.trace.fine or FineTrace(), moment.percept.step
         for literal in moment.percept.visible:
             wrong = "" if self._world.satisfies(moment.before, (literal,)) else ", which is wrong"
             yield f"  observed     {literal}{wrong}"
         yield from _learned(fine)
         if not fine.abstract or fine.begun == step:
-            yield from self._mind(trace, sorted(true & self._coarse))
+            yield from super()._mind(moment, true & self._coarse)
         if fine.begun == step:
             yield f"  abstract     {fine.abstract}"
         if fine.zoomed:

@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from itertools import count, takewhile
 from pathlib import Path
 
-from testbed.config import SCENARIO_KEYS, ConfigError, ExperimentConfig, load_config, write_yaml
+from testbed.config import SCENARIO_KEYS, ExperimentConfig, load_config, write_yaml
 from testbed.experiment.errors import StoreError
 
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
@@ -34,12 +34,25 @@ def choose_folder(out: Path | None, name: str, resume: bool) -> Path:
         return _newest(name) if resume else _new(name)
     if out.exists() and not out.is_dir():
         raise StoreError(f"{out}: is not a folder")
-    refuse_second_run(out, resume)
+    _refuse_second_run(out, resume)
     return out
 
 
-def refuse_second_run(folder: Path, resume: bool) -> None:
-    """Raise StoreError where a folder holds a run already which is not to be resumed."""
+def begin_or_resume(folder: Path, config: ExperimentConfig, resume: bool) -> None:
+    """Store the configuration of a new run, or check that it is that of the run to be resumed.
+
+    Raises:
+        StoreError: where a run is not to be resumed, or has another configuration.
+        ConfigError: where its configuration is not valid any more.
+    """
+    _refuse_second_run(folder, resume)  # another may have begun, and ended, since it was chosen
+    if holds_run(folder):
+        check_unchanged(folder, config)
+    else:
+        write_config(folder, config)
+
+
+def _refuse_second_run(folder: Path, resume: bool) -> None:
     if holds_run(folder) and not resume:
         raise StoreError(f"{folder}: holds a run already; --resume goes on with it")
 
@@ -151,13 +164,10 @@ def config_text(config: ExperimentConfig) -> str:
 def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
     """Raise StoreError, showing the difference, unless `config` is the one stored in `folder`.
 
-    Of a long difference the beginning is shown: the keys that were given, then defaults.
+    Of a long difference the beginning is shown: the keys that were given, then defaults. Raises
+    ConfigError where the stored configuration is not valid any more.
     """
-    try:
-        stored = flat_config(read_config(folder))
-    except ConfigError as error:
-        raise StoreError(str(error)) from None
-    given = flat_config(config)
+    stored, given = flat_config(read_config(folder)), flat_config(config)
     changed = [
         key
         for key in dict.fromkeys((*stored, *given))

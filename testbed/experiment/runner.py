@@ -17,21 +17,10 @@ from testbed.experiment.provenance import Provenance
 from testbed.experiment.record import FAILURES
 from testbed.experiment.recorder import Result
 from testbed.experiment.robots import make_robot
-from testbed.experiment.run_folder import (
-    ERRORS,
-    check_unchanged,
-    choose_folder,
-    holds_run,
-    locked,
-    naming,
-    refuse_second_run,
-    write_config,
-)
-from testbed.experiment.specs import TrialSpec
+from testbed.experiment.run_folder import ERRORS, begin_or_resume, choose_folder, locked, naming
 from testbed.experiment.store import TrialWriter
 from testbed.experiment.trial import play_trial
-from testbed.experiment.worker import Play
-from testbed.experiment.worker_pool import play_all, workers_for
+from testbed.experiment.worker_pool import Play, Results, play_all, workers_for
 from testbed.link import connect
 
 BAD_INPUT = 2
@@ -99,11 +88,7 @@ def run_in(
     command: Sequence[str],
 ) -> RunStatus:
     """As `run`, in a folder that is locked; `command` is put on record."""
-    refuse_second_run(folder, resume)  # another may have begun, and ended, since it was chosen
-    if holds_run(folder):
-        check_unchanged(folder, config)
-    else:
-        write_config(folder, config)
+    begin_or_resume(folder, config, resume)
     provenance = Provenance(folder, config, command)
     try:
         played = play_missing(config, folder, workers, notify, retry_failed)
@@ -120,15 +105,11 @@ def run_in(
 
 
 def play_missing(
-    config: ExperimentConfig,
-    folder: Path,
-    workers: int | None,
-    notify: Notify,
-    retry_failed: bool = False,
+    config: ExperimentConfig, folder: Path, workers: int | None, notify: Notify, retry: bool = False
 ) -> RunStatus:
     """Play every trial of `config` that `folder` has no record of; append them in their order.
 
-    With `retry_failed` those that failed are played, too, and their records replaced.
+    With `retry` those that failed are played, too, and their records replaced.
     Without a number of `workers` there are as many as the missing trials are worth; 0 plays them
     in this process. An interrupt ends the run early: what was finished is on record, and the run
     says so. `notify` is called once at the start and after every trial.
@@ -139,7 +120,7 @@ def play_missing(
     """
     specs = plan_trials(config)
     with TrialWriter(folder, specs) as writer:
-        failed = {} if retry_failed else {t: own[-1] for t, own in writer.failures.items()}
+        failed = {} if retry else {t: own[-1] for t, own in writer.failures.items()}
         done = writer.done.difference(writer.failures) | failed.keys()
         missing = [spec for spec in specs if spec.trial not in done]
         status = RunStatus(len(specs), len(specs) - len(missing), len(failed))
@@ -147,20 +128,16 @@ def play_missing(
         status.workers = workers_for(len(missing)) if workers is None else workers
         notify(status)
         if missing:
-            _play(missing, config, status, partial(_record, folder, writer, status), notify)
+            open_player = partial(player, config.link, config.name, config.limits.answer_s)
+            results = play_all(missing, status.workers, open_player)
+            _put_on_record(results, partial(_record, folder, writer, status), status, notify)
     return status
 
 
-def _play(
-    missing: Sequence[TrialSpec],
-    config: ExperimentConfig,
-    status: RunStatus,
-    record: Callable[[Result], None],
-    notify: Notify,
+def _put_on_record(
+    results: Results, record: Callable[[Result], None], status: RunStatus, notify: Notify
 ) -> None:
     """Put results on record in the order of the plan, whatever the order in which they come."""
-    open_player = partial(player, config.link, config.name, config.limits.answer_s)
-    results = play_all(missing, status.workers, open_player)
     early: dict[int, Result] = {}
     turn = 0
     try:

@@ -16,6 +16,9 @@ from testbed.environment import Observability, Pace
 from testbed.experiment.seeds import playing_order, short_hash, trial_seed
 from testbed.protocol import Knowledge
 
+BUDGETS = ("decision_s", "conflicts", "ground_rules", "expansions")
+"""Limits of a decision, which the robot is told of by the same names."""
+
 
 class FineSetting(msgspec.Struct, frozen=True, kw_only=True):
     """What trials at the fine resolution have of their own.
@@ -92,10 +95,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         rate=adversary.rate,
         step_limit=config.limits.steps,
         plan_limit=config.limits.plan,
-        decision_s=config.limits.decision_s,
-        conflicts=config.limits.conflicts,
-        ground_rules=config.limits.ground_rules,
-        expansions=config.limits.expansions,
+        **{name: getattr(config.limits, name) for name in BUDGETS},
         strategy=None if by_default else adversary.strategy,
         options=adversary.options or None,
         judge_states=config.limits.judge_states,

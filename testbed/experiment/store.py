@@ -1,4 +1,4 @@
-"""The records of a run: read from its folder, and appended to it as trials end.
+"""The records of a run: one line of JSON each, with its version and checksum, appended and read.
 
 Results of trials that failed before are kept beside the records until they take their places. A
 run that is killed meanwhile loses neither: the old records stay where they are, and the new ones
@@ -6,23 +6,117 @@ take their places when the run goes on.
 """
 
 import os
+import re
 import shlex
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import BinaryIO, Self
+from typing import BinaryIO, NamedTuple, Self
+from zlib import crc32
 
 import msgspec
 
-from testbed.experiment.encoding import TORN, encode, read_lines
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.recorder import strangeness
 from testbed.experiment.run_folder import TRIALS, naming, replace_lines
 from testbed.experiment.specs import TrialSpec
-from testbed.protocol import shortened
+from testbed.protocol import Count, literal_within_bounds, shortened
 from testbed.text import warn
 
 RETRIES = "retries.jsonl"
+MOST_BYTES = 4 * 2**20
+"""Of one record as a line."""
+VERSION = 1
+"""Of the keys of a record. Lines without a version, which older testbeds wrote, are 0."""
+SEAL = re.compile(rb'\{"version":(\d+),"crc32":"([0-9a-f]{8})",')
+"""How a line begins; the checksum is that of the rest of the line, a brace before it."""
+TORN = "torn"
+"""The fault of a line that does not end; it is the last one of its file."""
+
+
+class _Seal(msgspec.Struct):
+    """What a line says of itself, wherever in it."""
+
+    version: Count = 0
+    crc32: str | None = None
+    trial: str = ""
+
+
+class NewerVersionError(StoreError):
+    """A record that a newer testbed wrote: nothing is wrong with it, but it is not read here."""
+
+
+class Line(NamedTuple):
+    """A line of a file of records, with its record, or its fault where it is none."""
+
+    number: int
+    text: bytes
+    record: TrialRecord | None
+    fault: str | None
+
+
+# Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
+# once end the interpreter.
+_decoder = msgspec.json.Decoder(TrialRecord, dec_hook=literal_within_bounds)
+_seal = msgspec.json.Decoder(_Seal)
+
+
+def encode(record: TrialRecord) -> bytes:
+    """The record as one line of JSON with its version and checksum, newline included."""
+    body = msgspec.json.encode(record, enc_hook=str)
+    return b'{"version":%d,"crc32":"%08x",%s\n' % (VERSION, crc32(body), body[1:])
+
+
+def check(record: TrialRecord) -> None:
+    """Raise msgspec.ValidationError unless the record can be written and read again."""
+    line = encode(record)
+    if len(line) > MOST_BYTES:
+        message = f"a record of {len(line)} bytes; {MOST_BYTES} are the most"
+        raise msgspec.ValidationError(message)
+    decode(line)
+
+
+def decode(line: bytes) -> TrialRecord:
+    """The record in a line.
+
+    Raises:
+        msgspec.DecodeError: for anything else, and where the checksum is not that of the line.
+        NewerVersionError: for a record that a newer testbed wrote.
+    """
+    try:
+        _check_seal(line)
+        return _decoder.decode(line)
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise msgspec.DecodeError(str(error)) from error
+
+
+def _check_seal(line: bytes) -> None:
+    """A line without version and checksum is an older one, and is read as it is."""
+    told = SEAL.match(line)
+    if told is None:
+        seal = _seal.decode(line)
+        version, sound = seal.version, seal.crc32 is None
+    else:
+        version = int(told[1])
+        sound = int(told[2], 16) == crc32(b"{" + line[told.end() :].rstrip(b"\n"))
+    if not sound:
+        raise msgspec.DecodeError("its checksum (crc32) is not that of the line")
+    if version > VERSION:
+        newer = f"a record of version {version}, and this testbed reads up to {VERSION}"
+        raise NewerVersionError(f"{newer}; install the one that provenance.json names")
+
+
+def read_lines(path: Path) -> Iterator[Line]:
+    """The lines of a file of records. Raises StoreError for a record of a newer testbed."""
+    with path.open("rb") as file:
+        for number, text in enumerate(file, start=1):
+            try:
+                record, fault = (decode(text), None) if text.endswith(b"\n") else (None, TORN)
+            except msgspec.DecodeError as error:
+                record, fault = None, f"not a record of a trial: {error}"
+            except NewerVersionError as error:
+                raise StoreError(f"{path}:{number}: {error}") from None
+            yield Line(number, text, record, fault)
 
 
 def read_records(folder: Path, specs: Iterable[TrialSpec] | None = None) -> Iterator[TrialRecord]:
@@ -110,39 +204,25 @@ def settle(folder: Path) -> None:
     are dropped, which standard error says in one line. Raises StoreError for a record of
     a newer testbed.
     """
-    retries = folder / RETRIES
+    retries, trials = folder / RETRIES, folder / TRIALS
     if not retries.is_file():
         return
     again = {line.record.trial: line.text for line in read_lines(retries) if line.record}
-    (folder / TRIALS).touch()
-    replaced: set[str] = set()
-    with (folder / TRIALS).open("rb") as file:
-        replace_lines(folder / TRIALS, _replaced(file, again, replaced))
+    trials.touch()
+    with trials.open("rb") as file:
+        lost = sorted(again.keys() - set(map(_trial_of, file)))
+        file.seek(0)
+        replace_lines(trials, (again.get(_trial_of(line), line) for line in file))
     retries.unlink()
-    lost = sorted(again.keys() - replaced)
     if lost:
         more = f" and {len(lost) - 1} more" if len(lost) > 1 else ""
         which = f"trial {shortened(lost[0], 40)}{more}"
         warn(f"{retries}: dropped the results of {which}: no records to replace in {TRIALS}")
 
 
-def _replaced(lines: BinaryIO, again: Mapping[str, bytes], replaced: set[str]) -> Iterator[bytes]:
-    """The lines, with those of a retry in their places; the trials of these are put in a set."""
-    for line in lines:
-        trial = _trial_of(line)
-        replaced |= again.keys() & {trial}
-        yield again.get(trial, line)
-
-
-class _Named(msgspec.Struct):
-    """Of a record its id."""
-
-    trial: str
-
-
 def _trial_of(line: bytes) -> str:
     """The id of the trial that a line, damaged or not, is the record of; empty where unknown."""
     try:
-        return msgspec.json.decode(line, type=_Named).trial if line.endswith(b"\n") else ""
+        return _seal.decode(line).trial if line.endswith(b"\n") else ""
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return ""

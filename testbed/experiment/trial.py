@@ -1,22 +1,25 @@
-"""Play one trial: the world, an adversary and a robot behind its link; the record comes out."""
+"""A trial: its world, adversary and robot are set up, and it is played; its record comes out."""
 
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import lru_cache, partial
 
 import msgspec
 
-from agents.adversary import Adversary, AdversaryView, Script, Sight
-from asp.language import Action
-from testbed.environment import Core, IllegalActionError
-from testbed.experiment.encoding import check
+from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
+from asp.language import Action, Fluent, Literal
+from asp.refinement import Refinement
+from testbed.config import refinement_of_files, refinement_of_size
+from testbed.environment import Core, IllegalActionError, Rules, fine_core
+from testbed.experiment.adversaries import make_adversary
+from testbed.experiment.judge import Judge, Narrowing
 from testbed.experiment.record import Occurrence, Rejected
 from testbed.experiment.recorder import Recorder, Result
 from testbed.experiment.seeds import seeds_within
-from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial_setup import setup_of
+from testbed.experiment.specs import BUDGETS, Setting, TrialSpec
+from testbed.experiment.store import check
 from testbed.protocol import (
     NONE,
     NOT_UNDERSTOOD,
@@ -26,10 +29,12 @@ from testbed.protocol import (
     RobotGone,
     RobotLost,
     RobotStopped,
+    Task,
     in_one_line,
     shortened,
 )
 from testbed.text import listed
+from testbed.world import World, load_world, world_of
 
 
 @dataclass(frozen=True)
@@ -85,7 +90,7 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
 def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch | None) -> None:
     setup, goal, record = setup_of(spec.setting), spec.setting.goal, recorder.record
     for_world, for_adversary, for_robot = seeds_within(spec.seed)
-    core = setup.core(spec.setting)
+    recorder.costs, core = setup.costs, setup.core(spec.setting)
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
     least = partial(setup.judge.minimal, core.situation.state, goal, spec.setting.judge_states)
     adversary = setup.adversary(spec)
@@ -93,7 +98,7 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     try:
         client.begin(setup.task(spec, core.situation.state, for_robot))
         while core.situation.ending is None:
-            moment = _step(core, client, adversary, recorder, setup.costs)
+            moment = _step(core, client, adversary, recorder)
             if watch is not None:
                 watch(moment)
     except RobotGone:
@@ -112,13 +117,7 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
         record.reason = f"script {listed(left)} {'were' if len(left) > 1 else 'was'} not reached"
 
 
-def _step(
-    core: Core,
-    client: RobotClient,
-    adversary: Adversary,
-    recorder: Recorder,
-    costs: Mapping[str, int],
-) -> Moment:
+def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recorder) -> Moment:
     before, percept, record = core.situation, core.percept, recorder.record
     decision = client.ask(percept)
     if decision.action not in core.robot_actions:
@@ -130,7 +129,7 @@ def _step(
         record.rejected.append(Rejected(before.step, impossible, shortened(why)))
     core.advance(decision.action, event)
     after = core.situation
-    recorder.step(decision, after.happened, costs)
+    recorder.step(decision, after.happened)
     exogenous = None if event == NONE else event
     if exogenous is not None:
         record.exogenous.append(Occurrence(before.step, exogenous, observed=False))
@@ -148,3 +147,108 @@ def _view(core: Core, robot_action: Action, sees: Sequence[Sight]) -> AdversaryV
         legal=core.legal_events(robot_action),
         physical=sees_action and core.is_physical(robot_action),
     )
+
+
+class TrialSetup:
+    """The setup of trials in a domain as it is described; it is reused across them.
+
+    `costs` are the execution units of the actions that a record counts, and `judge` knows the
+    fewest of them, and of their units.
+    """
+
+    def __init__(self, world: World) -> None:
+        self.costs = world.description.costs
+        self.judge = Judge(lambda state, goal: (world, state, goal), self.costs)
+        self._world, self._source = world, world.description.source
+        self._exogenous = world.exogenous_actions
+
+    def core(self, setting: Setting) -> Core:
+        """A new game."""
+        return Core(self._world, _rules(setting), ())
+
+    def adversary(self, spec: TrialSpec) -> Adversary:
+        """The script, or the strategy that the setting has."""
+        game = Game(
+            scenario=spec.scenario,
+            goal=spec.setting.goal,
+            exogenous_actions=self._exogenous,
+            description=self._world.description,
+        )
+        return make_adversary(spec.setting, game)
+
+    def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
+        """What the robot is told of a trial that begins in `state`."""
+        setting, world = spec.setting, self._world
+        complete = setting.knowledge == "complete"
+        robot = world.description.robots[0]
+        return Task(
+            trial=spec.trial,
+            robot=spec.robot,
+            domain=spec.domain,
+            source=self._source,
+            goal=[*map(Literal.parse, setting.goal)],
+            initial=list(world.literals(state) if complete else world.visible(state, robot)),
+            plan_limit=setting.plan_limit,
+            seed=seed,
+            **{name: getattr(setting, name) for name in BUDGETS},
+        )
+
+
+class FineTrialSetup(TrialSetup):
+    """The setup in a refined domain: the game is of cells and parts, costs and goals are coarse."""
+
+    def __init__(self, refinement: Refinement) -> None:
+        description, coarse = refinement.description, refinement.coarse
+        super().__init__(world_of(description))
+        self._refinement, self._source = refinement, coarse.text
+        self._fine = world_of(refinement)
+        self._exogenous = self._fine.exogenous_actions
+        narrowing = Narrowing(description, coarse, refinement.coarse_signature)
+        self.judge = Judge(
+            lambda state, goal: narrowing.problem(self._coarse_atoms(state), goal), self.costs
+        )
+        inertial, robot = self._fine.description.inertial, description.robots[0]
+        self._about_robot = [fluent for fluent in inertial if robot in fluent.arguments]
+
+    def core(self, setting: Setting) -> Core:
+        """A new game, with the setting's statistics and pace."""
+        assert setting.fine is not None
+        statistics, pace = setting.fine.statistics, setting.fine.pace
+        return fine_core(self._refinement, _rules(setting), statistics, pace=pace)
+
+    def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
+        """As of the coarse state, and of the fine one the inertial literals about the robot."""
+        true = frozenset(self._fine.true_atoms(state))
+        own = [fluent if fluent in true else fluent.complement for fluent in self._about_robot]
+        task = super().task(spec, self._world.state(self._coarse_atoms(state)), seed)
+        return msgspec.structs.replace(task, refinement=self._refinement.text, initial_fine=own)
+
+    def _coarse_atoms(self, state: int) -> frozenset[Fluent]:
+        return frozenset(self._fine.true_atoms(state)).intersection(self._world.fluents)
+
+
+def setup_of(setting: Setting) -> TrialSetup:
+    """The setup of a setting; its world is loaded once. Raises what `asp.load_description` does."""
+    return _coarse(setting.domain) if setting.fine is None else _fine(refinement_of(setting))
+
+
+def refinement_of(setting: Setting) -> Refinement:
+    """The descriptions of a setting of the fine resolution. Raises SourceError and OSError."""
+    assert setting.fine is not None
+    if setting.fine.size is not None:
+        return refinement_of_size(setting.fine.size)
+    return refinement_of_files(setting.domain, setting.fine.refinement or "")
+
+
+def _rules(setting: Setting) -> Rules:
+    return Rules(
+        goal=setting.goal,
+        steps=setting.step_limit,
+        observability=setting.observability,
+        goal_feedback=setting.goal_feedback,
+        exogenous_while_thinking=setting.exogenous_while_thinking,
+    )
+
+
+_coarse = lru_cache(maxsize=8)(lambda domain: TrialSetup(load_world(domain)))
+_fine = lru_cache(maxsize=16)(FineTrialSetup)

@@ -6,10 +6,10 @@ zenoh both are the same.
 """
 
 import traceback
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 
-from asp.language import Literal
 from testbed.protocol import (
+    FINISH,
     MOST_BYTES,
     NOT_UNDERSTOOD,
     Decision,
@@ -17,6 +17,7 @@ from testbed.protocol import (
     Percept,
     Question,
     Robot,
+    RobotClient,
     RobotFactory,
     RobotLost,
     RobotStopped,
@@ -58,7 +59,7 @@ class Desk:
             stopped = Decision(
                 trial=percept.trial,
                 step=percept.step,
-                action=Literal.of("finish"),
+                action=FINISH,
                 believes_goal=False,
                 trace=Trace(),
                 stopped=shortened(str(reason)),
@@ -66,8 +67,8 @@ class Desk:
             return encode(stopped)
 
 
-class Client(ABC):
-    """The driver's side, a RobotClient: the task of a trial goes out with its first percept."""
+class Client(RobotClient):
+    """The driver's side: the task of a trial goes out with its first percept."""
 
     _task: Task | None = None
 
@@ -96,10 +97,6 @@ class Client(ABC):
         if decision.stopped is not None:
             raise RobotStopped(decision.stopped)
         return decision
-
-    @abstractmethod
-    def close(self) -> None:
-        """Let go of the robot."""
 
     @abstractmethod
     def _answer(self, trial: str, question: bytes) -> bytes:

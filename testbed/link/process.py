@@ -143,12 +143,11 @@ class SpawnedRobot:
             self.process = self._belongings.enter_context(closing(process))
             remote = RemoteRobot(self.session, self.run, name, self.answer_s)
             self._belongings.enter_context(closing(remote))
-            glances = round(START_S / _GLANCE_S)
+            glances = count(1)
             while not remote.wait(_GLANCE_S):
-                glances -= 1
                 if process.ending() is not None:
                     raise RobotGone("robot ended before it was there")
-                if glances == 0:
+                if next(glances) * _GLANCE_S >= START_S:
                     raise RobotGone(f"robot did not start within {START_S:g} s")
             self._remote = remote
         return self._remote

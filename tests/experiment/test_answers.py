@@ -10,12 +10,11 @@ from msgspec import inspect
 
 from asp.language import Literal
 from testbed.analysis.table import export
-from testbed.experiment.encoding import encode
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import Result
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.store import TrialWriter, read_records
+from testbed.experiment.store import TrialWriter, encode, read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, Task

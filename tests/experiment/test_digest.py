@@ -7,8 +7,9 @@ import pytest
 from typer.testing import CliRunner
 
 from testbed.cli import app
-from testbed.experiment.digest import TIMES, digest
+from testbed.experiment.digest import digest
 from testbed.experiment.record import (
+    TIMES,
     Activity,
     At,
     Attempt,

@@ -15,17 +15,17 @@ from pathlib import Path
 import pytest
 
 from testbed.config import ConfigError, ExperimentConfig, load_config
-from testbed.experiment import StoreError, read_config, run
+from testbed.experiment import StoreError, run
 from testbed.experiment.digest import logical
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import Result, blank_record
 from testbed.experiment.robots import make_robot
+from testbed.experiment.run_folder import read_config
 from testbed.experiment.runner import RunStatus, play_missing, player
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import Moment, play_trial
-from testbed.experiment.worker import Play
-from testbed.experiment.worker_pool import WORTH, play_all, workers_for
+from testbed.experiment.worker_pool import WORTH, Play, play_all, workers_for
 from testbed.link import spawned_robot
 from testbed.protocol import Robot
 from tests.experiment.samples import Configure, ids
@@ -269,7 +269,7 @@ def test_a_crew_larger_than_its_work_plays_each_trial_once(configure: Configure)
 def test_there_is_a_worker_a_core_where_each_has_enough_to_play(
     cores: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("testbed.experiment.worker_pool._cores", lambda: cores)
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: range(cores), raising=False)
     trials = range(10 * WORTH)
     for n in trials:
         assert 1 <= workers_for(n) <= cores
@@ -282,7 +282,7 @@ def test_a_run_without_a_number_of_workers_chooses_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: int | None, cores: int, used: int
 ) -> None:
     """The choice is for what is missing: a trial that is left over has one worker."""
-    monkeypatch.setattr("testbed.experiment.worker_pool._cores", lambda: cores)
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: range(cores), raising=False)
     monkeypatch.setattr("testbed.experiment.runner.player", _instantly)
     config = load_config("office", ["link=inprocess", "scenarios=[1]", f"limit={WORTH}"])
     assert play_missing(config, tmp_path, given, _ignore).workers == used

@@ -9,7 +9,6 @@ import yaml
 
 import asp
 from testbed.config import AdversarySettings, ExperimentConfig, Limits, load_config
-from testbed.experiment.encoding import decode, encode
 from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.run_folder import (
@@ -21,7 +20,7 @@ from testbed.experiment.run_folder import (
     replace_text,
     write_config,
 )
-from testbed.experiment.store import TrialWriter, read_records
+from testbed.experiment.store import TrialWriter, decode, encode, read_records
 from tests.experiment.samples import Configure, a_record, ids
 
 

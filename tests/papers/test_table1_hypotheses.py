@@ -13,11 +13,10 @@ from papers.table1.released import released
 from papers.table1.runs import read_run, told_name, told_order
 from testbed.config import load_config
 from testbed.experiment.digest import digest
-from testbed.experiment.encoding import encode
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import Activity, Attempt, TrialRecord
 from testbed.experiment.run_folder import write_config
-from testbed.experiment.store import read_records
+from testbed.experiment.store import encode, read_records
 from testbed.studies.table1.published import MEASURES, PUBLISHED, SCENARIOS
 from testbed.world import load_world
 from tests.experiment.samples import a_record

@@ -12,13 +12,13 @@ from pathlib import Path
 import pytest
 import zenoh
 
-from testbed.experiment import serving
+from testbed.cli.robot import USUAL
 from testbed.link import RemoteRobot, endpoint, open_driver
 
 pytestmark = pytest.mark.load
 
 PATIENCE_S = 600.0
-SERVE = "import sys; from testbed.experiment import serving; {setting}; serving.serve_robot({call})"
+SERVE = "import sys; from testbed.cli import robot; {setting}; robot.command({call})"
 
 
 @contextmanager
@@ -49,7 +49,7 @@ def test_without_options_it_serves_the_usual_endpoint_as_often_as_somebody_is_th
 ) -> None:
     with open_driver() as session:
         usual = endpoint(session)
-    with _serving("None, 'rob', None", f"serving.USUAL = '{usual}'") as process:
+    with _serving("None, 'rob', None", f"robot.USUAL = '{usual}'") as process:
         monkeypatch.setattr("testbed.link.session.LOOPBACK", usual)
         for _ in range(2):
             with open_driver() as session:
@@ -58,7 +58,7 @@ def test_without_options_it_serves_the_usual_endpoint_as_often_as_somebody_is_th
 
 
 def test_the_usual_endpoint_is_that_of_a_router() -> None:
-    assert serving.USUAL == "tcp/127.0.0.1:7447"
+    assert USUAL == "tcp/127.0.0.1:7447"
 
 
 @pytest.mark.parametrize("by_mode", [False, True])
