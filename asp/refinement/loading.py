@@ -12,7 +12,6 @@ from asp.language import (
     analyse,
     check,
     check_cycles,
-    functions,
     packaged_domains,
     parse,
     read_domain,
@@ -21,18 +20,9 @@ from asp.language import (
     static_truth,
     syntax,
 )
-from asp.refinement.language import (
-    Components,
-    Counterpart,
-    Mistakes,
-    Refines,
-    TestsStatement,
-    Vocabulary,
-    parse_fine,
-    vocabulary_of,
-)
+from asp.refinement.language import Refines, parse_fine, vocabulary_of
 from asp.refinement.maps import check_maps
-from asp.refinement.observation import observation_text, tested_fluents
+from asp.refinement.observation import observation_text, tested_fluents, untested
 from asp.refinement.refinement import Refinement
 from asp.refinement.refining import weak_text
 
@@ -56,7 +46,7 @@ def load(coarse_text: str, coarse_file: str, text: str, file: str) -> Refinement
     statics, _ = static_truth(weak, weak_signature)
     check_maps(fine, coarse, vocabulary, statics, problems)
     tested = tested_fluents(fine, weak_signature, problems)
-    problems.report_all(_left_unsaid(fine, coarse, vocabulary))
+    problems.report_all(untested(fine, vocabulary))
     problems.raise_first()
     strong = _with(weak, observation_text(fine, vocabulary, tested))
     strong_signature = _signature(strong, fine)
@@ -142,30 +132,3 @@ def _coarse(file: str, text: str) -> tuple[str, str]:
         return read_domain(str(beside) if beside.is_file() else named.name)
     except FileNotFoundError as error:
         raise SourceError(file, named.place.line, named.place.column, str(error)) from None
-
-
-def _left_unsaid(fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary) -> Mistakes:
-    """Fluents that nobody can test, and wholes whose parts could part.
-
-    Of a fluent with a counterpart a robot knows what tests tell. A thing that is in one place at
-    most is not, if nothing is said of its components.
-    """
-    symbols, components = vocabulary.coarse.symbols, vocabulary.components
-    tested = {statement.fluent.name for statement in fine.each(TestsStatement)}
-    for statement in fine.each(Counterpart):
-        name = statement.symbol.name
-        counterpart = vocabulary.counterparts[name]
-        if symbols[name].kind == "inertial" and counterpart not in tested:
-            say = f"say in tests when a robot tests '{counterpart}'"
-            yield statement.place, f"'{name}' has a counterpart that nobody can test; {say}"
-    said = {law.head.atom.name for law in fine.each(syntax.StateConstraint) if law.head.positive}
-    listed = {statement.whole.name: statement.place for statement in fine.each(Components)}
-    for name, function in functions(coarse, vocabulary.coarse).items():
-        counterpart = vocabulary.counterparts.get(name, "")
-        others = (sort.name for sort in function.others(symbols[name].sorts))
-        members = (member for sort in others for member in vocabulary.coarse.sorts[sort])
-        whole = next((one for one in members if len(components[one]) > 1), None)
-        if counterpart and counterpart not in said and whole is not None:
-            several = f"has one value of '{name}' at most, and its components could have several"
-            add = f"add a law by which they share '{counterpart}'"
-            yield listed[whole], f"'{whole}' {several}; {add}"

@@ -7,7 +7,7 @@ condition, as `next_to` does where nothing moves between places that are not nex
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 
-from asp.language import Literal, Problems, reachable, syntax
+from asp.language import Literal, Problems, functions, reachable, syntax
 from asp.language import variable_sorts as roles
 from asp.refinement.language import Components, Magnification, Mistakes, Vocabulary
 
@@ -21,10 +21,28 @@ def check_maps(
     statics: frozenset[Literal],
     problems: Problems,
 ) -> None:
-    """Reports where a fine map does not fit the coarse one, at a place of the refinement's text."""
+    """Reports where a fine map does not fit the coarse one, and wholes whose parts could part.
+
+    The places are those of the refinement's text.
+    """
     for static in _ways(coarse, vocabulary):
-        for place, message in _Map(static, fine, vocabulary, statics).mistakes():
-            problems.report(place, message)
+        problems.report_all(_Map(static, fine, vocabulary, statics).mistakes())
+    problems.report_all(_parting(fine, coarse, vocabulary))
+
+
+def _parting(fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary) -> Mistakes:
+    """Wholes in one place at most, of whose components nothing says that they share it."""
+    said = {law.head.atom.name for law in fine.each(syntax.StateConstraint) if law.head.positive}
+    listed = {statement.whole.name: statement.place for statement in fine.each(Components)}
+    for name, function in functions(coarse, vocabulary.coarse).items():
+        counterpart = vocabulary.counterparts.get(name)
+        sorts = function.others(vocabulary.coarse.symbols[name].sorts)
+        members = (member for sort in sorts for member in vocabulary.coarse.sorts[sort.name])
+        whole = next((one for one in members if len(vocabulary.components[one]) > 1), None)
+        if whole is not None and counterpart is not None and counterpart not in said:
+            several = f"has one value of '{name}' at most, and its components could have several"
+            add = f"add a law by which they share '{counterpart}'"
+            yield listed[whole], f"'{whole}' {several}; {add}"
 
 
 def _ways(coarse: syntax.Source, vocabulary: Vocabulary) -> list[str]:

@@ -6,7 +6,7 @@ from functools import cached_property
 from itertools import chain
 
 from asp.language import Problems, Signature, syntax, text_of, variable_domains
-from asp.refinement.language import COMPONENT, TestsStatement, Vocabulary
+from asp.refinement.language import COMPONENT, Counterpart, Mistakes, TestsStatement, Vocabulary
 from asp.refinement.refining import law_section, section, shared_places
 
 OUTCOME, TRUE, FALSE = "outcome", "true", "false"
@@ -39,6 +39,17 @@ class Tested:
     def said(self, prefix: str, *last: str) -> str:
         """What is said of the test, or is observed, in laws."""
         return _atom(prefix + self.fluent, "R", *self.others(self.terms), *last)
+
+
+def untested(fine: syntax.Source, vocabulary: Vocabulary) -> Mistakes:
+    """The fluents with counterparts that nobody can test: a robot knows of them what tests tell."""
+    tested = {statement.fluent.name for statement in fine.each(TestsStatement)}
+    for statement in fine.each(Counterpart):
+        name = statement.symbol.name
+        counterpart = vocabulary.counterparts[name]
+        if vocabulary.coarse.symbols[name].kind == "inertial" and counterpart not in tested:
+            say = f"say in tests when a robot tests '{counterpart}'"
+            yield statement.place, f"'{name}' has a counterpart that nobody can test; {say}"
 
 
 def tested_fluents(fine: syntax.Source, weak: Signature, problems: Problems) -> list[Tested]:

@@ -79,7 +79,7 @@ class ReferenceFineKnowledge:
         wholes = self._refinement.wholes
         named = (wholes.get(name, name) for literal in literals for name in literal.arguments)
         whole = frozenset([*about, *named])
-        program = self._programs.get(whole, lambda: self._make_program(whole))
+        program = self._programs.get(whole, lambda: inference_program(self._refinement, whole))
         texts = [program, theory("fine_inference")]
         facts = list(_facts(known, seen))
         for most in range(len(literals) + 1):
@@ -105,15 +105,6 @@ class ReferenceFineKnowledge:
         inferred = self.infer(known, [], about).coarse
         return frozenset(literal for literal in inferred if literal.atom in fluents)
 
-    def _make_program(self, about: frozenset[str]) -> str:
-        refinement = self._refinement
-        parts = {part for whole in about for part in refinement.components[whole]}
-        every = refinement.weak_signature.constants
-        gone = every.difference(about, parts)
-        source = restrict(refinement.weak, gone)
-        statics = [s for s in refinement.statics if gone.isdisjoint(s.arguments)]
-        return inference_program(source, narrowed(refinement.weak_signature, gone), statics)
-
 
 def _facts(known: Known, seen: Iterable[Collection[str]]) -> Iterator[Symbol]:
     for fluents, truth in ((known.true, "true"), (known.false, "false")):
@@ -136,10 +127,8 @@ def _read(model: Iterable[Symbol]) -> Inferred:
     return Inferred(known, frozenset(found["possible"]), frozenset(coarse))
 
 
-def inference_program(
-    source: syntax.Source, signature: Signature, statics: Iterable[Literal]
-) -> str:
-    """The rules for a description (D_f, perhaps restricted) over holds(F,I), I a `step`.
+def inference_program(refinement: Refinement, about: frozenset[str]) -> str:
+    """The rules for what D_f says of some coarse constants, over holds(F,I), I a `step`.
 
     Completed by `asp/theories/fine_inference.lp`. Each state constraint derives its head from what
     is known of its body. One with a single fluent as condition also speaks the other way: if its
@@ -148,16 +137,18 @@ def inference_program(
     bridge(F,G) says that the defined fluent F is true where G is; it is there of fluents whose
     every law has one fluent, to be true, as its condition.
     """
+    parts = {part for whole in about for part in refinement.components[whole]}
+    gone = refinement.weak_signature.constants.difference(about, parts)
+    source, signature = restrict(refinement.weak, gone), narrowed(refinement.weak_signature, gone)
+    statics = [s for s in refinement.statics if gone.isdisjoint(s.arguments)]
     every = source.each(syntax.StateConstraint)
     laws = [law for law in every if _kind(law.head, signature) != "static"]
     defining = [law for law in laws if _kind(law.head, signature) == "defined"]
     inertial = [d for d in source.each(syntax.Declaration) if d.kind == "inertial"]
+    sorts = signature.sorts.items()
     return "\n".join(
         [
-            *(
-                f"{s}({'; '.join(m)})." if m else f"#defined {s}/1."
-                for s, m in signature.sorts.items()
-            ),
+            *(f"{s}({'; '.join(m)})." if m else f"#defined {s}/1." for s, m in sorts),
             *_static_rules(statics, laws, signature),
             *(line for law in laws for line in _derivations(law, signature)),
             *_bridges(defining, signature),
@@ -182,27 +173,19 @@ def _derivation(law: syntax.StateConstraint, signature: Signature) -> str:
 
 def _bridges(laws: Laws, signature: Signature) -> Iterator[str]:
     """bridge(F,G) for the instances of laws `F if G`, of whose heads all laws are like that."""
-    others = {law.head.atom.name for law in laws if not _is_bridge(law, signature)}
-    for law in laws:
+    found = [(law, _fluents(law, signature)) for law in laws]
+    others = {law.head.atom.name for law, own in found if [f.positive for f in own] != [True]}
+    for law, fluents in found:
         if law.head.atom.name not in others:
-            (fluent,) = _fluents(law, signature)
-            body = [condition(part, signature) for part in law.body if part is not fluent]
-            head = f"bridge({law.head.atom},{fluent.atom})"
-            yield rule(head, [*body, *sort_conditions(law, signature)])
-
-
-def _is_bridge(law: syntax.StateConstraint, signature: Signature) -> bool:
-    return law.head.positive and [f.positive for f in _fluents(law, signature)] == [True]
+            body = [condition(part, signature) for part in law.body if part not in fluents]
+            body += sort_conditions(law, signature)
+            yield rule(f"bridge({law.head.atom},{fluents[0].atom})", body)
 
 
 def _static_rules(statics: Iterable[Literal], laws: Laws, signature: Signature) -> Iterator[str]:
     """The statics that laws speak of, closed where a law asks for one to be false."""
-    asked = [
-        part
-        for law in laws
-        for part in roles.literals(law.body)
-        if _kind(part, signature) == "static"
-    ]
+    parts = (part for law in laws for part in roles.literals(law.body))
+    asked = [part for part in parts if _kind(part, signature) == "static"]
     named = {literal.atom.name for literal in asked}
     for symbol in sorted(named):
         yield f"#defined {symbol}/{len(signature.symbols[symbol].sorts)}."

@@ -126,14 +126,12 @@ def _within(confined: Sequence[Mapping[str, Sequence[str]]]) -> Iterator[str]:
 
 def _prefer(control: clingo.Control, actions: Mapping[Action, int]) -> None:
     """Earlier steps count before later ones, and actions in the order of declaration."""
-    occurring = sorted(
-        (
-            found.symbol.arguments[1].number,
-            actions[literal_of(found.symbol.arguments[0])],
-            found.literal,
-        )
-        for found in control.symbolic_atoms.by_signature("occurs", 2)
-    )
+    occurring = []
+    for found in control.symbolic_atoms.by_signature("occurs", 2):
+        action, step = found.symbol.arguments
+        occurring.append((step.number, actions[literal_of(action)], found.literal))
     with control.backend() as backend:
-        for level, (_, _, literal) in zip(range(MOST_LEVELS, 0, -1), occurring, strict=False):
+        for level, (_, _, literal) in zip(
+            range(MOST_LEVELS, 0, -1), sorted(occurring), strict=False
+        ):
             backend.add_heuristic(literal, clingo.HeuristicType.True_, level, level, [])
