@@ -66,7 +66,8 @@ class Rewriting:
                 pass
             case syntax.ShowsStatement(action=action) if self._concerns(action):
                 action = renaming.atom(action)
-                renaming.note(law.fluent, *(part.atom for part in roles.literals(law.body)))
+                atoms = (law.fluent, *(part.atom for part in roles.literals(law.body)))
+                renaming.note(term for atom in atoms for term in atom.args)
                 yield replace(law, action=action, body=(*renaming.links(), *law.body)), REFINED
             case _:
                 yield law, KEPT
@@ -161,5 +162,5 @@ class Rewriting:
                 renaming.atom(action) if self._concerns(action) else action
                 for action in law.actions
             )
-            renaming.note(*(part.atom for part in roles.literals(body)))
+            renaming.note(term for part in roles.literals(body) for term in part.atom.args)
             yield replace(law, actions=actions, body=(*renaming.links(), *body)), LIFTED

@@ -7,27 +7,23 @@ condition, as `next_to` does where nothing moves between places that are not nex
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 
-from asp.language import Literal, Problems, functions, reachable, syntax
+from asp.language import Literal, functions, reachable, syntax
 from asp.language import variable_sorts as roles
 from asp.refinement.language import Components, Magnification, Mistakes, Vocabulary
 
 Pairs = frozenset[tuple[str, str]]
 
 
-def check_maps(
-    fine: syntax.Source,
-    coarse: syntax.Source,
-    vocabulary: Vocabulary,
-    statics: frozenset[Literal],
-    problems: Problems,
-) -> None:
-    """Reports where a fine map does not fit the coarse one, and wholes whose parts could part.
+def map_mistakes(
+    fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary, statics: frozenset[Literal]
+) -> Mistakes:
+    """Where a fine map does not fit the coarse one, and wholes whose parts could part.
 
     The places are those of the refinement's text.
     """
     for static in _ways(coarse, vocabulary):
-        problems.report_all(_Map(static, fine, vocabulary, statics).mistakes())
-    problems.report_all(_parting(fine, coarse, vocabulary))
+        yield from _Map(static, fine, vocabulary, statics).mistakes()
+    yield from _parting(fine, coarse, vocabulary)
 
 
 def _parting(fine: syntax.Source, coarse: syntax.Source, vocabulary: Vocabulary) -> Mistakes:

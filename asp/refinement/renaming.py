@@ -78,7 +78,7 @@ class Renaming:
         if atom.name in self._vocabulary.coarse.sorts and self._is_only_inside(atom.args[0]):
             name = self._vocabulary.fine_sort(atom.name)
             return replace(atom, name=name, args=(self.fine(atom.args[0]),))
-        self.note(atom)
+        self.note(atom.args)
         return atom
 
     def literal(self, literal: syntax.Literal) -> syntax.Literal:
@@ -111,11 +111,8 @@ class Renaming:
         self._others.append(component(other, term))
         return other
 
-    def note(self, *atoms: syntax.Atom) -> None:
-        """Notes the wholes of which these atoms speak: their components are tied to them."""
-        self._note(term for atom in atoms for term in atom.args)
-
-    def _note(self, terms: Iterable[syntax.Term]) -> None:
+    def note(self, terms: Iterable[syntax.Term]) -> None:
+        """Notes the wholes among terms of which a law speaks: their components are tied to them."""
         self._wholes |= {term.name: None for term in terms if self.is_magnified(term)}
 
     def links(self) -> syntax.Body:
@@ -135,7 +132,7 @@ class Renaming:
         if all(side.is_variable and self._is_only_inside(side) for side in sides):
             left, right = map(self.fine, sides)
             return replace(comparison, left=left, right=right)
-        self._note(sides)
+        self.note(sides)
         return comparison
 
     def _new_name(self, term: syntax.Term) -> str:

@@ -3,7 +3,6 @@
 from asp.reasoning.fine_planning.incremental import Horizons, IncrementalFinePlanner, fine_planner
 from asp.reasoning.fine_planning.reference import (
     FinePlan,
-    FinePlanner,
     FineStart,
     LiteralProblem,
     NoPlan,
@@ -12,7 +11,6 @@ from asp.reasoning.fine_planning.reference import (
 
 __all__ = [
     "FinePlan",
-    "FinePlanner",
     "FineStart",
     "Horizons",
     "IncrementalFinePlanner",
