@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import partial
 
 from asp import Description
@@ -19,20 +19,19 @@ from asp.language import (
 from asp.reasoning.diagnosis import cannot_hold, never_together
 from asp.refinement import Refinement
 from asp.translation import translate
-from testbed.config.levels import drawn_findings, map_findings, refinements, settings_findings
-from testbed.config.models import GOAL, ExperimentConfig, ScenarioSettings
+from testbed.config.levels import map_findings, refinements, settings_findings
+from testbed.config.models import GOAL, Drawing, ExperimentConfig, ScenarioSettings
 from testbed.config.places import (
     ConfigError,
+    Diction,
     Finding,
     Key,
     Places,
-    lines_of,
-    lines_of_the_domain,
-    lines_of_the_map,
-    unknown_atom,
-    without_left_out,
+    dotted,
+    literal_findings,
 )
 from testbed.config.scenarios import scenario_findings, scenarios_of, script_findings
+from testbed.config.values import NONE
 from testbed.world import StateError, World, world_of
 
 Check = Callable[[ExperimentConfig], Iterable[Finding]]
@@ -43,15 +42,8 @@ NO_ROBOT = (
     "in its section 'sees' write for example: R sees f(X) if robot(R)."
 )
 """What is wrong with a domain without `sees`: the robot is the one that sees."""
-FLUENTS = ("inertial", "defined")
-
-
-@dataclass(frozen=True)
-class Diction:
-    """What literals are given in; `check` raises StateError for those that are in no state."""
-
-    signature: Signature
-    check: Callable[[Sequence[Literal]], object]
+OF_THE_DOMAIN = ("goal", "initial", "scenarios", "scenario_settings", "script", "observability")
+"""What is said in the words of a domain."""
 
 
 def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> None:
@@ -65,7 +57,7 @@ def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> 
         *(found for own in checks for found in own(config)),
     ]
     if config.is_fine:
-        lines = lines_of(findings, places) + _of_the_levels(config, places)
+        lines = places.lines(findings) + _of_the_levels(config, places)
     else:
         with _texts_read(places, "domain"):
             file, text = read_domain(config.domain)
@@ -73,10 +65,8 @@ def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> 
         description, (_, signature) = parse_description(text, file), analyse(text, file)
         alone = "goes with levels, or with a refinement, and there are none"
         fine = [key for key in ("level_sizes", "statistics") if getattr(config, key)]
-        lines = lines_of([*findings, *(((key,), alone) for key in fine)], places)
-        findings = list(_domain_findings(config, description, signature))
-        findings = without_left_out(findings, places)
-        lines += lines_of_the_domain(config, findings, places, description.scenarios)
+        lines = places.lines([*findings, *(((key,), alone) for key in fine)])
+        lines += _of_the_domain(config, places, description, signature)
     if lines:
         raise ConfigError(lines)
 
@@ -87,15 +77,21 @@ def _of_the_levels(config: ExperimentConfig, places: Places) -> list[str]:
     Raises ConfigError for mistakes in the texts of a map.
     """
     if findings := list(settings_findings(config)):
-        return lines_of(findings, places)
+        return places.lines(findings)
     with _texts_read(places, "refinement"):
         if config.refinement is not None:
             check_one_robot(*reversed(read_domain(config.domain)))
         if findings := list(map_findings(config)):
-            return lines_of(findings, places)
+            return places.lines(findings)
         for _, refinement in refinements(config):
             if findings := list(_level_findings(config, refinement)):
-                return lines_of_the_map(findings, places)
+                foreign = {
+                    dotted(key[:2]) if key[0] == "draw" else str(key[0]): message.partition(";")[0]
+                    for key, message in reversed(findings)
+                    if not places.is_overridden(key)
+                }
+                wanted = [f"{key} ({why})" for key, why in reversed(foreign.items())]
+                return places.lines_of_another("refinement", wanted, findings)
     return []
 
 
@@ -108,6 +104,35 @@ def _texts_read(places: Places, key: str) -> Iterator[None]:
         raise ConfigError([str(mistake) for mistake in error.all]) from None
     except OSError as error:
         raise ConfigError([f"{places.of((key,))}: {error.strerror or error}"]) from None
+
+
+def _of_the_domain(
+    config: ExperimentConfig, places: Places, description: Description, signature: Signature
+) -> list[str]:
+    """Lines of what the domain does not know.
+
+    Scenarios that the file has settings of need not be known where others are played instead.
+    """
+    others_played = places.is_overridden(("scenarios",))
+    findings = [
+        (key, message)
+        for key, message in _domain_findings(config, description, signature)
+        if not (others_played and key[0] == "scenario_settings" and len(key) == 2)
+        or places.is_overridden(key)
+    ]
+    # What would fit this domain by chance is named, too: it was not meant for it.
+    written = [key for key in OF_THE_DOMAIN if _is_written(key, config)]
+    foreign = {key: key for key in written if not places.is_overridden((key,))}
+    if "scenarios" in foreign and not description.scenarios:
+        foreign["scenarios"] += f" (it has none: {NONE})"
+    return places.lines_of_another("domain", foreign.values(), findings)
+
+
+def _is_written(key: str, config: ExperimentConfig) -> bool:
+    """Whether the configuration says something; settings of a scenario left out say nothing."""
+    if key == "scenario_settings" and config.scenarios:
+        return not config.scenario_settings.keys().isdisjoint(config.scenarios)
+    return bool(getattr(config, key))
 
 
 def _domain_findings(
@@ -154,7 +179,7 @@ def _level_findings(config: ExperimentConfig, refinement: Refinement) -> Iterato
     if not refinement.description.robots:
         yield ("domain",), NO_ROBOT
     if not config.goal:
-        yield from drawn_findings(config.draw, coarse)
+        yield from _drawn_findings(config.draw, coarse)
     why = "no such action at this resolution"
     yield from _names(("observability",), config.observability, weak, "exogenous", why)
     yield from _names(("statistics",), config.statistics, refinement.strong_signature, "agent", why)
@@ -163,33 +188,25 @@ def _level_findings(config: ExperimentConfig, refinement: Refinement) -> Iterato
     yield from _said((), config, goals, states)
 
 
+def _drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:
+    """What is wrong with the goal that is drawn; in one line, where it is the one by default."""
+    instead_of_constants = {sort: (sort, *signature.sorts) for sort in signature.sorts}
+    patterns = Diction(replace(signature, sorts=instead_of_constants), lambda _: None)
+    findings = list(literal_findings(("draw", "goal"), draw.goal, patterns))
+    if findings and "goal" not in draw.model_fields_set:
+        why, sorts = findings[0][1].partition(";")[0], ", ".join(signature.sorts)
+        by_default = f"is by default {', '.join(draw.goal)}, which does not fit this domain: {why}"
+        findings = [(("draw", "goal"), f"{by_default}; give a goal with its sorts: {sorts}")]
+    yield from findings
+
+
 def _said(
     key: Key, owner: ExperimentConfig | ScenarioSettings, goals: Diction, states: Diction
 ) -> Iterator[Finding]:
     """What is wrong with a goal, an initial state, and a script."""
-    yield from _literals((*key, "goal"), owner.goal or None, goals, "no state has all of this")
-    yield from _literals((*key, "initial"), owner.initial, states, "no such initial state")
+    yield from literal_findings((*key, "goal"), owner.goal or None, goals)
+    yield from literal_findings((*key, "initial"), owner.initial, states, "no such initial state")
     yield from script_findings((*key, "script"), owner.script or (), states.signature)
-
-
-def _literals(
-    key: Key, given: Sequence[Literal] | None, diction: Diction, refusal: str
-) -> Iterator[Finding]:
-    """Unknown literals and contradictory ones; where there are none, whether a state has all."""
-    findings: list[Finding] = []
-    for index, literal in enumerate(given or ()):
-        unknown = unknown_atom(literal.atom, diction.signature, FLUENTS, "fluent")
-        if unknown is not None:
-            findings.append(((*key, index), unknown))
-        elif given and literal.complement in given[:index]:
-            twice = f"contradicts {literal.complement}; keep one of the two"
-            findings.append(((*key, index), twice))
-    yield from findings
-    if given is not None and not findings:
-        try:
-            diction.check(given)
-        except StateError as error:
-            yield key, f"{refusal}: {error}"
 
 
 def _names(

@@ -1,14 +1,14 @@
 """The levels of a configuration: their descriptions, and whether its settings fit these."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
 from asp.domains.levels import LEVELS, LevelSize, level_text
-from asp.language import Literal, Signature, read_domain, suggestion
+from asp.language import read_domain, suggestion
 from asp.refinement import Refinement, load, read_refinement, refined_name
-from testbed.config.models import TRIGGERS, Drawing, ExperimentConfig
-from testbed.config.places import FLUENTS, Finding
+from testbed.config.models import TRIGGERS, ExperimentConfig
+from testbed.config.places import Finding
 
 
 def refinements(config: ExperimentConfig) -> Iterator[tuple[str, Refinement]]:
@@ -89,29 +89,3 @@ def map_findings(config: ExperimentConfig) -> Iterator[Finding]:
         if named not in (None, config.domain):
             unless = f"the domain is {config.domain} unless given; give domain: {named}"
             yield ("refinement",), f"{file} refines {named}, and {unless}"
-
-
-def drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:
-    """What is wrong with the goal that is drawn; in one line, where it is the one by default."""
-    findings = list(_patterns(draw.goal, signature))
-    if findings and "goal" not in draw.model_fields_set:
-        why, sorts = findings[0][1].partition(";")[0], ", ".join(signature.sorts)
-        by_default = f"is by default {', '.join(draw.goal)}, which does not fit this domain: {why}"
-        findings = [(("draw", "goal"), f"{by_default}; give a goal with its sorts: {sorts}")]
-    yield from findings
-
-
-def _patterns(given: Iterable[Literal], signature: Signature) -> Iterator[Finding]:
-    fluents = {n: s for n, s in signature.symbols.items() if s.kind in FLUENTS}
-    for index, literal in enumerate(given):
-        key, name = ("draw", "goal", index), literal.name
-        if name not in fluents:
-            yield key, f"no fluent '{name}'; {suggestion(name, fluents)}"
-            continue
-        sorts = literal.arguments
-        if len(sorts) != len(fluents[name].sorts):
-            example = Literal.of(name, (sort.name for sort in fluents[name].sorts))
-            yield key, f"{name} takes {len(fluents[name].sorts)} sorts, as in {example}"
-        for sort in sorts:
-            if sort not in signature.sorts:
-                yield key, f"unknown sort '{sort}'; {suggestion(sort, signature.sorts)}"

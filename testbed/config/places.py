@@ -1,15 +1,15 @@
 """Where a key stands, what is wrong with its value, and the lines that say so."""
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 import yaml
 
 from asp.language import Literal, Signature, suggestion
-from testbed.config.models import ExperimentConfig
-from testbed.config.values import NONE
+from testbed.world import StateError
 
 
 class ConfigError(ValueError):
@@ -21,6 +21,9 @@ class ConfigError(ValueError):
 
 
 Key = tuple[str | int, ...]
+FLUENTS = ("inertial", "defined")
+Finding = tuple[Key, str]
+"""A key, and one line that says what is wrong with its value."""
 PART = re.compile(r"\[([^\]]*)\]|([^.\[\]]+)")
 
 
@@ -52,7 +55,7 @@ class Places:
         if self.is_overridden(key):
             return f"{self.elsewhere}: {dotted(key)}"
         parts = tuple(map(str, key))
-        known = (self._lines.get(parts[:number]) for number in range(len(parts), 0, -1))
+        known = (self._number_of.get(parts[:number]) for number in range(len(parts), 0, -1))
         line = next(filter(None, known), "")
         return ": ".join(filter(None, [f"{self.file}:{line}".removesuffix(":"), dotted(key)]))
 
@@ -62,8 +65,24 @@ class Places:
         given = filter(None, self._overridden if parts else ())
         return any(own[: len(parts)] == parts[: len(own)] for own in given)
 
+    def lines(self, findings: Iterable[Finding]) -> list[str]:
+        return [f"{self.of(key)}: {message}" for key, message in findings]
+
+    def lines_of_another(
+        self, key: str, foreign: Iterable[str], findings: Sequence[Finding]
+    ) -> list[str]:
+        """The lines; one for all that was written for another domain, if `key` is overridden.
+
+        `foreign` says what that was.
+        """
+        own = [found for found in findings if self.is_overridden(found[0])]
+        if len(own) == len(findings) or not self.is_overridden((key,)):
+            return self.lines(findings)
+        wanted = f"{self.file} is about another domain; with this one give also "
+        return [f"{self.of((key,))}: {wanted}{', '.join(foreign)}", *self.lines(own)]
+
     @cached_property
-    def _lines(self) -> dict[tuple[str, ...], int]:
+    def _number_of(self) -> dict[tuple[str, ...], int]:
         # The two implementations of YAML differ about tabs; the fast one has read the text.
         root = yaml.compose(self._text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
         return dict(_lines_below(root, ()))
@@ -81,13 +100,6 @@ def _lines_below(
     for name, place, value in inner:
         yield (*key, name), place.start_mark.line + 1
         yield from _lines_below(value, (*key, name))
-
-
-Finding = tuple[Key, str]
-"""A key, and one line that says what is wrong with its value."""
-
-FLUENTS = ("inertial", "defined")
-"""The kinds of symbols that are fluents."""
 
 
 def unknown_atom(
@@ -108,63 +120,32 @@ def unknown_atom(
     return None if text.is_positive else f"{text} has a sign; write it as in {example}"
 
 
-OF_THE_DOMAIN = ("goal", "initial", "scenarios", "scenario_settings", "script", "observability")
-"""What is said in the words of a domain."""
+@dataclass(frozen=True)
+class Diction:
+    """What literals are given in; `check` raises StateError for those that are in no state."""
+
+    signature: Signature
+    check: Callable[[Sequence[Literal]], object]
 
 
-def lines_of(findings: Sequence[Finding], places: Places) -> list[str]:
-    return [f"{places.of(key)}: {message}" for key, message in findings]
-
-
-def without_left_out(findings: Sequence[Finding], places: Places) -> list[Finding]:
-    """Without unknown scenarios that have settings in the file, where `scenarios` is overridden."""
-    if not places.is_overridden(("scenarios",)):
-        return list(findings)
-
-    def is_left_out(key: Key) -> bool:
-        return key[0] == "scenario_settings" and len(key) == 2 and not places.is_overridden(key)
-
-    return [(key, message) for key, message in findings if not is_left_out(key)]
-
-
-def lines_of_the_domain(
-    config: ExperimentConfig, findings: list[Finding], places: Places, scenarios: Sequence[str]
-) -> list[str]:
-    """Lines of what the domain does not know; one for all that was written for another domain.
-
-    `scenarios` are those of the domain.
-    """
-    # What would fit this domain by chance is named, too: it was not meant for it.
-    written = [key for key in OF_THE_DOMAIN if _is_written(key, config)]
-    foreign = {key: key for key in written if not places.is_overridden((key,))}
-    if "scenarios" in foreign and not scenarios:
-        foreign["scenarios"] += f" (it has none: {NONE})"
-    return _of_another("domain", foreign.values(), findings, places)
-
-
-def _is_written(key: str, config: ExperimentConfig) -> bool:
-    """Whether the configuration says something; settings of a scenario left out say nothing."""
-    if key == "scenario_settings" and config.scenarios:
-        return not config.scenario_settings.keys().isdisjoint(config.scenarios)
-    return bool(getattr(config, key))
-
-
-def lines_of_the_map(findings: list[Finding], places: Places) -> list[str]:
-    """Lines of what a map does not know; one for all that was written for other levels."""
-    foreign = {
-        dotted(key[:2]) if key[0] == "draw" else str(key[0]): message.partition(";")[0]
-        for key, message in reversed(findings)
-        if not places.is_overridden(key)
-    }
-    wanted = [f"{key} ({message})" for key, message in reversed(foreign.items())]
-    return _of_another("refinement", wanted, findings, places)
-
-
-def _of_another(
-    key: str, foreign: Iterable[str], findings: list[Finding], places: Places
-) -> list[str]:
-    own = [(at, message) for at, message in findings if places.is_overridden(at)]
-    if len(own) == len(findings) or not places.is_overridden((key,)):
-        return lines_of(findings, places)
-    wanted = f"{places.file} is about another domain; with this one give also {', '.join(foreign)}"
-    return [f"{places.of((key,))}: {wanted}", *lines_of(own, places)]
+def literal_findings(
+    key: Key,
+    given: Sequence[Literal] | None,
+    diction: Diction,
+    refusal: str = "no state has all of this",
+) -> Iterator[Finding]:
+    """Unknown literals and contradictory ones; where there are none, whether a state has all."""
+    findings: list[Finding] = []
+    for index, literal in enumerate(given or ()):
+        unknown = unknown_atom(literal.atom, diction.signature, FLUENTS, "fluent")
+        if unknown is not None:
+            findings.append(((*key, index), unknown))
+        elif given and literal.complement in given[:index]:
+            twice = f"contradicts {literal.complement}; keep one of the two"
+            findings.append(((*key, index), twice))
+    yield from findings
+    if given is not None and not findings:
+        try:
+            diction.check(given)
+        except StateError as error:
+            yield key, f"{refusal}: {error}"

@@ -120,12 +120,18 @@ def test_a_goal_may_be_given_and_need_not(tmp_path: Path) -> None:
         (
             "{holding: 0.5}",
             "{goal: [loc(objects,room)]}",
-            "tiny.yaml:6: draw.goal[0]: unknown sort 'objects'; did you mean 'object'?",
+            "tiny.yaml:6: draw.goal[0]: 'objects' in loc(objects,room) is not known there; did you "
+            "mean 'object'?",
+        ),
+        (
+            "{holding: 0.5}",
+            '{goal: [loc(object,room), "-loc(object,room)"]}',
+            "tiny.yaml:6: draw.goal[1]: contradicts loc(object,room)",
         ),
         (
             "{holding: 0.5}",
             "{goal: [in_hand(object)]}",
-            "tiny.yaml:6: draw.goal[0]: in_hand takes 2 sorts, as in in_hand(robot,object)",
+            "tiny.yaml:6: draw.goal[0]: in_hand takes 2 arguments, as in in_hand(robot,object)",
         ),
         (
             "{holding: 0.5}",
@@ -220,7 +226,7 @@ def test_a_goal_that_was_written_for_other_levels_is_named_with_why() -> None:
         f"statistics ({why})",
         "",
     ]
-    assert caught.value.lines[1].startswith("command line: draw.goal[0]: unknown sort 'zon'")
+    assert caught.value.lines[1].startswith("command line: draw.goal[0]: 'zon' in lies(block,zon) ")
 
 
 def test_the_goal_by_default_may_not_fit_a_map(tmp_path: Path) -> None:
