@@ -55,9 +55,8 @@ class ToldRobot(TraditionalRobot):
         source = reordered(load_world(task.domain).description, self._order)
         super().begin(msgspec.structs.replace(task, source=source))
 
-    def _attempt(self, intention: Intention | None) -> None:
-        if intention is not None:
-            self._explained_goal = self._rest is None and GOAL in intention.believed
+    def _attempt(self, intention: Intention) -> None:
+        self._explained_goal = self._rest is None and GOAL in intention.believed
         super()._attempt(intention)
 
     def _observe(self, percept: Percept) -> None:

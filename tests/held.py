@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from agents.intentional import IntentionalRobot
-from agents.intentional.robots import Reference
+from agents.intentional.controller import Reference
 from testbed import cli
 from testbed.config import ExperimentConfig
 from testbed.experiment import plan, runner

@@ -7,7 +7,7 @@ task, and share what is prepared for it in a process.
 """
 
 from collections.abc import Collection, Iterable, Mapping
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 from msgspec import structs
 
@@ -24,10 +24,10 @@ from asp.language import (
     text_of,
 )
 from asp.language import variable_sorts as roles
-from asp.reasoning.knowledge import Knowledge, knowledge
+from asp.reasoning.knowledge import knowledge
 from asp.reasoning.relevance import Relevance, interchangeable
-from asp.solving import State, deciding, preparation
-from testbed.protocol import Decision, Percept, Robot, Task
+from asp.solving import State, preparation
+from testbed.protocol import Decision, Percept, Task
 
 TASK_ABSTRACTION = True
 """Whether anything is left out: it pays at L8, with 24 objects, 1.5 to 2 times as long without."""
@@ -50,7 +50,8 @@ _SILENT = (syntax.CostStatement, syntax.TriggerStatement, syntax.QuietStatement)
 class AbstractTask:
     """The task that is left of another, its transitions, and the way between their names.
 
-    Where the domain has defaults, everything is kept.
+    Where the domain has defaults, everything is kept. `robot` is the one that plays; `fluents` are
+    those about what is left, and `inertial` the inertial ones of them, in their own names.
     """
 
     def __init__(self, task: Task) -> None:
@@ -66,6 +67,12 @@ class AbstractTask:
         self.task = structs.replace(
             task, source=source, goal=self.seen(task.goal), initial=self.seen(task.initial)
         )
+        with preparation():
+            self._known = knowledge(task.domain, source)
+        description = self._known.description
+        self.robot = self._back.get(description.robots[0], description.robots[0])
+        self.fluents = self.back(description.fluents)
+        self.inertial = self.back(description.inertial)
 
     def seen(self, literals: Iterable[Literal]) -> list[Literal]:
         """Literals or actions in the names of the task that is left; the others are left out."""
@@ -78,26 +85,6 @@ class AbstractTask:
     def is_about(self, literal: Literal) -> bool:
         """Whether a literal or action names nothing that is left out."""
         return self._gone.isdisjoint(literal.arguments)
-
-    @cached_property
-    def _known(self) -> Knowledge:
-        return knowledge(self.task.domain, self.task.source)
-
-    @cached_property
-    def robot(self) -> str:
-        """The robot that plays, as the domain's statements name it."""
-        robot = self._known.description.robots[0]
-        return self._back.get(robot, robot)
-
-    @cached_property
-    def fluents(self) -> list[Literal]:
-        """The fluents about what is left."""
-        return self.back(self._known.description.fluents)
-
-    @cached_property
-    def inertial(self) -> list[Literal]:
-        """Those of the fluents that are inertial."""
-        return self.back(self._known.description.inertial)
 
     def after(self, state: State, action: Action | None, events: Iterable[Action]) -> State | None:
         """The next state, where the action and the events occur together; None: they cannot."""
@@ -142,23 +129,6 @@ class AbstractTask:
         if all(old == new for old, new in self._back.items()):
             return decision
         return retold(decision, lambda literal: literal.renamed(self._back))
-
-
-class AbstractingRobot:
-    """Plays a task as another robot plays what is left of it (`AbstractTask`)."""
-
-    def __init__(self, robot: Robot) -> None:
-        self._robot = robot
-
-    def begin(self, task: Task) -> None:
-        """Takes on what is left of the task."""
-        with deciding():
-            self.abstract = AbstractTask(task)
-            self._robot.begin(self.abstract.task)
-
-    def act(self, percept: Percept) -> Decision:
-        """The other robot's decision. Raises RobotStops."""
-        return self.abstract.decision(self._robot.act(self.abstract.percept(percept)))
 
 
 class _Domain:

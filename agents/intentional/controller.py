@@ -1,43 +1,40 @@
 """The control loop AIA: interpret, intend, attempt, observe (D 2)."""
 
+from collections.abc import Iterable
 from typing import ClassVar
 
 from msgspec import structs
 
-from agents.intentional.reasoners import Activity, History, IncrementalReasoner, start_activity
+from agents.intentional.reasoners import (
+    Activity,
+    History,
+    IncrementalReasoner,
+    ReferenceReasoner,
+    start_activity,
+)
 from agents.intentional.reasons import IntentionalReasons
-from agents.shared.relevance import goal_fluents, relevant_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
-from asp.language import Action, Literal
+from asp.language import Action, Description, Fluent, Literal
 from asp.reasoning.diagnosis import GOAL, SELECT, Diagnosis
-from testbed.protocol import FINISH, WAIT, Capabilities, Percept, Task, Trace, is_mental
-
-_MENTAL = ("start(", "stop(")
+from testbed.protocol import FINISH, Capabilities, Percept, Task, Trace, is_mental
 
 
 class IntentionalRobot(ReasoningRobot[History]):
-    """A robot that reasons with the adapted theory of intentions (ATI).
-
-    `reasoner` is the `IncrementalReasoner`, the `ReferenceReasoner` that solves the theory from
-    scratch, or another one.
-    """
+    """A robot that reasons with the adapted theory of intentions (ATI)."""
 
     # At step 1 it starts an activity, or finishes.
     capabilities: ClassVar = Capabilities(knowledge=("complete", "seen"), first_action_step=2)
     _reasons_type = IntentionalReasons
     _reasons: IntentionalReasons
-
-    def __init__(self, reasoner: MakeReasoner[History] = IncrementalReasoner) -> None:
-        super().__init__(reasoner)
+    _make_reasoner: MakeReasoner[History] = IncrementalReasoner
 
     def _begin(self, task: Task) -> None:
         """Selects the task's goal at step 0."""
-        self._goal_fluents = goal_fluents(self._domain.description, task.goal)
+        self._goal_fluents = _bearing_on(task.goal, self._domain.description)
         self._history = History()
         self._history.observe(task.initial, 0)
         self._history.happened(SELECT, True, 0)
-        self._attempted: Action | None = None
 
     def _intend(self, reasoner: Reasoner[History], thought: Thought) -> Intention:
         intention = super()._intend(reasoner, thought)
@@ -48,36 +45,28 @@ class IntentionalRobot(ReasoningRobot[History]):
     def _hear(self, percept: Percept) -> None:
         """Step 4 of the loop: the result of the last attempt, and of having finished."""
         history = self._history
-        if self._attempted is not None:
+        for attempted in history.at(history.step).attempted:
             # A mental action and finishing cannot fail; the world only answers physical ones.
-            success = percept.happened if self._attempted == percept.attempted else True
-            history.happened(self._attempted, success is not False, history.step)
-            if success is False and percept.failing:
-                history.failed(self._attempted, history.step)
+            has_failed = attempted == percept.attempted and percept.happened is False
+            history.happened(attempted, not has_failed, history.step)
+            if has_failed and percept.failing:
+                history.failed(attempted, history.step)
         if percept.goal_holds is not None:
             history.observe([GOAL if percept.goal_holds else GOAL.complement], history.step)
 
-    def _relevant(self, percept: Percept) -> tuple[Literal, ...]:
+    def _relevant(self, percept: Percept) -> Iterable[Literal]:
         """Step 1 of the loop: what bears on the goal, or on the last attempt (P 3.2)."""
-        description = self._domain.description
-        return relevant_literals(
-            description, self._goal_fluents, percept.attempted, percept.visible
-        )
+        wanted = self._goal_fluents.union(each.atom for each in super()._relevant(percept))
+        return [literal for literal in percept.visible if literal.atom in wanted]
 
-    def _attempt(self, intention: Intention | None) -> None:
+    def _attempt(self, intention: Intention) -> None:
         """Step 3 of the loop: the attempt is recorded, and a new activity with it."""
-        self._attempted = None if intention is None else intention.action
-        if intention is None:
-            return
         history = self._history
         self._believed = (history.step, intention.believed - {GOAL})
         history.attempt(intention.action, history.step)
         name = len(history.activities) + 1
         if intention.action == start_activity(name):
             history.activities.append(Activity(name, intention.plan))
-
-    def _physical(self, intention: Intention) -> Action:
-        return WAIT if is_mental(intention.action) else intention.action
 
     def _trace(self, thought: Thought) -> Trace:
         intention, diagnosis = thought.intention, thought.diagnosis
@@ -114,3 +103,20 @@ class IntentionalRobot(ReasoningRobot[History]):
             return intention.plan
         name, index = next(iter(diagnosis.indices.items()))
         return self._history.activities[name - 1].plan[index:]
+
+
+class Reference(IntentionalRobot):
+    """ATI, each program solved from scratch."""
+
+    _make_reasoner = ReferenceReasoner
+
+
+def _bearing_on(goal: Iterable[Literal], description: Description) -> frozenset[Fluent]:
+    """The fluents that bear on the goal.
+
+    These are the fluents of the goal's literals, and those that decide one of them through a
+    state constraint: where a book is seen decides that it is nowhere else.
+    """
+    own = {literal.atom for literal in goal}
+    laws = (law for law in description.constraints if law.head.atom in own)
+    return frozenset(own.union(condition.atom for law in laws for condition in law.body))

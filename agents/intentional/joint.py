@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from clingo import Symbol
 
+from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
 from agents.shared.thought import Intention
 from asp.reasoning.diagnosis import Diagnosis, Explanation, diagnosis_of, event_limits
@@ -112,3 +113,15 @@ class JointReferenceReasoner(ReferenceReasoner):
 def _found(intention: Intention | None) -> Intention:
     assert intention is not None, "(53): an agent always has an intention"
     return intention
+
+
+class Joint(IntentionalRobot):
+    """TI: all smallest explanations are considered while planning."""
+
+    _make_reasoner = JointReasoner
+
+
+class JointReference(IntentionalRobot):
+    """TI to the letter, in one program."""
+
+    _make_reasoner = JointReferenceReasoner

@@ -1,11 +1,12 @@
 """A robot that decides at the coarse resolution and acts at the fine one (P 3.3)."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import ClassVar
 
 from msgspec import structs
 
-from agents.intentional.abstraction import AbstractingRobot
+from agents.intentional.abstraction import AbstractTask
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.coarse import Reporter
@@ -16,9 +17,7 @@ from agents.shared.narration import retold
 from asp.language import Literal
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
-from testbed.protocol import Capabilities, Decision, Percept, Robot, Task, Trace
-
-WAIT, FINISH = Literal.of("wait"), Literal.of("finish")
+from testbed.protocol import FINISH, WAIT, Capabilities, Decision, Percept, Robot, Task, Trace
 
 
 class RefinedRobot:
@@ -29,7 +28,7 @@ class RefinedRobot:
     """
 
     def __init__(self, coarse: Callable[[], Robot] = IntentionalRobot, zooms: bool = True) -> None:
-        self._coarse = AbstractingRobot(coarse())
+        self._coarse = coarse()
         self._zooms = zooms
 
     def begin(self, task: Task) -> None:
@@ -42,8 +41,10 @@ class RefinedRobot:
             with preparation():
                 file = f"{task.domain}.al"
                 refinement = load(task.source, file, task.refinement, f"{task.domain}.fine")
-            self._coarse.begin(structs.replace(task, refinement="", initial_fine=[]))
-            abstract = self._abstract = self._coarse.abstract
+            abstract = self._abstract = AbstractTask(
+                structs.replace(task, refinement="", initial_fine=[])
+            )
+            self._coarse.begin(abstract.task)
             self._fine = FineTracker(refinement, abstract.robot, task, self._zooms)
             known = [literal for literal in task.initial if abstract.is_about(literal)]
             self._fine.know(task.initial_fine, known)
@@ -123,15 +124,16 @@ class RefinedRobot:
         That the goal does not hold it is told a coarse step after what it saw before: in between
         something may have happened.
         """
-        self._steps.begin(percept.step)
-        decision = self._coarse.act(structs.replace(told, goal_holds=None))
+        decision = self._answer(percept.step, structs.replace(told, goal_holds=None))
         if told.goal_holds is None or decision.action != FINISH:
             return decision
-        self._steps.begin(percept.step)
-        step = self._steps.present
-        return self._coarse.act(
-            Percept(trial=told.trial, step=step, visible=[], goal_holds=told.goal_holds)
-        )
+        last = Percept(trial=told.trial, step=told.step + 1, visible=[], goal_holds=told.goal_holds)
+        return self._answer(percept.step, last)
+
+    def _answer(self, step: int, told: Percept) -> Decision:
+        """The coarse robot's answer; the coarse step begins at a step of the environment."""
+        self._steps.begin(step)
+        return self._abstract.decision(self._coarse.act(self._abstract.percept(told)))
 
 
 class EitherRobot:
@@ -153,3 +155,12 @@ class EitherRobot:
     def act(self, percept: Percept) -> Decision:
         """The robot's decision. Raises RobotStops."""
         return self._robot.act(percept)
+
+
+class WithoutZooming(EitherRobot):
+    """Acts at the fine resolution only, and plans in the whole refined description."""
+
+    capabilities: ClassVar = replace(EitherRobot.capabilities, resolutions=("fine",))
+
+    def __init__(self) -> None:
+        super().__init__(zooms=False)

@@ -8,7 +8,7 @@ from msgspec import structs
 
 from agents.shared.reasons import Reasons
 from agents.shared.thought import Intention, Reasoner, Thought
-from asp.language import Action, Literal
+from asp.language import Literal
 from asp.reasoning.diagnosis import (
     GOAL,
     Diagnosis,
@@ -20,7 +20,7 @@ from asp.reasoning.diagnosis import (
 )
 from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import LimitError, Limits, State, deciding, preparation, reasoning_clock
-from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task, Trace
+from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task, Trace, is_mental
 
 MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[H_contra]]
 """Makes a reasoner of a domain, a goal and the greatest length of a plan."""
@@ -32,13 +32,18 @@ def limits_of(task: Task) -> Limits:
 
 
 class ReasoningRobot(ABC, Generic[H_contra]):
-    """A robot that keeps a history of a trial and reasons about it in two phases."""
+    """A robot that keeps a history of a trial and reasons about it in two phases.
+
+    `reasoner` makes what it reasons with, in place of the reasoner of its class.
+    """
 
     _reasons_type: ClassVar[type[Reasons]] = Reasons
+    _make_reasoner: MakeReasoner[H_contra]
     _history: H_contra
 
-    def __init__(self, reasoner: MakeReasoner[H_contra]) -> None:
-        self._make_reasoner = reasoner
+    def __init__(self, reasoner: MakeReasoner[H_contra] | None = None) -> None:
+        if reasoner is not None:
+            self._make_reasoner = reasoner
 
     def begin(self, task: Task) -> None:
         """Takes the task on, and knows `task.initial` of step 0."""
@@ -75,12 +80,14 @@ class ReasoningRobot(ABC, Generic[H_contra]):
                 raise RobotStops(str(error)) from error
             trace = thought.timed(self._trace(thought), self._prepared)
         self._prepared = 0.0
-        intention = thought.intention
-        self._attempt(intention)
+        intention, action = thought.intention, WAIT
+        if intention is not None:
+            self._attempt(intention)
+            action = WAIT if is_mental(intention.action) else intention.action
         return Decision(
             trial=percept.trial,
             step=percept.step,
-            action=WAIT if intention is None else self._physical(intention),
+            action=action,
             believes_goal=intention is not None and GOAL in intention.believed,
             trace=structs.replace(trace, deadline=decision.late),
         )
@@ -93,21 +100,26 @@ class ReasoningRobot(ABC, Generic[H_contra]):
     def _hear(self, percept: Percept) -> None:
         """Adds to the history the result of the last attempt."""
 
-    @abstractmethod
     def _relevant(self, percept: Percept) -> Iterable[Literal]:
-        """The literals that the robot observes of those that it sees."""
+        """What the robot observes of what it sees: the outcome of the last attempt (P 3.2).
+
+        That are the domain's `shows` statements of the action whose condition is seen.
+        """
+        seen = frozenset(percept.visible)
+        shown = {
+            statement.fluent
+            for statement in self._domain.description.shows
+            if statement.action == percept.attempted and seen.issuperset(statement.body)
+        }
+        return [literal for literal in percept.visible if literal.atom in shown]
 
     @abstractmethod
     def _trace(self, thought: Thought) -> Trace:
         """The mind behind the decision, before anything of it is recorded."""
 
     @abstractmethod
-    def _attempt(self, intention: Intention | None) -> None:
+    def _attempt(self, intention: Intention) -> None:
         """Records what is attempted."""
-
-    def _physical(self, intention: Intention) -> Action:
-        """What the robot does in the world."""
-        return intention.action
 
     def _observe(self, percept: Percept) -> None:
         """Adds to the history the result of the last attempt, news, and what is observed."""

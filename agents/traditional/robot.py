@@ -4,11 +4,9 @@ from typing import ClassVar
 
 from msgspec import structs
 
-from agents.shared.relevance import outcome_literals
 from agents.shared.robot import MakeReasoner, ReasoningRobot
 from agents.shared.thought import Intention, Reasoner, Thought
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner, intention_of
-from asp.language import Literal
 from asp.reasoning.diagnosis import GOAL, History
 from testbed.protocol import Capabilities, Percept, Task, Trace
 
@@ -18,15 +16,10 @@ class TraditionalRobot(ReasoningRobot[History]):
 
     It has no intentions: its history holds physical actions only. When its plan is over it
     finishes, and does not heed what it is told of the goal afterwards.
-
-    `reasoner` is the `IncrementalReasoner`, or the `ReferenceReasoner` that solves its programs
-    from scratch.
     """
 
     capabilities: ClassVar = Capabilities(knowledge=("complete", "seen"))
-
-    def __init__(self, reasoner: MakeReasoner[History] = IncrementalReasoner) -> None:
-        super().__init__(reasoner)
+    _make_reasoner: MakeReasoner[History] = IncrementalReasoner
 
     def _begin(self, task: Task) -> None:
         """The first plan is made with the first percept."""
@@ -42,10 +35,8 @@ class TraditionalRobot(ReasoningRobot[History]):
         thought.is_new = self._rest is None
         return self._rest or super()._intend(reasoner, thought)
 
-    def _attempt(self, intention: Intention | None) -> None:
+    def _attempt(self, intention: Intention) -> None:
         """Step by step through the plan: what is attempted is recorded, the rest remains."""
-        if intention is None:
-            return
         if intention.plan:
             self._history.attempt(intention.action, self._history.step)
             intention = intention_of(intention.plan[1:], intention.believed)
@@ -57,10 +48,6 @@ class TraditionalRobot(ReasoningRobot[History]):
             history.happened(percept.attempted, percept.happened is not False, history.step)
         if percept.happened is False:
             self._rest = None  # whenever there will be time for another one
-
-    def _relevant(self, percept: Percept) -> tuple[Literal, ...]:
-        """The outcome of the action in hand."""
-        return outcome_literals(self._domain.description, percept.attempted, percept.visible)
 
     def _trace(self, thought: Thought) -> Trace:
         trace = self._with_explanation(Trace(reason=thought.limit, plans=self._plans))
@@ -87,8 +74,7 @@ class TraditionalRobot(ReasoningRobot[History]):
 class TraditionalReference(TraditionalRobot):
     """TP, each program solved from scratch."""
 
-    def __init__(self) -> None:
-        super().__init__(ReferenceReasoner)
+    _make_reasoner = ReferenceReasoner
 
 
 def _why(is_new: bool, actions: int) -> str:

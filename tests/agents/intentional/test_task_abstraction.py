@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec import structs
 
-from agents.intentional.abstraction import AbstractingRobot, AbstractTask
+from agents.intentional.abstraction import AbstractTask
 from agents.intentional.controller import IntentionalRobot
 from asp.domains.levels import level_text
 from asp.language import Literal, parse_description
-from testbed.protocol import Decision, Event, Task
+from testbed.protocol import Decision, Event, Percept, Task
 from testbed.world import world_of
 from tests.agents.intentional.lives import OFFICE, Place, Wish, live
 from tests.literals import parsed
@@ -35,15 +35,24 @@ WISHES = st.dictionaries(
 )
 
 
+class AbstractingRobot:
+    """Plays a task as the intentional robot plays what is left of it."""
+
+    def begin(self, task: Task) -> None:
+        self._robot, self._abstract = IntentionalRobot(), AbstractTask(task)
+        self._robot.begin(self._abstract.task)
+
+    def act(self, percept: Percept) -> Decision:
+        return self._abstract.decision(self._robot.act(self._abstract.percept(percept)))
+
+
 @given(st.sampled_from(STATES), st.lists(st.sampled_from(GOALS), min_size=1, max_size=2), WISHES)
 @settings(max_examples=60)
 def test_decisions_are_those_of_the_whole_task(
     initial: int, goal: list[str], wishes: dict[int, Wish]
 ) -> None:
     whole = live(IntentionalRobot(), initial, goal, wishes, steps=20, where=PLACE)
-    abstracting = live(
-        AbstractingRobot(IntentionalRobot()), initial, goal, wishes, steps=20, where=PLACE
-    )
+    abstracting = live(AbstractingRobot(), initial, goal, wishes, steps=20, where=PLACE)
     assert [_shown(d) for d in abstracting.decisions] == [_shown(d) for d in whole.decisions]
     abstract = AbstractTask(_task(goal, [*WORLD.true_atoms(initial)]))
     assert _explained(abstracting.decisions, abstract) == _explained(whole.decisions, abstract)
