@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from math import inf
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
-from agents.shared.thought import Intention, Reasoner
+from agents.shared import Intention, Reasoner
 from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import SELECT, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

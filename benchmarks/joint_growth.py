@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from agents.intentional import joint, reasoners
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
-from agents.shared.thought import Reasoner
+from agents.shared import Reasoner
 from asp.language import Literal
 from asp.reasoning.diagnosis import reference as diagnosis
 from asp.reasoning.knowledge import Knowledge

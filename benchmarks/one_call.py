@@ -1,7 +1,7 @@
 """ATI whose plan is found as TI to the letter finds it."""
 
 from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
-from agents.shared.thought import Intention
+from agents.shared import Intention
 from asp.reasoning.diagnosis import Diagnosis
 from asp.solving import fact, ground, optimal_model, theory
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import inf
 
-from agents.shared.sessions import sessions_of
+from agents.shared import sessions_of
 from asp.language import Fluent, analyse, parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.reasoning.planning import Encoding

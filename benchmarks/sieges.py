@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner
-from agents.shared.thought import Intention, Reasoner
+from agents.shared import Intention, Reasoner
 from asp.language import Action, Literal, parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation
 from benchmarks.measuring import forget, timed

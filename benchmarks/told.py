@@ -17,7 +17,7 @@ from pathlib import Path
 
 import msgspec
 
-from agents.shared.thought import Intention
+from agents.shared import Intention
 from agents.traditional import TraditionalRobot
 from asp.language import Description
 from asp.reasoning.diagnosis import GOAL

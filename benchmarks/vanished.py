@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from agents.intentional.reasoners import History
-from agents.shared.thought import Reasoner
+from agents.shared import Reasoner
 from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import SELECT, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

@@ -11,8 +11,7 @@ from functools import lru_cache
 
 from msgspec import structs
 
-from agents.shared.narration import retold
-from agents.shared.sessions import sessions_of
+from agents.shared import retold, sessions_of
 from asp.language import (
     Action,
     Literal,

@@ -13,8 +13,7 @@ from agents.intentional.reasoners import (
     start_activity,
 )
 from agents.intentional.reasons import IntentionalReasons
-from agents.shared.robot import MakeReasoner, ReasoningRobot
-from agents.shared.thought import Intention, Reasoner, Thought
+from agents.shared import Intention, MakeReasoner, Reasoner, ReasoningRobot, Thought
 from asp.language import Action, Description, Fluent, Literal
 from asp.reasoning.diagnosis import GOAL, SELECT, Diagnosis
 from testbed.protocol import FINISH, Capabilities, Percept, Task, Trace, is_mental

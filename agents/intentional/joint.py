@@ -9,7 +9,7 @@ from clingo import Symbol
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
-from agents.shared.thought import Intention
+from agents.shared import Intention
 from asp.reasoning.diagnosis import Diagnosis, Explanation, diagnosis_of, event_limits
 from asp.solving import fact, first_model, ground, optimal_model, theory
 

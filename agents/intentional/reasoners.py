@@ -9,8 +9,7 @@ from dataclasses import dataclass, field, replace
 
 from clingo import Symbol
 
-from agents.shared.sessions import sessions_of
-from agents.shared.thought import Intention
+from agents.shared import Intention, sessions_of
 from asp.language import Action, Literal
 from asp.reasoning import diagnosis
 from asp.reasoning.diagnosis import (

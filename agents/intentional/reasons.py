@@ -8,9 +8,7 @@ from dataclasses import replace
 from msgspec import structs
 
 from agents.intentional.reasoners import FIRST_EVENT, History
-from agents.shared.narration import Narration, Step, listed
-from agents.shared.reasons import Reasons
-from agents.shared.thought import Intention
+from agents.shared import Intention, Narration, Reasons, Step, listed
 from asp.language import Action, Literal
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, problem_of
 from asp.solving import LimitError, State, deciding

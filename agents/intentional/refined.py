@@ -13,7 +13,7 @@ from agents.intentional.executor.coarse import Reporter
 from agents.intentional.executor.execution import Execution
 from agents.intentional.executor.sensing import Asking
 from agents.intentional.executor.trace import CoarseSteps
-from agents.shared.narration import retold
+from agents.shared import retold
 from asp.language import Literal
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock

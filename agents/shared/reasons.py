@@ -3,7 +3,7 @@
 from collections.abc import Collection
 
 from agents.shared.narration import Narration
-from agents.shared.sessions import sessions_of
+from agents.shared.reasoning import sessions_of
 from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
 from asp.reasoning.knowledge import Knowledge

@@ -2,12 +2,13 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
 from typing import ClassVar, Generic
 
 from msgspec import structs
 
+from agents.shared.reasoning import Intention, Reasoner
 from agents.shared.reasons import Reasons
-from agents.shared.thought import Intention, Reasoner, Thought
 from asp.language import Literal
 from asp.reasoning.diagnosis import (
     GOAL,
@@ -19,7 +20,7 @@ from asp.reasoning.diagnosis import (
     distrust_tests,
 )
 from asp.reasoning.knowledge import Knowledge, knowledge
-from asp.solving import LimitError, Limits, State, deciding, preparation, reasoning_clock
+from asp.solving import LimitError, Limits, Reading, State, deciding, preparation, reasoning_clock
 from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task, Trace, is_mental
 
 MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[H_contra]]
@@ -29,6 +30,42 @@ MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[H_contra
 def limits_of(task: Task) -> Limits:
     """What a decision about a task may take."""
     return Limits(task.decision_s, task.conflicts, task.ground_rules, task.expansions)
+
+
+@dataclass
+class Thought:
+    """What the two phases at a step came to, as far as they did, and when they were over.
+
+    `before` is what explained the history before; `is_new` says whether the plan was made now;
+    `limit` names the limit of decisions that was reached, if any. A phase that the time for the
+    decision did not suffice for ended when the decision did.
+    """
+
+    before: Explanation
+    diagnosis: Diagnosis | None = None
+    intention: Intention | None = None
+    is_new: bool = True
+    limit: str = ""
+    began: Reading = field(default_factory=reasoning_clock)
+    diagnosed: Reading | None = None
+    ended: Reading = field(default_factory=Reading)
+
+    def timed(self, trace: Trace, prepared: float) -> Trace:
+        """The trace with the times of both phases.
+
+        With the preparation since the decision began goes what was `prepared` before it, in seconds
+        of process time.
+        """
+        diagnosed = self.diagnosed or self.ended
+        diagnosis, planning = diagnosed.since(self.began), self.ended.since(diagnosed)
+        return structs.replace(
+            trace,
+            planning_time_s=planning.wall,
+            diagnosis_time_s=diagnosis.wall,
+            planning_cpu_s=planning.cpu,
+            diagnosis_cpu_s=diagnosis.cpu,
+            preparation_cpu_s=prepared + reasoning_clock().since(self.began).preparation_cpu,
+        )
 
 
 class ReasoningRobot(ABC, Generic[H_contra]):

@@ -1,7 +1,6 @@
 """Diagnosis and planning without intentions: from scratch, and step by step."""
 
-from agents.shared.sessions import sessions_of
-from agents.shared.thought import Intention
+from agents.shared import Intention, sessions_of
 from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import (
     GOAL,

@@ -4,8 +4,7 @@ from typing import ClassVar
 
 from msgspec import structs
 
-from agents.shared.robot import MakeReasoner, ReasoningRobot
-from agents.shared.thought import Intention, Reasoner, Thought
+from agents.shared import Intention, MakeReasoner, Reasoner, ReasoningRobot, Thought
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner, intention_of
 from asp.reasoning.diagnosis import GOAL, History
 from testbed.protocol import Capabilities, Percept, Task, Trace

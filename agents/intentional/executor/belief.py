@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from agents.intentional.executor.model import FineBelief, fine_model
 from agents.intentional.executor.trace import FineTraceBuilder
-from agents.shared.robot import limits_of
+from agents.shared import limits_of
 from asp.language import Action, Fluent, Literal
 from asp.refinement import Refinement
 from asp.solving import State

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
 from agents.intentional.controller import IntentionalRobot
-from agents.shared import sessions
-from agents.shared.sessions import Sessions, sessions_of
+from agents.shared import Sessions, reasoning, sessions_of
 from asp.language import parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent
@@ -155,7 +154,7 @@ def test_its_task_is_the_task_with_what_it_has_to_be_sure_of() -> None:
 def test_of_many_goals_only_the_last_domains_keep_their_controls(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(sessions, "_SESSIONS", Recent(2))
+    monkeypatch.setattr(reasoning, "_SESSIONS", Recent(2))
     initial = WORLD.state(parsed(["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]))
     kept = list[Sessions]()
     for room in ("office2", "library", "office2", "kitchen", "office2", "library"):
@@ -163,7 +162,7 @@ def test_of_many_goals_only_the_last_domains_keep_their_controls(
         assert live(CheckingRobot(), initial, goal, feedback=False).achieved
         task = to_be_sure(_task(SOURCE, goal))
         kept.append(sessions_of(knowledge(DOMAIN, task.source)))
-        assert len(sessions._SESSIONS) <= 2
+        assert len(reasoning._SESSIONS) <= 2
     first, other, again, _, still, anew = kept
     assert first is again is still, "used in between"
     assert other is not anew

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
-from agents.shared.thought import Intention
+from agents.shared import Intention
 from asp.reasoning.diagnosis import SELECT, Compression, Diagnosis, Explanation, incremental
 from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office

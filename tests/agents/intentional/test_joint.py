@@ -7,7 +7,7 @@ import pytest
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import Activity, History, ReferenceReasoner
-from agents.shared.thought import Intention
+from agents.shared import Intention
 from asp.language import Literal
 from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation, Happening
 from asp.reasoning.knowledge import knowledge

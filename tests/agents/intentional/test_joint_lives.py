@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import History, ReferenceReasoner
-from agents.shared.thought import Intention
+from agents.shared import Intention
 from asp.language import parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation
 from asp.reasoning.knowledge import Knowledge

@@ -6,7 +6,7 @@ import pytest
 
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import Activity, History, IncrementalReasoner, ReferenceReasoner
-from agents.shared.thought import Reasoner
+from agents.shared import Reasoner
 from asp.language import Literal
 from asp.reasoning.diagnosis import GOAL, SELECT, Explanation
 from asp.reasoning.knowledge import knowledge

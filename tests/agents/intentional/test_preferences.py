@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Mapping
 import pytest
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
-from agents.shared.thought import Reasoner
+from agents.shared import Reasoner
 from asp.language import Literal
 from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

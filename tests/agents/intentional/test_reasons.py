@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.intentional.reasons import IntentionalReasons
-from agents.shared.sessions import sessions_of
+from agents.shared import sessions_of
 from asp.language import Literal
 from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation, Happening
 from asp.reasoning.knowledge import knowledge

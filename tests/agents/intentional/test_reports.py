@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
-from agents.shared.thought import Reasoner
+from agents.shared import Reasoner
 from asp.language import Literal
 from asp.reasoning.diagnosis import SELECT, Explanation
 from asp.reasoning.knowledge import Knowledge, knowledge

@@ -2,7 +2,7 @@
 
 import pickle
 
-from agents.shared.narration import Narration, Step, listed, retold
+from agents.shared import Narration, Step, listed, retold
 from asp.language import Literal
 from testbed.protocol import Contradiction, Event, Explanation, Trace
 

@@ -7,8 +7,7 @@ from weakref import ref
 import pytest
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
-from agents.shared import sessions
-from agents.shared.sessions import Sessions, sessions_of
+from agents.shared import Sessions, reasoning, sessions_of
 from asp.language import MOST_TEXTS, Description, parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent, Session
@@ -33,7 +32,7 @@ GOALS = (
 def test_a_domain_that_is_not_kept_any_more_leaves_no_control(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(sessions, "_SESSIONS", Recent(1))
+    monkeypatch.setattr(reasoning, "_SESSIONS", Recent(1))
     kept, controls = list[ref[Sessions]](), list[int]()
     for goal in (*GOALS, *GOALS):
         kept.append(_played(goal))

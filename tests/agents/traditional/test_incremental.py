@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from agents.intentional import reasoners
 from agents.intentional.reasoners import History as IntentionalHistory
-from agents.shared.thought import Intention
+from agents.shared import Intention
 from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner
 from asp.language import Literal

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.shared.sessions import sessions_of
+from agents.shared import sessions_of
 from asp.language import Literal
 from asp.reasoning.diagnosis import (
     SELECT,

@@ -1,12 +1,35 @@
-"""The sessions of the solver in each domain, made once in a process."""
+"""The two phases of reasoning, and the sessions of the solver, made once for a domain."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
-from asp.reasoning.diagnosis import DiagnosisSessions
+from asp.language import Action, Fluent
+from asp.reasoning.diagnosis import Diagnoser, Diagnosis, DiagnosisSessions, H_contra
 from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.reasoning.successors import Transitions
 from asp.solving import Recent
+
+
+@dataclass(frozen=True)
+class Intention:
+    """What the agent intends at a step, the plan it would start with it, and what it believes.
+
+    Where the goal holds, or the plan that led to it is over, `GOAL` is among what is `believed`.
+    `under` is the diagnosis that it believes in, where this is chosen with the intention.
+    """
+
+    action: Action
+    plan: tuple[Action, ...]
+    believed: frozenset[Fluent]
+    under: Diagnosis | None = None
+
+
+class Reasoner(Diagnoser[H_contra], Protocol[H_contra]):
+    """The two phases of reasoning about one goal, from scratch or incrementally."""
+
+    def intend(self, history: H_contra, diagnosis: Diagnosis, /) -> Intention:
+        """Phase two. Raises LimitError."""
 
 
 @dataclass(frozen=True)
