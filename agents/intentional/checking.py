@@ -7,41 +7,33 @@ believes that it has not changed since. Being sure is a fluent of the robot's ow
 constraints that follow from the domain's `sees` statements; diagnosis and planning are ATI's.
 """
 
-from collections.abc import Iterator
-from itertools import product
-from typing import ClassVar
+from collections.abc import Iterable, Iterator
+from itertools import chain, count, product
 
-import msgspec
+from msgspec import structs
 
 from agents.intentional.controller import IntentionalRobot
+from agents.shared import Thought
 from asp.language import Description, Fluent, Literal, Literals
 from asp.reasoning.knowledge import knowledge
 from asp.solving import deciding
-from testbed.protocol import Decision, Percept, Robot, Task
+from testbed.protocol import Task, Trace
 
 
-class CheckingRobot:
-    """Plays a task as another robot plays the task of being sure (`to_be_sure`)."""
-
-    capabilities: ClassVar = IntentionalRobot.capabilities
-
-    def __init__(self, robot: Robot | None = None) -> None:
-        self._robot = robot or IntentionalRobot()
+class CheckingRobot(IntentionalRobot):
+    """Plays the task of being sure (`to_be_sure`)."""
 
     def begin(self, task: Task) -> None:
         """Takes the task on, with what the robot has to be sure of added to its goal."""
         with deciding():
             self._fluents = frozenset(knowledge(task.domain, task.source).description.fluents)
-            self._robot.begin(to_be_sure(task))
+            super().begin(to_be_sure(task))
 
-    def act(self, percept: Percept) -> Decision:
-        """One round of the loop. Raises RobotStops."""
-        decision = self._robot.act(percept)
+    def _trace(self, thought: Thought) -> Trace:
+        trace = super()._trace(thought)
         # What it is sure of is no fluent of the domain.
-        belief = [fluent for fluent in decision.trace.belief if fluent in self._fluents]
-        return msgspec.structs.replace(
-            decision, trace=msgspec.structs.replace(decision.trace, belief=belief)
-        )
+        belief = [fluent for fluent in trace.belief if fluent in self._fluents]
+        return structs.replace(trace, belief=belief)
 
 
 def to_be_sure(task: Task) -> Task:
@@ -50,7 +42,8 @@ def to_be_sure(task: Task) -> Task:
     A literal that no `sees` statement ever shows cannot be checked, and is left as it is.
     """
     description = knowledge(task.domain, task.source).description
-    prefix = _free_prefix(task.source)
+    prefixes = (f"{'very_' * n}sure_" for n in count())
+    prefix = next(each for each in prefixes if each not in task.source)
     names, laws = dict[Literal, Fluent](), list[str]()
     for number, literal in enumerate(dict.fromkeys(task.goal), start=1):
         views = list(_views(description, literal))
@@ -64,7 +57,7 @@ def to_be_sure(task: Task) -> Task:
     known = frozenset(task.initial)
     sure = [name for literal, name in names.items() if literal in known]
     unsure = [name.complement for literal, name in names.items() if literal.complement in known]
-    return msgspec.structs.replace(
+    return structs.replace(
         task,
         source="\n".join([task.source, "fluents", *fluents, "laws", *laws, ""]),
         goal=[*task.goal, *names.values()],
@@ -72,18 +65,18 @@ def to_be_sure(task: Task) -> Task:
     )
 
 
-def _views(description: Description, literal: Literal) -> Iterator[Literals]:
+def _views(description: Description, literal: Literal) -> Iterator[Iterable[Literal]]:
     """Conditions under which the robot sees that a literal is true.
 
     It sees the literal itself, or all conditions of a state constraint from which it follows: a
     book that is seen in one room is seen not to be in another.
     """
     for condition in _sights(description, literal):
-        yield _together(literal, condition)
+        yield dict.fromkeys((literal, *condition))
     for law in description.constraints:
         if law.head == literal and law.body:
             for conditions in product(*(_sights(description, part) for part in law.body)):
-                yield _together(*law.body, *(part for each in conditions for part in each))
+                yield dict.fromkeys(chain(law.body, *conditions))
 
 
 def _sights(description: Description, literal: Literal) -> list[Literals]:
@@ -94,16 +87,3 @@ def _sights(description: Description, literal: Literal) -> list[Literals]:
         for statement in description.sees
         if (statement.robot, statement.fluent) == (robot, literal.atom)
     ]
-
-
-def _together(*literals: Literal | Literals) -> Literals:
-    parts = ((part,) if isinstance(part, str) else part for part in literals)
-    return tuple(dict.fromkeys(literal for part in parts for literal in part))
-
-
-def _free_prefix(source: str) -> str:
-    """The beginning of names that do not occur in the source."""
-    prefix = "sure_"
-    while prefix in source:
-        prefix = f"very_{prefix}"
-    return prefix

@@ -14,7 +14,7 @@ from agents.intentional.reasoners import (
 )
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared import Intention, MakeReasoner, Reasoner, ReasoningRobot, Thought
-from asp.language import Action, Description, Fluent, Literal
+from asp.language import Description, Fluent, Literal
 from asp.reasoning.diagnosis import GOAL, SELECT, Diagnosis
 from testbed.protocol import FINISH, Capabilities, Percept, Task, Trace, is_mental
 
@@ -79,12 +79,15 @@ class IntentionalRobot(ReasoningRobot[History]):
             trace = self._with_alternatives(self._with_explanation(trace), diagnosis)
         if diagnosis is None or intention is None:
             return trace
+        changes_activity = is_mental(intention.action)
+        is_over = changes_activity or intention.action == FINISH
+        ahead = intention.plan if is_over else self._history.left(diagnosis)
         trace = structs.replace(
             trace,
-            mental=intention.action if is_mental(intention.action) else None,
-            intention=Literal.parse(intention.action),
-            plan=list(map(Literal.parse, self._ahead(intention, diagnosis))),
-            belief=sorted(map(Literal.parse, intention.believed - {GOAL})),
+            mental=intention.action if changes_activity else None,
+            intention=intention.action,
+            plan=list(ahead),
+            belief=sorted(intention.believed - {GOAL}),
             plans=trace.plans + (intention.action == start_activity(trace.plans + 1)),
         )
         return self._reasons.explained(trace, self._history, intention, diagnosis)
@@ -95,13 +98,6 @@ class IntentionalRobot(ReasoningRobot[History]):
             return trace
         others, more = self._reasons.alternatives(self._history, diagnosis)
         return structs.replace(trace, alternatives=others, more_alternatives=more)
-
-    def _ahead(self, intention: Intention, diagnosis: Diagnosis) -> tuple[Action, ...]:
-        """The plan that is started, or what is left of the one that is carried out."""
-        if intention.action == FINISH or is_mental(intention.action):
-            return intention.plan
-        name, index = next(iter(diagnosis.indices.items()))
-        return self._history.activities[name - 1].plan[index:]
 
 
 class Reference(IntentionalRobot):

@@ -56,6 +56,11 @@ class History(diagnosis.History):
             for index, action in enumerate(activity.plan, start=1):
                 yield fact("activity_component", activity.name, index, action)
 
+    def left(self, diagnosis: Diagnosis) -> tuple[Action, ...]:
+        """What is left of the plan of the activity that is carried out."""
+        name, index = next(iter(diagnosis.indices.items()))
+        return self.activities[name - 1].plan[index:]
+
     @property
     def longest(self) -> int:
         """The length of the longest plan so far."""
@@ -126,14 +131,6 @@ FIRST_EVENT = 1
 """The first step with events: nothing else happens while the goal is selected (16)."""
 
 
-@dataclass
-class _Active:
-    """The active activity, with the physical actions that took effect since it was started."""
-
-    name: int
-    executed: list[tuple[int, Action]] = field(default_factory=list)
-
-
 class IncrementalReasoner(IncrementalDiagnoser[History]):
     """Reasons about one goal in one domain, as the reference does, for one trial."""
 
@@ -145,7 +142,8 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
         self._plans = sessions.plans
         self._actions, _ = knowledge.actions
         self._plan_limit = plan_limit
-        self._active: _Active | None = None
+        self._active: int | None = None
+        self._executed: list[tuple[int, Action]] = []
 
     def diagnose(self, history: History, adopted: Explanation, /) -> Diagnosis:
         """Phase one. Raises InconsistentHistoryError."""
@@ -163,8 +161,8 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
         self, state: State, history: History, diagnosis: Diagnosis
     ) -> tuple[Action, tuple[Action, ...]]:
         """The intention where the goal does not hold."""
-        for name, index in diagnosis.indices.items():
-            left = history.activities[name - 1].plan[index:]
+        for name in diagnosis.indices:
+            left = history.left(diagnosis)
             if left and self._plans.succeeds(state, self._goal, left):
                 return left[0], ()  # (38)
             return stop_activity(name), ()  # (41)
@@ -176,25 +174,25 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
         return start_activity(name), plan  # (42), (52)
 
     def _follow(self, history: History) -> None:
-        """Which activity is active after the last step (1), and what was done since it is."""
+        """Which activity is active after the last step (1), and what took effect since it is."""
         last = history.at(history.step - 1)
         for action in last.attempted:
             if action.name == "start":
-                self._active = _Active(int(action.arguments[0]))
+                self._active, self._executed = int(action.arguments[0]), []
             elif action.name == "stop":
                 self._active = None
             elif self._active and action in self._actions and last.happened.get(action):
                 done = (history.step - 1, action)
-                if done not in self._active.executed:  # a step may be diagnosed twice
-                    self._active.executed.append(done)
+                if done not in self._executed:  # a step may be diagnosed twice
+                    self._executed.append(done)
 
     def _indices(self, history: History) -> dict[int, int]:
         """The index of the active activity (3), which stood still where the goal held (7)-(9)."""
         if self._active is None:
             return {}
-        plan, index = history.activities[self._active.name - 1].plan, 0
+        plan, index = history.activities[self._active - 1].plan, 0
         held = self.belief.held
-        for step, action in self._active.executed:
+        for step, action in self._executed:
             if step not in held and plan[index : index + 1] == (action,):
                 index += 1
-        return {self._active.name: index}
+        return {self._active: index}

@@ -9,7 +9,7 @@ from msgspec import structs
 
 from agents.intentional.reasoners import FIRST_EVENT, History
 from agents.shared import Intention, Narration, Reasons, Step, listed
-from asp.language import Action, Literal
+from asp.language import Action
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, problem_of
 from asp.solving import LimitError, State, deciding
 from testbed import protocol
@@ -33,15 +33,12 @@ class IntentionalReasons(Reasons):
             return structs.replace(trace, reason=text, no_plan=no_plan)
         if action.name == "start":
             return structs.replace(trace, reason=_started(history, intention))
-        name, index = next(iter(diagnosis.indices.items()))
-        left = history.activities[name - 1].plan[index:]
+        left = history.left(diagnosis)
         if action.name == "stop":
             futile_at, text = self._futile(history.step, state, left)
             return structs.replace(trace, reason=text, futile_at=futile_at)
-        by = Step(history.step + len(left))
-        return structs.replace(
-            trace, reason=Narration(f"activity {name} still reaches the goal, by step ", by)
-        )
+        said = f"activity {trace.activity} still reaches the goal, by step "
+        return structs.replace(trace, reason=Narration(said, Step(history.step + len(left))))
 
     def alternatives(
         self, history: History, diagnosis: Diagnosis
@@ -74,8 +71,7 @@ class IntentionalReasons(Reasons):
             if after is None or not after[1]:
                 hindrance = self._sessions.transitions.hindrance(state, action)
                 because = (" with ", listed(hindrance)) if hindrance else ()
-                attempt, at = Literal.parse(action), Step(later)
-                said = ("futile: ", attempt, " is impossible at step ", at, *because)
+                said = ("futile: ", action, " is impossible at step ", Step(later), *because)
                 return later, Narration(*said)
             state = after[0]
         end = step + len(left)

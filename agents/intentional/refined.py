@@ -14,7 +14,6 @@ from agents.intentional.executor.execution import Execution
 from agents.intentional.executor.sensing import Asking
 from agents.intentional.executor.trace import CoarseSteps
 from agents.shared import retold
-from asp.language import Literal
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
 from testbed.protocol import FINISH, WAIT, Capabilities, Decision, Percept, Robot, Task, Trace
@@ -85,7 +84,7 @@ class RefinedRobot:
         return Decision(
             trial=percept.trial,
             step=percept.step,
-            action=Literal.parse(action),
+            action=action,
             believes_goal=False,
             trace=Trace(),
         )
@@ -114,7 +113,7 @@ class RefinedRobot:
             self._running = self._execution.run()
             first = next(self._running, None)
             self._running = None if first is None else self._running
-            action = Literal.parse(first or WAIT)
+            action = first or WAIT
         trace = retold(decision.trace, step=self._steps.own)
         return structs.replace(decision, step=percept.step, trace=trace, action=action)
 

@@ -34,7 +34,7 @@ class Narration(str):
 
 def listed(literals: Iterable[Literal]) -> Narration:
     """The literals, with commas between them."""
-    return Narration(*[part for each in literals for part in (", ", Literal.parse(each))][1:])
+    return Narration(*[part for each in literals for part in (", ", each)][1:])
 
 
 def retold(

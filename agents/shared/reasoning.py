@@ -8,7 +8,8 @@ from asp.reasoning.diagnosis import Diagnoser, Diagnosis, DiagnosisSessions, H_c
 from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.reasoning.successors import Transitions
-from asp.solving import Recent
+from asp.solving import Limits, Recent
+from testbed.protocol import Task
 
 
 @dataclass(frozen=True)
@@ -44,6 +45,11 @@ class Sessions:
     def transitions(self) -> Transitions:
         """The transition diagram."""
         return self.diagnosis.transitions
+
+
+def limits_of(task: Task) -> Limits:
+    """What a decision about a task may take."""
+    return Limits(task.decision_s, task.conflicts, task.ground_rules, task.expansions)
 
 
 MOST_DOMAINS = 16

@@ -3,31 +3,24 @@
 from collections.abc import Collection
 
 from agents.shared.narration import Narration
-from agents.shared.reasoning import sessions_of
-from asp.language import Action, Fluent, Literal
+from agents.shared.reasoning import limits_of, sessions_of
+from asp.language import Action, Fluent
 from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
 from asp.reasoning.knowledge import Knowledge
-from asp.solving import UNLIMITED, LimitError, Limits, State, deciding
+from asp.solving import LimitError, State, deciding
 from testbed import protocol
-from testbed.protocol import Contradiction, Event, NoPlan
+from testbed.protocol import Contradiction, Event, NoPlan, Task
 
 
 class Reasons:
     """Tells of decisions about one goal in one domain, whatever the robot reasons with."""
 
-    def __init__(
-        self,
-        knowledge: Knowledge,
-        goal: tuple[Literal, ...],
-        plan_limit: int,
-        limits: Limits = UNLIMITED,
-    ) -> None:
-        self._knowledge = knowledge
+    def __init__(self, knowledge: Knowledge, task: Task) -> None:
+        self._knowledge, self._task = knowledge, task
+        self._goal = tuple(task.goal)
+        self._limits = limits_of(task)
         self._sessions = sessions_of(knowledge)
-        self._goal = goal
-        self._tracker = self._sessions.diagnosis.tracker(goal)
-        self._plan_limit = plan_limit
-        self._limits = limits
+        self._tracker = self._sessions.diagnosis.tracker(self._goal)
 
     def explanation(
         self, explanation: Explanation, misread: Collection[Happening], step: int
@@ -37,7 +30,7 @@ class Reasons:
             step=step,
             unobserved=_events(explanation.unobserved),
             distrusted=_events((*explanation.distrusted, *misread)),
-            exceptions=[*map(Literal.parse, self._knowledge.against(explanation.exceptions))],
+            exceptions=self._knowledge.against(explanation.exceptions),
             minimal="proved" if explanation.proved else "unproved",
         )
 
@@ -55,7 +48,7 @@ class Reasons:
             if found or step >= history.step:
                 return [
                     Contradiction(step=step, observed=seen, believed=seen.complement)
-                    for seen in map(Literal.parse, found)
+                    for seen in found
                 ]
             record = record_of(moment, *self._knowledge.actions)
             attempt, events = adopted.executed(record, step), adopted.happened(record, step)
@@ -63,7 +56,9 @@ class Reasons:
             if after is None:
                 return self._impossible(events, state, step)
             if attempt is not None and after[1] != moment.happened.get(attempt):
-                return [_result(attempt, after[1], step)]
+                seen = attempt.complement if after[1] else attempt
+                sides = _in("hpd", seen), _in("hpd", seen.complement)
+                return [Contradiction(step=step, observed=sides[0], believed=sides[1])]
             state, step = after[0], step + 1
 
     def no_plan(self, believed: Collection[Fluent]) -> tuple[NoPlan, str]:
@@ -71,7 +66,7 @@ class Reasons:
 
         What is believed need not be so.
         """
-        within = f"no plan of at most {self._plan_limit} actions achieves the goal"
+        within = f"no plan of at most {self._task.plan_limit} actions achieves the goal"
         try:
             with deciding(self._limits):
                 reachable = self._sessions.reach.reachable(frozenset(believed), self._goal)
@@ -91,21 +86,14 @@ class Reasons:
         transitions = self._sessions.transitions
         alone = [e for e in events if transitions.after(state, None, (e,)) is None]
         return [
-            Contradiction(
-                step=step,
-                observed=Narration("hpd(", event, ")"),
-                believed=Narration("impossible(", event, ")"),
-            )
-            for event in map(Literal.parse, alone or events)
+            Contradiction(step=step, observed=_in("hpd", e), believed=_in("impossible", e))
+            for e in alone or events
         ]
 
 
 def _events(happenings: Collection[Happening]) -> list[Event]:
-    return [Event(step=step, action=Literal.parse(action)) for step, action in happenings]
+    return [Event(step=step, action=action) for step, action in happenings]
 
 
-def _result(attempt: Action, expected: bool, step: int) -> Contradiction:
-    done = Literal.parse(attempt)
-    sides = (done.complement, done) if expected else (done, done.complement)
-    observed, believed = (Narration("hpd(", side, ")") for side in sides)
-    return Contradiction(step=step, observed=observed, believed=believed)
+def _in(predicate: str, action: Action) -> Narration:
+    return Narration(f"{predicate}(", action, ")")

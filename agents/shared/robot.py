@@ -7,7 +7,7 @@ from typing import ClassVar, Generic
 
 from msgspec import structs
 
-from agents.shared.reasoning import Intention, Reasoner
+from agents.shared.reasoning import Intention, Reasoner, limits_of
 from agents.shared.reasons import Reasons
 from asp.language import Literal
 from asp.reasoning.diagnosis import (
@@ -20,16 +20,11 @@ from asp.reasoning.diagnosis import (
     distrust_tests,
 )
 from asp.reasoning.knowledge import Knowledge, knowledge
-from asp.solving import LimitError, Limits, Reading, State, deciding, preparation, reasoning_clock
+from asp.solving import LimitError, Reading, State, deciding, preparation, reasoning_clock
 from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task, Trace, is_mental
 
 MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[H_contra]]
 """Makes a reasoner of a domain, a goal and the greatest length of a plan."""
-
-
-def limits_of(task: Task) -> Limits:
-    """What a decision about a task may take."""
-    return Limits(task.decision_s, task.conflicts, task.ground_rules, task.expansions)
 
 
 @dataclass
@@ -172,7 +167,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """What the domain is reasoned with, made in a decision so that its limits hold for it."""
         limit = self._task.plan_limit
         with preparation():
-            self._reasons = self._reasons_type(self._domain, self._goal, limit, self._limits)
+            self._reasons = self._reasons_type(self._domain, self._task)
             self._reasoner = self._make_reasoner(self._domain, self._goal, limit)
         return self._reasoner
 

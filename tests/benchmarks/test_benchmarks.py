@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from agents.shared import MOST_DOMAINS
+from agents.shared.reasoning import MOST_DOMAINS
 from benchmarks import decisions, driver, growth, memory, mutation, peers, trials, worlds
 from benchmarks.__main__ import main
 from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS

@@ -33,13 +33,13 @@ class Reporter:
         coarse = self._coarse
         expected = coarse.after(believed, action, at_last) or believed
         soon = coarse.news(expected, None, self._later)
-        told = [*map(Literal.parse, self._contrary(coarse.after(expected, None, soon) or expected))]
+        told = self._contrary(coarse.after(expected, None, soon) or expected)
         return Percept(
             trial=percept.trial,
             step=self._steps.present + 1,
             visible=told,
             doubtful=[literal for literal in told if self._fine.is_doubtful(literal)],
-            attempted=None if over is None else Literal.parse(over.action),
+            attempted=None if over is None else over.action,
             happened=None if over is None else over.happened,
             failing=over is not None and not over.happened,
             events=events,
@@ -76,10 +76,9 @@ class Reporter:
         recent = [*self._later, *(event for step, event in heard if step == latest)]
         possible = self._coarse.news(believed, action, recent)
         self._later = self._after(believed, action, recent, possible)
-        earlier = [
-            Event(step=step, action=Literal.parse(event)) for step, event in heard if step < latest
-        ]
-        return [*earlier, *(Event(step=latest, action=Literal.parse(event)) for event in possible)]
+        earlier = [pair for pair in heard if pair[0] < latest]
+        told = [*earlier, *((latest, event) for event in possible)]
+        return [Event(step=step, action=event) for step, event in told]
 
     def _after(
         self, believed: State, action: Action | None, recent: list[Literal], possible: list[Action]

@@ -43,8 +43,8 @@ class Effects:
 
     def of(self, action: Action, true: Iterable[Fluent]) -> tuple[Literal, ...]:
         """The literals that the action brings about where these fluents are known to be true."""
-        one, facts = Literal.parse(action), Facts(map(Literal.parse, true))
-        heads = (law.heads(one.arguments, facts) for law in self._laws.get(one.name, ()))
+        facts = Facts(true)
+        heads = (law.heads(action.arguments, facts) for law in self._laws.get(action.name, ()))
         return tuple(dict.fromkeys(chain.from_iterable(heads)))
 
 

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
 from agents.intentional.controller import IntentionalRobot
-from agents.shared import Sessions, reasoning, sessions_of
+from agents.shared import reasoning, sessions_of
+from agents.shared.reasoning import Sessions
 from asp.language import parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent
@@ -125,7 +126,7 @@ def test_it_goes_and_looks_where_it_assumes_its_goal_to_hold() -> None:
 def test_on_kept_controls_it_decides_as_from_scratch(
     initial: int, goal: tuple[str, ...], wishes: dict[int, Wish]
 ) -> None:
-    live(CheckingRobot(IntentionalRobot(Both)), initial, goal, wishes, steps=16, feedback=False)
+    live(CheckingRobot(Both), initial, goal, wishes, steps=16, feedback=False)
 
 
 def _task(source: str, goal: Sequence[str]) -> Task:

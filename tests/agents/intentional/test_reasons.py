@@ -73,7 +73,7 @@ def test_news_that_cannot_be_true_contradicts_what_makes_it_impossible() -> None
     history.happened(SELECT, True, 0)
     history.step = 2
     history.happened(Literal.parse("exo_move(book1,office1)"), True, 1)
-    reasons = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20)
+    reasons = IntentionalReasons(OFFICE, TASK)
     (found,) = reasons.contradictions(history, Explanation(), frozenset(WORLD.true_atoms(START)), 1)
     assert (found.step, found.observed, found.believed) == (
         1,
@@ -108,7 +108,7 @@ def test_alternatives_are_all_explanations_of_the_plain_theory(
     if plain is None:
         return
     one = next(iter(sorted(plain, key=str)))
-    others, more = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
+    others, more = IntentionalReasons(OFFICE, TASK).alternatives(
         history, Diagnosis(_diagnosis(one))
     )
     found = {(frozenset(_pairs(o.unobserved)), frozenset(_pairs(o.distrusted))) for o in others}
@@ -166,8 +166,8 @@ def test_no_more_time_than_for_a_decision_is_spent_on_alternatives(
     history.step = 3
     history.observe(parsed(["-loc(book2,kitchen)"]), 3)
     explained = reasoner(OFFICE, BOTH_IN_THE_LIBRARY, 20).diagnose(history, Explanation())
-    assert IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(history, explained)[0]
-    hurried = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20, limits=Limits(0))
+    assert IntentionalReasons(OFFICE, TASK).alternatives(history, explained)[0]
+    hurried = IntentionalReasons(OFFICE, _task([*BOTH_IN_THE_LIBRARY], 20, decision_s=0))
     assert hurried.alternatives(history, explained) == ([], True)
 
 
@@ -178,9 +178,7 @@ def test_more_alternatives_than_are_listed_are_said_to_be_there() -> None:
     history.step = 30
     history.observe(parsed(["loc(book2,office1)"]), 30)
     diagnosis = Explanation((Happening(29, Literal.parse("exo_move(book2,office1)")),))
-    others, more = IntentionalReasons(OFFICE, BOTH_IN_THE_LIBRARY, 20).alternatives(
-        history, Diagnosis(diagnosis)
-    )
+    others, more = IntentionalReasons(OFFICE, TASK).alternatives(history, Diagnosis(diagnosis))
     assert more
     assert 19 <= len(others) <= 20
 
@@ -286,6 +284,9 @@ def _task(goal: list[str], limit: int, decision_s: float | None) -> Task:
         seed=0,
         decision_s=decision_s,
     )
+
+
+TASK = _task([*BOTH_IN_THE_LIBRARY], 20, None)
 
 
 def _percept(step: int) -> Percept:

@@ -7,7 +7,8 @@ from weakref import ref
 import pytest
 
 from agents.intentional.checking import CheckingRobot, to_be_sure
-from agents.shared import Sessions, reasoning, sessions_of
+from agents.shared import reasoning, sessions_of
+from agents.shared.reasoning import Sessions
 from asp.language import MOST_TEXTS, Description, parse_description
 from asp.reasoning.knowledge import knowledge
 from asp.solving import Recent, Session
