@@ -30,39 +30,23 @@ class JointReasoner(ReferenceReasoner):
         """The first of all smallest explanations; none is kept. Raises InconsistentHistoryError."""
         return self._diagnose(history, adopted, keeps=False)
 
-    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
+    def _lengths(self, history: History, diagnosis: Diagnosis) -> range:
+        if not diagnosis.indices:
+            return super()._lengths(history, diagnosis)
+        # Under another explanation more of the plan may be left than under the first one.
+        whole = max(len(history.activities[name - 1].plan) for name in diagnosis.indices)
+        return range(whole, whole + 1)
+
+    def _intention(
+        self, history: History, diagnosis: Diagnosis, length: int, more: tuple[Symbol, ...]
+    ) -> Intention | None:
         """The intention that is best under any smallest explanation; its `under` says which.
 
         An activity that may still succeed is gone on with, and one that cannot is stopped. Without
-        one the agent finishes if the goal may hold, else it starts the shortest plan that may
-        reach it. Beyond the plan limit the goal is futile.
+        one the agent finishes if the goal may hold, else it starts the plan that may reach it. Of
+        the explanation only the numbers of events and exceptions count.
         """
-        if diagnosis.indices:
-            return self._with_activity(history, diagnosis)
-        for length in range(1, self._plan_limit + 1):
-            intention = self._look(history, diagnosis.explanation, length, _INACTIVE)
-            if intention is not None:
-                return intention
-        given_up = (fact("beyond_limit"),)
-        return _found(self._look(history, diagnosis.explanation, 1, _INACTIVE, given_up))
-
-    def _with_activity(self, history: History, diagnosis: Diagnosis) -> Intention:
-        # Under another explanation more of the plan may be left than under the first one.
-        length = max(len(history.activities[name - 1].plan) for name in diagnosis.indices)
-        return _found(self._look(history, diagnosis.explanation, length, _ACTIVE))
-
-    def _look(
-        self,
-        history: History,
-        explanation: Explanation,
-        length: int,
-        kinds: tuple[str, ...],
-        more: tuple[Symbol, ...] = (),
-    ) -> Intention | None:
-        """The intention of the first kind that there is, if `length` more actions are considered.
-
-        Of the explanation only the numbers of events and exceptions count.
-        """
+        explanation = diagnosis.explanation
         constants = self._constants(history, history.step + 1 + length, length)
         most = explanation.size
         texts = [theory(name) for name in (*_EXPLAINING, "planning", "joint")]
@@ -72,7 +56,7 @@ class JointReasoner(ReferenceReasoner):
             (fact("number_unobserved", most, history.step), True),
             (fact("number_exceptions", len(explanation.exceptions)), True),
         ]
-        for kind in kinds:
+        for kind in _ACTIVE if diagnosis.indices else _INACTIVE:
             model = first_model(control, [*smallest, (fact(kind), True)])
             if model is not None:
                 under = diagnosis_of(model, explanation.proved)
@@ -108,11 +92,6 @@ class JointReferenceReasoner(ReferenceReasoner):
 
         limits = event_limits(self._base[0], facts, history.step, diagnosis.explanation.size)
         return next(filter(None, map(best, limits)))
-
-
-def _found(intention: Intention | None) -> Intention:
-    assert intention is not None, "(53): an agent always has an intention"
-    return intention
 
 
 class Joint(IntentionalRobot):

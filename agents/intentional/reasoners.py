@@ -83,22 +83,25 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
         Where no activity is in progress this is iterative deepening: the first horizon with an
         intention is that of a shortest plan. Beyond the plan limit the goal is futile.
         """
-        plans = {activity.name: len(activity.plan) for activity in history.activities}
-        left = (plans[name] - index for name, index in diagnosis.indices.items())
-        first = max([1, *left])
-        for length in range(first, max(first, self._plan_limit) + 1):
-            intention = self._intention(history, diagnosis.explanation, length, ())
+        for length in self._lengths(history, diagnosis):
+            intention = self._intention(history, diagnosis, length, ())
             if intention is not None:
                 return intention
-        given_up = (fact("beyond_limit"),)
-        intention = self._intention(history, diagnosis.explanation, 1, given_up)
+        intention = self._intention(history, diagnosis, 1, (fact("beyond_limit"),))
         assert intention is not None, "(53): an agent always has an intention"
         return intention
 
+    def _lengths(self, history: History, diagnosis: Diagnosis) -> range:
+        """How many more physical actions to consider, one number after the other."""
+        left = (len(history.activities[n - 1].plan) - i for n, i in diagnosis.indices.items())
+        first = max([1, *left])
+        return range(first, max(first, self._plan_limit) + 1)
+
     def _intention(
-        self, history: History, explanation: Explanation, length: int, more: tuple[Symbol, ...]
+        self, history: History, diagnosis: Diagnosis, length: int, more: tuple[Symbol, ...]
     ) -> Intention | None:
         """The intention where `length` more physical actions are considered, if there is one."""
+        explanation = diagnosis.explanation
         constants = self._constants(history, history.step + 1 + length, length)
         facts = [
             *self._facts(history),
