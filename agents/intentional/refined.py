@@ -12,7 +12,6 @@ from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.coarse import Reporter
 from agents.intentional.executor.execution import Execution
 from agents.intentional.executor.sensing import Asking
-from agents.intentional.executor.trace import CoarseSteps
 from agents.shared import retold
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
@@ -47,8 +46,7 @@ class RefinedRobot:
             self._fine = FineTracker(refinement, abstract.robot, task, self._zooms)
             known = [literal for literal in task.initial if abstract.is_about(literal)]
             self._fine.know(task.initial_fine, known)
-            self._steps = CoarseSteps()
-            self._reporter = Reporter(self._fine, abstract, self._steps)
+            self._reporter = Reporter(self._fine, abstract)
             self._believed: State = frozenset(each for each in known if each.is_positive)
             self._execution: Execution | None = None
             self._running: Asking[None] | None = None
@@ -114,7 +112,7 @@ class RefinedRobot:
             first = next(self._running, None)
             self._running = None if first is None else self._running
             action = first or WAIT
-        trace = retold(decision.trace, step=self._steps.own)
+        trace = retold(decision.trace, step=self._reporter.own)
         return structs.replace(decision, step=percept.step, trace=trace, action=action)
 
     def _ask(self, percept: Percept, told: Percept) -> Decision:
@@ -131,7 +129,7 @@ class RefinedRobot:
 
     def _answer(self, step: int, told: Percept) -> Decision:
         """The coarse robot's answer; the coarse step begins at a step of the environment."""
-        self._steps.begin(step)
+        self._reporter.begin(step)
         return self._abstract.decision(self._coarse.act(self._abstract.percept(told)))
 
 

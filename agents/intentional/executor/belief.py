@@ -122,14 +122,7 @@ class FineTracker:
         certain = self.certain()
         certain.see(filter(self._is_own, seen))
         return [
-            literal
-            for literal in seen
-            if self._is_own(literal)
-            or not (
-                certain.is_false(literal)
-                if literal.is_positive
-                else literal.atom in certain.known.true
-            )
+            literal for literal in seen if self._is_own(literal) or not certain.contradicts(literal)
         ]
 
     def holding(self, literals: Collection[Literal]) -> list[Literal]:

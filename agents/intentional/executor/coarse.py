@@ -1,22 +1,36 @@
-"""What the coarse robot is told of the fine resolution."""
+"""What the coarse robot is told of the fine resolution, and in which of its steps."""
+
+from bisect import bisect_right
 
 from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.execution import Execution
-from agents.intentional.executor.trace import CoarseSteps
 from asp.language import Action, Literal
 from asp.solving import State
 from testbed.protocol import Event, Percept
 
 
 class Reporter:
-    """Lifts what was observed at the fine resolution to the coarse one."""
+    """Lifts what was observed at the fine resolution to the coarse one.
 
-    def __init__(self, fine: FineTracker, coarse: AbstractTask, steps: CoarseSteps) -> None:
+    It knows when each coarse step began, in steps of the environment. Step 0 is that of both, at
+    which the goal is selected.
+    """
+
+    def __init__(self, fine: FineTracker, coarse: AbstractTask) -> None:
         self._fine = fine
         self._coarse = coarse
-        self._steps = steps
+        self._began = [0]
         self._later: list[Literal] = []
+
+    def begin(self, step: int) -> None:
+        """The next coarse step begins at this step of the environment."""
+        self._began.append(step)
+
+    def own(self, step: int) -> int:
+        """The step of the environment at which a coarse step began, or may begin at the soonest."""
+        ahead = max(0, step + 1 - len(self._began))
+        return self._began[step - ahead] + ahead
 
     def percept(
         self, percept: Percept, believed: State, over: Execution | None
@@ -27,21 +41,24 @@ class Reporter:
         expectation. What is as expected says nothing new, and it was observed a while ago: added to
         the history as seen at this step it would deny that anything happened since.
         """
-        action = over.action if over is not None and over.happened else None
-        events = self._events(believed, action, over)
-        at_last = [event.action for event in events if event.step >= self._latest(over)]
+        now, failing = len(self._began) - 1, over is not None and not over.happened
+        action = None if over is None or failing else over.action
+        # What made an action impossible that failed happened before it was attempted.
+        latest = max(1, now - 1) if failing else now
+        events = self._events(believed, action, latest)
+        at_last = [event.action for event in events if event.step == latest]
         coarse = self._coarse
         expected = coarse.after(believed, action, at_last) or believed
         soon = coarse.news(expected, None, self._later)
         told = self._contrary(coarse.after(expected, None, soon) or expected)
         return Percept(
             trial=percept.trial,
-            step=self._steps.present + 1,
+            step=now + 1,
             visible=told,
             doubtful=[literal for literal in told if self._fine.is_doubtful(literal)],
             attempted=None if over is None else over.action,
             happened=None if over is None else over.happened,
-            failing=over is not None and not over.happened,
+            failing=failing,
             events=events,
             goal_holds=percept.goal_holds,
         ), expected
@@ -54,21 +71,10 @@ class Reporter:
             holding = fine.holding(contrary)
         return [each for each in holding if fine.is_magnified(each) or each.atom in fine.noticed]
 
-    def _latest(self, over: Execution | None) -> int:
-        """The coarse step to which news of the present one is put down.
-
-        Where an action failed, what made it impossible happened before it was attempted.
-        """
-        now = self._steps.present
-        return max(1, now - 1) if over is not None and not over.happened else now
-
-    def _events(
-        self, believed: State, action: Action | None, over: Execution | None
-    ) -> list[Event]:
-        """The news as events of coarse steps."""
-        latest = self._latest(over)
+    def _events(self, believed: State, action: Action | None, latest: int) -> list[Event]:
+        """The news as events of coarse steps, of which the latest one has that of the present."""
         heard = [
-            (min(latest, self._steps.coarse(step)), coarse)
+            (min(latest, bisect_right(self._began, step) - 1), coarse)
             for step, event in self._fine.news
             for coarse in self._fine.refinement.coarse_of(event)
         ]

@@ -35,7 +35,7 @@ class Execution:
         self.effects = self._planner.effects
         self.happened = False
         with fine.trace.timing("planning"):
-            self._direct = fine.model.direct_effects.get(action, frozenset())
+            self._direct = fine.model.direct_effects[action]
             things = fine.looked_for(self._planner.relevant)
         self._sensing = Sensing(fine, transition, things)
         every = fine.refinement.coarse_signature.constants
@@ -45,19 +45,15 @@ class Execution:
 
     def run(self) -> Asking[None]:
         """Carries the action out, as far as that can be done."""
-        self.happened = yield from self._run()
-
-    def _run(self) -> Asking[bool]:
         yield from self._sensing.look()
         while max(self._failures, self._in_vain) < _PATIENCE:
             plan = yield from self._planned()
-            if not plan:
-                return plan is not None and self._is_settled()
-            self._in_vain += yield from self._follow(plan)
-            if self._is_settled():
-                return True
+            if plan:
+                self._in_vain += yield from self._follow(plan)
+            self.happened = plan is not None and self._is_settled()
+            if self.happened or not plan:
+                return
         self._fine.trace.note(failed=f"{self.action} failed {_PATIENCE} times in a row")
-        return False
 
     def _follow(self, plan: Sequence[Action]) -> Asking[bool]:
         """Does one action after another, as long as nothing upsets the plan."""
@@ -102,21 +98,15 @@ class Execution:
                 self._sensing.hear((yield WAIT))
 
     def _is_settled(self) -> bool:
-        """Whether the action is done; then what nobody can see of its effects is believed, too."""
-        done = self._is_done()
-        if done:
-            self._fine.assume(self.effects)
-        return done
+        """Whether the action is done; then what nobody can see of its effects is believed, too.
 
-    def _is_done(self) -> bool:
-        """Whether the effects follow from what is known.
-
-        Of fluents without counterparts an indirect effect follows unless the contrary is shown.
+        Its effects follow from what is known then. Of fluents without counterparts an indirect
+        effect follows unless the contrary is shown.
         """
         fine = self._fine
         with fine.trace.timing("infer"):
             holding = fine.holding(self.effects)
-        return all(
+        done = all(
             effect in holding
             or not (
                 fine.is_magnified(effect)
@@ -125,6 +115,9 @@ class Execution:
             )
             for effect in self.effects
         )
+        if done:
+            fine.assume(self.effects)
+        return done
 
     def _is_upset(self, rest: Sequence[Literal]) -> bool:
         """Whether something new is about what the rest of a plan acts upon.

@@ -77,15 +77,13 @@ class FineModel:
             for literal in roles.literals(law.body)
         }
         self.carriers = frozenset(fluent for fluent in self.unmagnified if fluent.name in named)
-        self.conditions: dict[str, frozenset[Literal]] = {}
+        self.conditions: dict[Action, set[Fluent]] = defaultdict(set)
         for law in refinement.description.executability:
             for action in law.actions:
-                before = self.conditions.get(action, frozenset())
-                self.conditions[action] = before.union(each.atom for each in law.body)
-        self.direct_effects: dict[str, frozenset[Literal]] = {}
+                self.conditions[action].update(each.atom for each in law.body)
+        self.direct_effects: dict[Action, set[Literal]] = defaultdict(set)
         for causal in refinement.description.causal:
-            found = self.direct_effects.get(causal.action, frozenset())
-            self.direct_effects[causal.action] = found | {causal.head}
+            self.direct_effects[causal.action].add(causal.head)
         self._functions = functions(weak, refinement.weak_signature)
 
     def is_value(self, fluent: Fluent) -> bool:
@@ -138,6 +136,10 @@ class FineBelief:
     def is_false(self, fluent: Fluent) -> bool:
         """Whether a fluent is known not to hold."""
         return self._knowledge.is_false(self._with_carriers(), fluent)
+
+    def contradicts(self, literal: Literal) -> bool:
+        """Whether the contrary of a literal is known."""
+        return self.is_false(literal) if literal.is_positive else literal.atom in self.known.true
 
     def coarse(self, fluents: Collection[Fluent]) -> frozenset[Literal]:
         """The literals that follow of coarse fluents with counterparts (indirect observation)."""

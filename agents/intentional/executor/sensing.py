@@ -87,7 +87,8 @@ class Sensing:
         """Takes observations of the present moment for certain."""
         with self._fine.trace.timing("infer"):
             seen = self._fine.believable(literals)
-            new = [literal for literal in seen if not self._is_known(literal)]
+            known = self._fine.belief.known
+            new = [s for s in seen if s.atom not in (known.true if s.is_positive else known.false)]
             self._fine.belief.see(seen)
         self._fine.trace.add("committed", new)
         self.seen += new
@@ -131,7 +132,3 @@ class Sensing:
         if fluent.atom in percept.visible:
             return True
         return False if fluent.atom.complement in percept.visible else None
-
-    def _is_known(self, literal: Literal) -> bool:
-        known = self._fine.belief.known
-        return literal.atom in (known.true if literal.is_positive else known.false)

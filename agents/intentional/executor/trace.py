@@ -1,6 +1,5 @@
-"""What is told of an abstract action, step by step: counts at the fine resolution, coarse steps."""
+"""What is told of an abstract action at the fine resolution, step by step."""
 
-from bisect import bisect_right
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -49,31 +48,3 @@ class FineTraceBuilder:
             yield
         finally:
             self.spend(phase, reasoning_clock().since(began))
-
-
-class CoarseSteps:
-    """When each coarse step began, in steps of the environment.
-
-    Step 0 is that of both, at which the goal is selected.
-    """
-
-    def __init__(self) -> None:
-        self._began = [0]
-
-    @property
-    def present(self) -> int:
-        """The present coarse step."""
-        return len(self._began) - 1
-
-    def begin(self, step: int) -> None:
-        """The next coarse step begins at this step of the environment."""
-        self._began.append(step)
-
-    def coarse(self, step: int) -> int:
-        """The coarse step to which a step of the environment belongs."""
-        return bisect_right(self._began, step) - 1
-
-    def own(self, step: int) -> int:
-        """The step of the environment at which a coarse step began, or may begin at the soonest."""
-        ahead = max(0, step - self.present)
-        return self._began[step - ahead] + ahead

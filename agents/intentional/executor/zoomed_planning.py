@@ -65,7 +65,7 @@ class ZoomedPlanner:
         and of no other: to go to a room a robot need not find there what it expected.
         """
         about = self._about()
-        needed = self._fine.model.conditions.get(self._action, frozenset())
+        needed = self._fine.model.conditions[self._action]
         return tuple(
             group
             for fluent in sorted(self._inertial)
