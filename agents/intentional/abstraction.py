@@ -6,6 +6,7 @@ the way, a robot decides as it does with them; tasks that differ in names alone 
 task, and share what is prepared for it in a process.
 """
 
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping
 from functools import lru_cache
 
@@ -18,6 +19,7 @@ from asp.language import (
     Signature,
     analyse,
     parse_description,
+    reachable,
     restrict,
     syntax,
     text_of,
@@ -33,9 +35,6 @@ TASK_ABSTRACTION = True
 
 _SECTIONS: Mapping[type[syntax.Statement], str] = {
     syntax.SortDefinition: "sorts",
-    syntax.CausalLaw: "laws",
-    syntax.StateConstraint: "laws",
-    syntax.ExecutabilityCondition: "laws",
     syntax.Fact: "facts",
     syntax.InitiallyStatement: "initially",
     syntax.SeesStatement: "sees",
@@ -57,7 +56,9 @@ class AbstractTask:
         domain = _domain(task.source, task.domain)
         classes = domain.classes
         kept = domain.needed(task)
-        self._there = _names(classes, kept)
+        # The kept members are named as the first ones of their class, in the same order.
+        pairs = (zip([m for m in each if m in kept], each, strict=False) for each in classes)
+        self._there = {old: new for each in pairs for old, new in each}
         left = frozenset(self._there.values())
         members = frozenset(constant for each in classes for constant in each)
         source = _without(task.source, task.domain, members - left)
@@ -165,26 +166,17 @@ def _domain(source: str, domain: str) -> _Domain:
 
 def _may_hinder(source: syntax.Source, signature: Signature, obstacles: Collection[str]) -> bool:
     """Whether others can bring about that something stands in the way, by the names of fluents."""
-    made = {
+    follows: dict[tuple[str, bool], set[tuple[str, bool]]] = defaultdict(set)
+    for law in source.each(syntax.StateConstraint):
+        for part in roles.literals(law.body):
+            follows[part.atom.name, part.positive].add((law.head.atom.name, law.head.positive))
+    made = (
         (law.head.atom.name, law.head.positive)
         for law in source.each(syntax.CausalLaw)
         if signature.symbols[law.action.name].kind == "exogenous"
-    }
-    size = 0
-    while len(made) > size:
-        size = len(made)
-        made.update(
-            (law.head.atom.name, law.head.positive)
-            for law in source.each(syntax.StateConstraint)
-            if any((c.atom.name, c.positive) in made for c in roles.literals(law.body))
-        )
-    return any((name, True) in made for name in obstacles)
-
-
-def _names(classes: Iterable[tuple[str, ...]], kept: Collection[str]) -> dict[str, str]:
-    """New names of the kept members: the first ones of their class, in the same order."""
-    pairs = (zip([m for m in each if m in kept], each, strict=False) for each in classes)
-    return {old: new for each in pairs for old, new in each}
+    )
+    hindering = {(name, True) for name in obstacles}
+    return any(reachable(effect, follows) & hindering for effect in made)
 
 
 @lru_cache(maxsize=64)
@@ -201,4 +193,4 @@ def _without(text: str, domain: str, dropped: frozenset[Literal]) -> str:
 def _section(statement: syntax.Statement) -> str:
     if isinstance(statement, syntax.Declaration):
         return _DECLARED.get(statement.kind, "actions")
-    return _SECTIONS[type(statement)]
+    return _SECTIONS.get(type(statement), "laws")
