@@ -20,7 +20,7 @@ from asp.reasoning.diagnosis import (
     ReferenceDiagnoser,
 )
 from asp.reasoning.knowledge import Knowledge
-from asp.solving import State, fact, first_model, ground, literal_of, select, theory
+from asp.solving import fact, first_model, ground, literal_of, select, theory
 from testbed.protocol import FINISH
 
 
@@ -156,25 +156,19 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
     def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
         """Phase two."""
         state = self.belief.state
-        holds = self.holds(state)
-        action, plan = (FINISH, ()) if holds else self._decide(state, history, diagnosis)
-        return Intention(action, plan, state | {GOAL} if holds else state)
-
-    def _decide(
-        self, state: State, history: History, diagnosis: Diagnosis
-    ) -> tuple[Action, tuple[Action, ...]]:
-        """The intention where the goal does not hold."""
+        if self.holds(state):
+            return Intention(FINISH, (), state | {GOAL})
         for name in diagnosis.indices:
             left = history.left(diagnosis)
             if left and self._plans.succeeds(state, self._goal, left):
-                return left[0], ()  # (38)
-            return stop_activity(name), ()  # (41)
+                return Intention(left[0], (), state)  # (38)
+            return Intention(stop_activity(name), (), state)  # (41)
         plan = self._plans.shortest(state, self._goal, self._plan_limit)
         if plan is None:
-            return FINISH, ()  # (53)
+            return Intention(FINISH, (), state)  # (53)
         earlier = (activity.name for activity in history.activities if activity.plan == plan)
         name = next(earlier, len(history.activities) + 1)
-        return start_activity(name), plan  # (42), (52)
+        return Intention(start_activity(name), plan, state)  # (42), (52)
 
     def _follow(self, history: History) -> None:
         """Which activity is active after the last step (1), and what took effect since it is."""

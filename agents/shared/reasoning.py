@@ -37,14 +37,10 @@ class Reasoner(Diagnoser[H_contra], Protocol[H_contra]):
 class Sessions:
     """The sessions of one domain; they outlive goals and trials."""
 
+    transitions: Transitions
     diagnosis: DiagnosisSessions
     plans: IncrementalPlanner
     reach: Reachability
-
-    @property
-    def transitions(self) -> Transitions:
-        """The transition diagram."""
-        return self.diagnosis.transitions
 
 
 def limits_of(task: Task) -> Limits:
@@ -69,6 +65,6 @@ def sessions_of(knowledge: Knowledge) -> Sessions:
         plans = IncrementalPlanner(description.source, f"{description.name}.al")
         diagnosis = DiagnosisSessions(knowledge)
         reach = Reachability(description, diagnosis.transitions, plans.reachable)
-        return Sessions(diagnosis, plans, reach)
+        return Sessions(diagnosis.transitions, diagnosis, plans, reach)
 
     return _SESSIONS.get(knowledge.program, made)

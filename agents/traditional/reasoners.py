@@ -1,7 +1,5 @@
 """Diagnosis and planning without intentions: from scratch, and step by step."""
 
-from clingo import Symbol
-
 from agents.shared import Intention, sessions_of
 from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import (
