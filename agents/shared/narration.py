@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, TypeVar
+from functools import partial
+from typing import Any, TypeVar, cast
 
 from msgspec import Struct, structs
 
@@ -41,25 +42,24 @@ def retold(
     told: T,
     literal: Callable[[Literal], Literal] = lambda same: same,
     step: Callable[[int], int] = lambda same: same,
+    field: str = "",
 ) -> T:
-    """A message, or a part of one, with other literals and other steps."""
-
-    def change(part: Any, field: str = "") -> Any:
-        match part:
-            case Narration():
-                return Narration(*map(change, part.parts))
-            case Literal():
-                return literal(part)
-            case Step():
-                return Step(step(part))
-            case int() if field in _STEPS:
-                return step(part)
-            case list():
-                return [change(each) for each in part]
-            case Struct():
-                changed = {f: change(getattr(part, f), f) for f in part.__struct_fields__}
-                return structs.replace(part, **changed)
-        return part
-
-    changed: T = change(told)
-    return changed
+    """A message, or a part of one that stands in a field, with other literals and other steps."""
+    # A recursive function in this one would keep itself in memory, and all that `step` knows.
+    again = partial(retold, literal=literal, step=step)
+    part: Any = told
+    match part:
+        case Narration():
+            part = Narration(*map(again, part.parts))
+        case Literal():
+            part = literal(part)
+        case Step():
+            part = Step(step(part))
+        case int() if field in _STEPS:
+            part = step(part)
+        case list():
+            part = [*map(again, part)]
+        case Struct():
+            changed = {f: again(getattr(part, f), field=f) for f in part.__struct_fields__}
+            part = structs.replace(part, **changed)
+    return cast(T, part)
