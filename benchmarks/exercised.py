@@ -30,7 +30,14 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
         "tests/asp/reasoning/fine_planning/test_fine_plans.py",
     ),
     "history": (_AXIOMS, _REPORTS),
-    "incremental_diagnosis": (_REPORTS, _THE_END, _PREFERENCES, _COMPRESSION, _LIVES),
+    "incremental_diagnosis": (
+        "tests/asp/reasoning/test_successors.py",
+        _REPORTS,
+        _THE_END,
+        _PREFERENCES,
+        _COMPRESSION,
+        _LIVES,
+    ),
     "incremental_fine_planning": (
         "tests/asp/reasoning/fine_planning/test_incremental_fine_plans.py",
         "tests/asp/reasoning/fine_planning/test_problem_program.py",

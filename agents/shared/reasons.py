@@ -50,7 +50,7 @@ class Reasons:
                     Contradiction(step=step, observed=seen, believed=seen.complement)
                     for seen in found
                 ]
-            record = record_of(moment, *self._knowledge.actions)
+            record = record_of(moment, self._knowledge)
             attempt, events = adopted.executed(record, step), adopted.happened(record, step)
             after = self._sessions.transitions.after(state, attempt, events)
             if after is None:

@@ -3,7 +3,7 @@
 from asp.solving.budget import UNLIMITED, BudgetError, LimitError, Limits, current, deciding, up_to
 from asp.solving.cache import Answers, Recent
 from asp.solving.clock import Reading, preparation, reasoning_clock
-from asp.solving.session import Session, State, core, goal_externals, preferring
+from asp.solving.session import Session, State, assumptions, core, goal_externals, preferring
 from asp.solving.signals import undisturbed
 from asp.solving.solver import (
     answer_sets,
@@ -29,6 +29,7 @@ __all__ = [
     "Session",
     "State",
     "answer_sets",
+    "assumptions",
     "core",
     "current",
     "deciding",

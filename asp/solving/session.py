@@ -48,28 +48,22 @@ class Session:
             self._literals[key] = None if atom is None else atom.literal
         return self._literals[key]
 
+    def is_true(self, model: clingo.Model, predicate: str, *arguments: int | str) -> bool:
+        """Whether an atom is true in a model."""
+        literal = self.literal(predicate, *arguments)
+        return literal is not None and model.is_true(literal)
+
     def holds(self, fluent: Fluent, step: int) -> int | None:
         """The solver literal of holds(fluent,step), or None where it can never hold."""
         return self.literal("holds", fluent, step)
 
     def assume_state(self, state: State, step: int) -> list[int] | None:
         """Assumptions that make the state that of the step; None where it is none."""
-        assumptions = []
-        for fluent in self._fluents:
-            literal = self.holds(fluent, step)
-            if literal is not None:
-                assumptions.append(literal if fluent in state else -literal)
-            elif fluent in state:
-                return None
-        return assumptions
+        return assumptions((self.holds(each, step), each in state) for each in self._fluents)
 
     def state(self, model: clingo.Model, step: int) -> State:
         """The state of a step in a model."""
-        return frozenset(
-            fluent
-            for fluent in self._fluents
-            if (literal := self.holds(fluent, step)) is not None and model.is_true(literal)
-        )
+        return frozenset(f for f in self._fluents if self.is_true(model, "holds", f, step))
 
     def switch_on(self, *atoms: Symbol) -> None:
         """Makes exactly these externals true; those of the call before become false again."""
@@ -81,6 +75,17 @@ class Session:
             for atom in self._externals ^ wanted:
                 self.control.assign_external(atom, atom in wanted)
             self._externals = wanted
+
+
+def assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:
+    """Truth values of literals of the solver as assumptions; None where one cannot be true.
+
+    A literal that is None belongs to an atom that no rule derives.
+    """
+    known = list(wanted)
+    if (None, True) in known:
+        return None
+    return [each if truth else -each for each, truth in known if each is not None]
 
 
 @lru_cache(maxsize=1_000)

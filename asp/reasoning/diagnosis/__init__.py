@@ -1,18 +1,13 @@
 """Smallest explanations of histories: the reference, and the incremental twin held equal to it."""
 
-from asp.reasoning.diagnosis.encoding import problem_of
-from asp.reasoning.diagnosis.history import (
-    GOAL,
-    SELECT,
+from asp.reasoning.diagnosis.explanations import (
     Diagnoser,
     Diagnosis,
     Explanation,
     H_contra,
-    Happening,
-    History,
     InconsistentHistoryError,
-    record_of,
 )
+from asp.reasoning.diagnosis.history import GOAL, SELECT, Happening, History, problem_of, record_of
 from asp.reasoning.diagnosis.inconsistency import (
     cannot_hold,
     conflict,

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from asp.language import Literal
-from asp.reasoning.diagnosis.history import GOAL, Explanation, History, Moment, record_of
+from asp.reasoning.diagnosis.explanations import Explanation
+from asp.reasoning.diagnosis.history import GOAL, History, Moment, record_of
 from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.successors import Transitions
 from asp.solving import State
@@ -27,11 +28,11 @@ class BeliefTracker:
         self.knowledge = knowledge
         self.transitions = transitions
         self.since = since
-        self._goal = goal
+        self.goal = goal
 
     def missing(self, state: State) -> list[Literal]:
         """The literals of the goal that are not true in a state."""
-        return [each for each in self._goal if (each.atom in state) != each.is_positive]
+        return [each for each in self.goal if (each.atom in state) != each.is_positive]
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
@@ -67,7 +68,7 @@ class BeliefTracker:
     def _advance(self, belief: Belief, history: History, adopted: Explanation) -> Belief | None:
         """The belief a step later, if what happened there agrees with the explanation."""
         step = belief.step
-        record = record_of(history.at(step), *self.knowledge.actions)
+        record = record_of(history.at(step), self.knowledge)
         events = adopted.happened(record, step)
         if events and step < self.since:
             return None

@@ -1,14 +1,15 @@
-"""Histories (D 2.3), and explanations of them (D 2.4)."""
+"""Histories (D 2.3), and what of them there is to explain."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from typing import NamedTuple, Protocol, TypeVar
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from clingo import Symbol
 
 from asp.language import Action, Fluent, Literal
+from asp.reasoning.knowledge import Knowledge
 from asp.solving import fact
 
 GOAL = Literal.of("my_goal")
@@ -49,12 +50,12 @@ class Moment:
 class History:
     """Statements obs, hpd, attempt, failing, doubtful and misread of all steps up to `step`.
 
-    `late_news` counts the statements about earlier steps than the last one.
+    `late_news` are the steps of statements about earlier steps than the last one, as they came.
     """
 
     step: int = 0
     moments: dict[int, Moment] = field(default_factory=dict)
-    late_news: int = 0
+    late_news: list[int] = field(default_factory=list)
 
     def at(self, step: int) -> Moment:
         """What is recorded of a step; made when it is first asked for."""
@@ -73,10 +74,12 @@ class History:
 
     def distrust(self, wrong: Iterable[tuple[int, Fluent]]) -> None:
         """misread(F,I) for exactly these steps and fluents; it is news of the past."""
-        self.late_news += 1
         pairs = frozenset(wrong)
         for step, moment in self.moments.items():
-            moment.misread = frozenset(fluent for time, fluent in pairs if time == step)
+            misread = frozenset(fluent for time, fluent in pairs if time == step)
+            if moment.misread != misread:
+                self.late_news.append(step)
+                moment.misread = misread
 
     @property
     def misread(self) -> tuple[Happening, ...]:
@@ -91,7 +94,8 @@ class History:
 
     def happened(self, action: Action, truth: bool, step: int) -> None:
         """hpd(A,B,I)."""
-        self.late_news += step < self.step
+        if step < self.step:
+            self.late_news.append(step)
         self.at(step).happened[action] = truth
 
     def attempt(self, action: Action, step: int) -> None:
@@ -105,18 +109,12 @@ class History:
     def facts(self) -> Iterator[Symbol]:
         """The history as facts for the theory, step by step."""
         for step, moment in self.moments.items():
-            for fluent, truth in moment.observed.items():
-                yield fact("obs", fluent, _boolean(truth), step)
-            for action in moment.attempted:
-                yield fact("attempt", action, step)
-            for action, truth in moment.happened.items():
-                yield fact("hpd", action, _boolean(truth), step)
-            for fluent in sorted(moment.doubtful):
-                yield fact("doubtful", fluent, step)
-            for fluent in sorted(moment.misread):
-                yield fact("misread", fluent, step)
-            for action in moment.failing:
-                yield fact("failing", action, step)
+            yield from (fact("obs", f, _boolean(b), step) for f, b in moment.observed.items())
+            yield from (fact("attempt", action, step) for action in moment.attempted)
+            yield from (fact("hpd", a, _boolean(b), step) for a, b in moment.happened.items())
+            yield from (fact("doubtful", fluent, step) for fluent in sorted(moment.doubtful))
+            yield from (fact("misread", fluent, step) for fluent in sorted(moment.misread))
+            yield from (fact("failing", action, step) for action in moment.failing)
         yield fact("current_step", self.step)
 
 
@@ -135,20 +133,10 @@ class Record:
     goal: bool | None = None
     failing: bool = False
 
-    @property
-    def action(self) -> Action | None:
-        """The attempted action, if any."""
-        return None if self.attempt is None else self.attempt[0]
 
-    @property
-    def distrustable(self) -> tuple[Action, ...]:
-        """What may be distrusted of the step: reports, and an attempt that failed."""
-        failed = (self.attempt[0],) if self.attempt is not None and self.failing else ()
-        return (*self.reported, *failed)
-
-
-def record_of(moment: Moment, own: Collection[Action], others: Collection[Action]) -> Record:
-    """What a moment says of a domain with these actions of the agent's own, and exogenous ones."""
+def record_of(moment: Moment, knowledge: Knowledge) -> Record:
+    """What a moment says of a domain."""
+    own, others = knowledge.actions
     physical = next((a for a in moment.attempted if a in own), None)
     trusted = moment.trusted
     return Record(
@@ -161,100 +149,43 @@ def record_of(moment: Moment, own: Collection[Action], others: Collection[Action
 
 
 @dataclass(frozen=True)
-class Explanation:
-    """What makes a history consistent: exogenous events that nobody reported, and how it began.
+class Problem:
+    """What there is to explain: the records up to `step`, with a goal that some of them tell of.
 
-    `distrusted` are reports of events that did not happen, and attempts that were not executed;
-    `exceptions` are names of the domain's defaults, `initial` literals of the inertial fluents of
-    which nothing was observed at step 0. All are sorted. `proved` says whether it is known that no
-    explanation is smaller.
+    `since` is the first step at which an event may have occurred.
     """
 
-    unobserved: tuple[Happening, ...] = ()
-    distrusted: tuple[Happening, ...] = ()
-    exceptions: tuple[str, ...] = ()
-    initial: tuple[Literal, ...] = ()
-    proved: bool = field(default=True, compare=False)
+    goal: tuple[Literal, ...]
+    records: Mapping[int, Record]
+    step: int
+    since: int
+
+    def suffix(self, first: int) -> Problem:
+        """The end of this history, from a step on that becomes step 0."""
+        records = {step - first: r for step, r in self.records.items() if step >= first}
+        return Problem(self.goal, records, self.step - first, max(0, self.since - first))
 
     @property
-    def size(self) -> int:
-        """How many events, and false reports and attempts, it assumes (27)."""
-        return len(self.unobserved) + len(self.distrusted)
-
-    def facts(self, predicate: str) -> Iterator[Symbol]:
-        """predicate(PEA,I) for each event, and predicate_distrusted(A,I) for what is distrusted.
-
-        Also predicate_exception(D), predicate_initial(F,B).
-        """
-        for event in self.unobserved:
-            yield fact(predicate, event.action, event.step)
-        for report in self.distrusted:
-            yield fact(f"{predicate}_distrusted", report.action, report.step)
-        for default in self.exceptions:
-            yield fact(f"{predicate}_exception", default)
-        for literal in self.initial:
-            yield fact(f"{predicate}_initial", literal.atom, _boolean(literal.is_positive))
-
-    def happened(self, record: Record, step: int) -> tuple[Action, ...]:
-        """The exogenous actions of a step that has this record."""
-        trusted = (e for e in record.reported if (step, e) not in self.distrusted)
-        return (*trusted, *(event.action for event in self.unobserved if event.step == step))
-
-    def executed(self, record: Record, step: int) -> Action | None:
-        """The agent's action of a step that has this record; None where none was executed."""
-        return None if (step, record.action) in self.distrusted else record.action
-
-    def followed_by(self, suffix: Explanation, first: int) -> Explanation:
-        """This and an explanation of the history from step `first` on."""
-        unobserved, distrusted = (
-            tuple(Happening(first + step, action) for step, action in happenings)
-            for happenings in (suffix.unobserved, suffix.distrusted)
-        )
-        return replace(
-            self, unobserved=self.unobserved + unobserved, distrusted=self.distrusted + distrusted
-        )
-
-    def left(self, history: History) -> Explanation:
-        """What is left to assume of it where some of its events were reported since."""
-        unobserved = (e for e in self.unobserved if not history.at(e.step).happened.get(e.action))
-        return replace(self, unobserved=tuple(unobserved))
-
-    @property
-    def without_start(self) -> Explanation:
-        """The same, whatever it says of unknown fluents at step 0."""
-        return replace(self, initial=())
+    def externals(self) -> list[Symbol]:
+        """past(I), reported(E,I), attempted(A,I) and failing(I)."""
+        atoms = [fact("past", time) for time in range(self.since, self.step)]
+        for time, record in self.records.items():
+            if time < self.step:
+                atoms += (fact("reported", event, time) for event in record.reported)
+                if record.attempt is not None:
+                    atoms.append(fact("attempted", record.attempt[0], time))
+                if record.failing:
+                    atoms.append(fact("failing", time))
+        return atoms
 
 
-@dataclass(frozen=True)
-class Diagnosis:
-    """An explanation of a history, and the indices of active activities, by name.
-
-    `alternatives` gives at most so many explanations of the same size, and whether there are more;
-    where it is None they have to be looked for.
-    """
-
-    explanation: Explanation
-    indices: Mapping[int, int] = field(default_factory=dict)
-    alternatives: Callable[[int], tuple[list[Explanation], bool]] | None = field(
-        default=None, compare=False, repr=False
-    )
-
-
-class InconsistentHistoryError(Exception):
-    """No exceptions to defaults and no exogenous actions explain what was observed."""
-
-
-H_contra = TypeVar("H_contra", bound=History, contravariant=True)
-
-
-class Diagnoser(Protocol[H_contra]):
-    """Explains one history after another step of it: the reference, or its incremental twin."""
-
-    def diagnose(self, history: H_contra, adopted: Explanation, /) -> Diagnosis:
-        """The adopted explanation if it still explains the history, else the first smallest one.
-
-        The order is that of `order.lp`. Raises InconsistentHistoryError and LimitError.
-        """
+def problem_of(
+    knowledge: Knowledge, goal: tuple[Literal, ...], history: History, since: int
+) -> Problem:
+    """All that there is to explain of a history."""
+    known = sorted(history.moments.items())
+    records = {step: record_of(m, knowledge) for step, m in known if step <= history.step}
+    return Problem(goal, records, history.step, since)
 
 
 def _boolean(value: bool) -> str:

@@ -13,21 +13,11 @@ from typing import Generic
 
 from asp.language import Fluent, Literal
 from asp.reasoning.diagnosis.belief import Belief, BeliefTracker
-from asp.reasoning.diagnosis.encoding import Interpretation, Problem
-from asp.reasoning.diagnosis.history import (
-    Diagnoser,
-    Diagnosis,
-    Explanation,
-    H_contra,
-    History,
-    Moment,
-    Record,
-    record_of,
-)
+from asp.reasoning.diagnosis.explanations import Diagnoser, Diagnosis, Explanation, H_contra
+from asp.reasoning.diagnosis.history import History, Problem, Record, problem_of, record_of
 from asp.reasoning.diagnosis.long_histories.frontier import Compression, Frontier
-from asp.reasoning.diagnosis.long_histories.suffixes import SuffixExplanations
 from asp.reasoning.diagnosis.reference import SEARCH
-from asp.reasoning.diagnosis.smallest_explanations import SmallestExplanations
+from asp.reasoning.diagnosis.smallest_explanations import Interpretation, SmallestExplanations
 from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.successors import Transitions
 from asp.solving import BudgetError, LimitError, State, current, up_to
@@ -45,11 +35,9 @@ class DiagnosisSessions:
 
     def __init__(self, knowledge: Knowledge) -> None:
         self.knowledge = knowledge
-        self.transitions = Transitions(
-            knowledge.program, knowledge.description.fluents, knowledge.ranks
-        )
+        self.transitions = Transitions(knowledge.program, knowledge.description.fluents)
         self.explanations = SmallestExplanations(knowledge)
-        self.suffixes = SuffixExplanations(knowledge)
+        self.ends = SmallestExplanations(knowledge, begins=False)
 
     def tracker(self, goal: tuple[Literal, ...], since: int = 0) -> BeliefTracker:
         """A tracker of beliefs about a goal; `since` is the first step with events."""
@@ -78,11 +66,10 @@ class IncrementalDiagnoser(Generic[H_contra]):
         self._reference = reference
         self._compression = COMPRESSION
         self._tracker = sessions.tracker(goal, since)
-        self._records: dict[int, Record] = {}
         self._frontier: Frontier | None = None
         self._belief: Belief | None = None
         self._fewest = (0, 0)
-        self._late_news = 0
+        self._heard = 0
 
     @property
     def belief(self) -> Belief:
@@ -104,7 +91,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
 
         Raises InconsistentHistoryError and LimitError.
         """
-        self._record(history)
+        self._hear(history)
         # Where the time ran out after late news, the caller holds what it held before the news.
         adopted = adopted.left(history)
         self._compress(history)
@@ -116,20 +103,14 @@ class IncrementalDiagnoser(Generic[H_contra]):
             self._belief = carried
         return Diagnosis(adopted, alternatives=partial(self._alternatives, history, adopted))
 
-    def _record(self, history: History) -> None:
-        """Takes over what is new in the history."""
-        is_late = history.late_news > self._late_news
-        first = None
-        for step in range(0 if is_late else max(0, len(self._records) - 1), history.step + 1):
-            record = record_of(history.moments.get(step, Moment()), *self._knowledge.actions)
-            if first is None and record != self._records.get(step):
-                first = step
-            self._records[step] = record
-        if is_late:
-            self._late_news = history.late_news
+    def _hear(self, history: History) -> None:
+        """Takes back what late news of the past may change."""
+        news = history.late_news[self._heard :]
+        if news:
+            self._heard += len(news)
             self._belief, self._fewest = None, (0, 0)
-        if first is not None and self._frontier is not None and first <= self._frontier.step:
-            self._frontier = None
+            if self._frontier is not None and min(news) <= self._frontier.step:
+                self._frontier = None
 
     def _compress(self, history: History) -> None:
         """Compresses a little more of the history, where its start is known.
@@ -141,17 +122,20 @@ class IncrementalDiagnoser(Generic[H_contra]):
             return
         try:
             if self._frontier is None:
-                start = self._sessions.explanations.smallest(self._problem(0))
+                first = Problem(
+                    self._goal, {0: record_of(history.at(0), self._knowledge)}, 0, self._since
+                )
+                start = self._sessions.explanations.smallest(first)
                 if start is None:
                     return
-                self._frontier = Frontier(self._tracker, settings, start)
-            self._frontier.follow(self._records, history.step)
+                self._frontier = Frontier(self._sessions.ends, self._tracker, settings, start)
+            self._frontier.follow(history)
         except LimitError:
             pass
 
     def _explain(self, history: H_contra, adopted: Explanation) -> Explanation:
         """The explanation of the whole history; the belief becomes what it implies."""
-        problem, unknown = self._problem(history.step), self._unknown(history)
+        problem, unknown = self._problem(history), self._unknown(history)
         if unknown:
             found = self._sessions.explanations.keeping(problem, adopted)
             if found is not None:
@@ -170,11 +154,11 @@ class IncrementalDiagnoser(Generic[H_contra]):
 
     def _smallest(self, problem: Problem) -> Interpretation | None:
         """The smallest explanation; None where that takes another way, or more than the budget."""
-        suffixes, frontier = self._sessions.suffixes, self.frontier
+        frontier = self.frontier
         try:
             with up_to(SEARCH):
                 current().check_conflicts()
-                found = frontier and suffixes.smallest(frontier, problem, self._fewest[0])
+                found = frontier and frontier.smallest(problem, self._fewest[0])
                 return found or self._sessions.explanations.smallest(problem, self._fewest)
         except BudgetError:
             return None
@@ -191,15 +175,15 @@ class IncrementalDiagnoser(Generic[H_contra]):
         self, history: History, adopted: Explanation, most: int
     ) -> tuple[list[Explanation], bool]:
         """At most so many explanations of the size of one, and whether there are more of them."""
-        problem, frontier, sessions = self._problem(history.step), self.frontier, self._sessions
-        found = frontier and sessions.suffixes.alternatives(frontier, problem, adopted.size, most)
-        return found or sessions.explanations.alternatives(problem, adopted, most)
+        problem, frontier = self._problem(history), self.frontier
+        found = frontier and frontier.alternatives(problem, adopted.size, most)
+        return found or self._sessions.explanations.alternatives(problem, adopted, most)
 
     def _first(self, history: History, adopted: Explanation) -> Belief | None:
         """The belief at step 0, if the adopted explanation says how it began."""
         if {literal.atom for literal in adopted.initial} != set(self._unknown(history)):
             return None
-        observed = record_of(history.at(0), *self._knowledge.actions).observed
+        observed = record_of(history.at(0), self._knowledge).observed
         state = frozenset(each for each in observed if each.is_positive)
         if adopted.initial or self._knowledge.description.defaults:
             records = {0: Record(observed=(*observed, *adopted.initial))}
@@ -209,10 +193,8 @@ class IncrementalDiagnoser(Generic[H_contra]):
             state = start.initial
         return self._tracker.start(state)
 
-    def _problem(self, step: int) -> Problem:
-        """All that there is to explain up to a step."""
-        records = {time: record for time, record in self._records.items() if time <= step}
-        return Problem(self._goal, records, step, self._since)
+    def _problem(self, history: History) -> Problem:
+        return problem_of(self._knowledge, self._goal, history, self._since)
 
     def _unknown(self, history: History) -> list[Fluent]:
         """The inertial fluents of which nothing was observed at step 0."""

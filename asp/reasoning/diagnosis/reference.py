@@ -8,12 +8,12 @@ import clingo
 from clingo import Symbol
 
 from asp.language import Literal
-from asp.reasoning.diagnosis.encoding import explanation_of
-from asp.reasoning.diagnosis.history import (
+from asp.reasoning.diagnosis.explanations import (
     Diagnosis,
     Explanation,
     H_contra,
     InconsistentHistoryError,
+    explanation_of,
 )
 from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict
 from asp.reasoning.knowledge import Knowledge, goal_facts

@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from asp.reasoning.diagnosis.encoding import (
-    Interpretation,
-    Problem,
-    assumptions,
-    explanation_of,
-    interpretation,
-    observations,
-)
-from asp.reasoning.diagnosis.history import Explanation
+from asp.reasoning.diagnosis.explanations import Explanation, explanation_of
+from asp.reasoning.diagnosis.history import Problem
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import (
     Recent,
     Session,
+    State,
     answer_sets,
+    assumptions,
     goal_externals,
     is_satisfiable,
+    literal_of,
     preferring,
+    select,
     theory,
 )
 
@@ -31,6 +28,22 @@ FEW, MANY = 4, 16
 
 _FIRST_HORIZON = 16
 _MOST_SESSIONS = 4
+
+
+@dataclass(frozen=True)
+class Interpretation:
+    """An explanation, the initial state, the state at the last step, when the goal held."""
+
+    explanation: Explanation
+    initial: State
+    state: State
+    held: frozenset[int]
+
+    def followed_by(self, end: Interpretation, first: int) -> Interpretation:
+        """This and an interpretation of the history from step `first` on."""
+        explanation = self.explanation.followed_by(end.explanation, first)
+        held = self.held.union(first + step for step in end.held)
+        return Interpretation(explanation, self.initial, end.state, held)
 
 
 @dataclass(frozen=True)
@@ -57,21 +70,41 @@ class Question:
         given = None if self.given is None or more is None else [*self.given, *more]
         return replace(self, given=given)
 
+    def starting(self, state: State) -> Question:
+        """The question where this was the state at first."""
+        return self.assuming(self.session.assume_state(state, 0))
+
     def first(self, events: int, exceptions: int | None = None) -> Interpretation | None:
         """The preferred explanation with at most so many events and exactly so many exceptions."""
         limited = self._at_most(events, exceptions)
         if limited is None:
             return None
-        with preferring(self.session.control, limited) as model:
-            return None if model is None else interpretation(self.session, model, self.problem)
+        session, step = self.session, self.problem.step
+        with preferring(session.control, limited) as model:
+            if model is None:
+                return None
+            return Interpretation(
+                explanation_of(model.symbols(shown=True)),
+                session.state(model, 0),
+                session.state(model, step),
+                frozenset(i for i in range(step + 1) if session.is_true(model, "reached", i)),
+            )
 
-    def all(self, events: int, exceptions: int | None, most: int) -> tuple[list[Explanation], bool]:
-        """At most so many of these explanations, and whether there are more; True: cannot tell."""
+    def all(
+        self, events: int, exceptions: int | None, most: int
+    ) -> tuple[list[tuple[Explanation, State]], bool]:
+        """At most so many of these explanations, and whether there are more; True: cannot tell.
+
+        Each has the state that it leads to, where the question is one of outcomes.
+        """
         limited = self._at_most(events, exceptions)
         if limited is None:
             return [], True
         found, more = answer_sets(self.session.control, limited, most)
-        return [explanation_of(shown) for shown in found], more
+        return [
+            (explanation_of(shown), frozenset(literal_of(f) for (f,) in select(shown, "next", 1)))
+            for shown in found
+        ], more
 
     def _at_most(self, events: int, exceptions: int | None) -> list[int] | None:
         """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
@@ -98,10 +131,11 @@ class SmallestExplanations:
 
     def __init__(self, knowledge: Knowledge, begins: bool = True) -> None:
         """`begins` says that histories begin with an initial state, of which there are defaults."""
-        self._knowledge = knowledge
-        self._theories = ("defaults", "order") if begins else ("order",)
+        theories = ("defaults", "order") if begins else ("order",)
+        self._program = "\n".join([knowledge.program, *map(theory, theories)])
         self._facts = (*knowledge.ranks, *(knowledge.start if begins else ()))
-        self._sessions: Recent[tuple[int, int], Session] = Recent(_MOST_SESSIONS)
+        self._description = knowledge.description
+        self._sessions: Recent[tuple[object, ...], Session] = Recent(_MOST_SESSIONS)
 
     def smallest(self, problem: Problem, fewest: tuple[int, int] = (0, 0)) -> Interpretation | None:
         """The first of the smallest explanations, with what follows from it.
@@ -110,7 +144,7 @@ class SmallestExplanations:
         and fewer exceptions than the second. None stands for "more events than are counted, or no
         explanation at all", which is left to the reference.
         """
-        tried, defaults = fewest[0], self._knowledge.description.defaults
+        tried, defaults = fewest[0], self._description.defaults
         for most in (FEW, MANY):
             question = self.question(problem, most)
             if question.possible and tried <= most:
@@ -143,7 +177,8 @@ class SmallestExplanations:
         the one is smallest, these are all smallest explanations.
         """
         question = self.question(problem, FEW if adopted.size <= FEW else MANY)
-        return question.all(adopted.size, len(adopted.exceptions), most)
+        found, more = question.all(adopted.size, len(adopted.exceptions), most)
+        return [explanation for explanation, _ in found], more
 
     def question(self, problem: Problem, most: int) -> Question:
         """The session that counts so far, with the problem's externals and observations."""
@@ -151,11 +186,30 @@ class SmallestExplanations:
         horizon = _FIRST_HORIZON
         while horizon < problem.step:
             horizon *= 2
-        session = self._sessions.get((horizon, most), lambda: self._made(horizon, most))
-        session.switch_on(*goal_externals(problem.goal), *problem.externals)
-        return Question(session, most, problem, observations(session, problem))
+        return self._question(problem, most, horizon)
 
-    def _made(self, horizon: int, most: int) -> Session:
-        program = "\n".join([self._knowledge.program, *map(theory, self._theories)])
-        fluents = self._knowledge.description.fluents
-        return Session(program, "incremental_diagnosis", fluents, self._facts, n=horizon, most=most)
+    def outcomes(self, problem: Problem) -> Question:
+        """The explanations of a history of one step, each with the states that it may lead to."""
+        return self._question(problem, MANY, 1, "outcomes")
+
+    def _question(self, problem: Problem, most: int, horizon: int, *parts: str) -> Question:
+        def made() -> Session:
+            fluents, constants = self._description.fluents, {"n": horizon, "most": most}
+            name = "incremental_diagnosis"
+            return Session(self._program, name, fluents, self._facts, parts, **constants)
+
+        session = self._sessions.get((horizon, most, *parts), made)
+        session.switch_on(*goal_externals(problem.goal), *problem.externals)
+        return Question(session, most, problem, assumptions(_observations(session, problem)))
+
+
+def _observations(session: Session, problem: Problem) -> Iterator[tuple[int | None, bool]]:
+    """Everything observed, as literals of the solver with their truth."""
+    for time, record in problem.records.items():
+        for literal in record.observed:
+            yield session.holds(literal.atom, time), literal.is_positive
+        if record.goal is not None:
+            yield session.literal("reached", time), record.goal
+        if record.attempt is not None and time < problem.step:
+            action, happened = record.attempt
+            yield session.literal("occurs", action, time), happened

@@ -243,8 +243,7 @@ class _Part:
             return tuple(
                 action
                 for step, action in product(range(length), self._actions)
-                if (literal := session.literal("occurs", action, step)) is not None
-                and model.is_true(literal)
+                if session.is_true(model, "occurs", action, step)
             )
 
     def _session(self, part: str, steps: int) -> Session:

@@ -1,14 +1,17 @@
 """One transition at a time, against the transition diagram: every state and attempt of the cart."""
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
 from itertools import combinations, product
 from pathlib import Path
 
 import pytest
 
 from asp.language import parse_description
-from asp.reasoning.successors import Branch, Transitions
+from asp.reasoning.diagnosis import Happening
+from asp.reasoning.diagnosis.history import Problem, Record
+from asp.reasoning.diagnosis.smallest_explanations import Question, SmallestExplanations
+from asp.reasoning.knowledge import knowledge
+from asp.reasoning.successors import Transitions
 from asp.translation import translate
 from testbed.world import world_of
 
@@ -21,7 +24,12 @@ PLENTY = 10_000
 
 @pytest.fixture(scope="module")
 def transitions() -> Transitions:
-    return Transitions(translate(TEXT, "cart.al"), CART.fluents, ())
+    return Transitions(translate(TEXT, "cart.al"), CART.fluents)
+
+
+@pytest.fixture(scope="module")
+def explanations() -> SmallestExplanations:
+    return SmallestExplanations(knowledge("cart", TEXT), begins=False)
 
 
 def _subsets(events: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
@@ -59,25 +67,44 @@ def test_what_is_attempted_and_reported_leads_where_the_world_says(
 
 @pytest.mark.parametrize("failing", [False, True])
 @pytest.mark.parametrize("size", [-1, 0, 1, 2, 5])
-def test_branches_are_all_that_may_have_happened(
-    transitions: Transitions, size: int, failing: bool
+def test_outcomes_are_all_that_may_have_happened(
+    explanations: SmallestExplanations, size: int, failing: bool
 ) -> None:
     for state, attempt, reported in _cases():
-        expected = list(_branches(state, attempt, reported, size))
+        expected = list(_outcomes(state, attempt, reported, size))
         if failing and attempt is not None and size > 0:  # it was not executed, which is one more
             expected += (
-                replace(rest, distrusted=(*rest.distrusted, attempt))
-                for rest in _branches(state, None, reported, size - 1)
+                (after, took_effect, unobserved, distrusted | {attempt})
+                for after, took_effect, unobserved, distrusted in _outcomes(
+                    state, None, reported, size - 1
+                )
             )
-        found = transitions.branches(_true(state), attempt, reported, size, PLENTY, failing)
-        assert found is not None
+        found = []
+        for took_effect in (False, True) if attempt is not None else (False,):
+            done = None if attempt is None else (attempt, took_effect)
+            question = _question(
+                explanations, state, Record((), done, reported, None, failing), size
+            )
+            answers, more = question.all(size, None, PLENTY)
+            assert not more or question.given is None  # an action that is impossible everywhere
+            found += (
+                (after, took_effect, *map(_actions, (e.unobserved, e.distrusted)))
+                for e, after in answers
+            )
         assert len(found) == len(expected)
-        assert {_plain(branch) for branch in found} == {_plain(branch) for branch in expected}
+        assert set(found) == set(expected)
 
 
-def _branches(
+def _question(
+    explanations: SmallestExplanations, state: int, record: Record, size: int
+) -> Question:
+    problem = Problem((), {0: record}, step=1, since=0 if size >= 0 else 1)
+    return explanations.outcomes(problem).starting(_true(state))
+
+
+def _outcomes(
     state: int, attempt: str | None, reported: tuple[str, ...], size: int
-) -> Iterator[Branch]:
+) -> Iterator[tuple[frozenset[str], bool, frozenset[str], frozenset[str]]]:
     """With size -1 nothing happened but what was attempted."""
     for distrusted in _subsets(reported) if size >= 0 else [reported]:
         believed = tuple(event for event in reported if event not in distrusted)
@@ -85,21 +112,17 @@ def _branches(
         for unobserved in _subsets(others) if size >= 0 else [()]:
             if size < 0 or len(unobserved) + len(distrusted) <= size:
                 for after, took_effect in _next(state, attempt, (*believed, *unobserved)):
-                    yield Branch(after, took_effect, unobserved, distrusted)
+                    yield after, took_effect, frozenset(unobserved), frozenset(distrusted)
 
 
-def _plain(branch: Branch) -> tuple[frozenset[str], bool, frozenset[str], frozenset[str]]:
-    return (
-        branch.state,
-        branch.took_effect,
-        frozenset(branch.events),
-        frozenset(branch.distrusted),
-    )
+def _actions(happenings: Iterable[Happening]) -> frozenset[str]:
+    return frozenset(happening.action for happening in happenings)
 
 
-def test_more_branches_than_are_asked_for_are_none(transitions: Transitions) -> None:
-    state = _true(next(iter(WORLD.initial_states())))
-    all_of_them = transitions.branches(state, None, (), 1, PLENTY)
-    assert all_of_them is not None
-    assert transitions.branches(state, None, (), 1, len(all_of_them)) is not None
-    assert transitions.branches(state, None, (), 1, len(all_of_them) - 1) is None
+def test_more_outcomes_than_are_asked_for_are_told(explanations: SmallestExplanations) -> None:
+    question = _question(explanations, next(iter(WORLD.initial_states())), Record(), 1)
+    every, more = question.all(1, None, PLENTY)
+    assert not more
+    assert question.all(1, None, len(every)) == (every, False)
+    fewer, more = question.all(1, None, len(every) - 1)
+    assert (len(fewer), more) == (len(every) - 1, True)

@@ -19,10 +19,10 @@ from asp.reasoning.diagnosis import (
     IncrementalDiagnoser,
     incremental,
 )
-from asp.reasoning.diagnosis.encoding import Interpretation, Problem
+from asp.reasoning.diagnosis.history import Problem
 from asp.reasoning.diagnosis.long_histories import frontier
 from asp.reasoning.diagnosis.long_histories.frontier import Frontier
-from asp.reasoning.diagnosis.long_histories.suffixes import SuffixExplanations
+from asp.reasoning.diagnosis.smallest_explanations import Interpretation
 from asp.reasoning.knowledge import knowledge
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.asp.reasoning.diagnosis.wandering import Habits, wander
@@ -155,16 +155,14 @@ def test_long_histories(
 def test_the_end_of_a_history_is_explained_without_what_was_compressed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    smallest, found = SuffixExplanations.smallest, list[bool]()
+    smallest, found = Frontier.smallest, list[bool]()
 
-    def counted(
-        suffixes: SuffixExplanations, known: Frontier, problem: Problem, fewest: int
-    ) -> Interpretation | None:
-        interpretation = smallest(suffixes, known, problem, fewest)
+    def counted(known: Frontier, problem: Problem, fewest: int) -> Interpretation | None:
+        interpretation = smallest(known, problem, fewest)
         found.append(interpretation is not None)
         return interpretation
 
-    monkeypatch.setattr(SuffixExplanations, "smallest", counted)
+    monkeypatch.setattr(Frontier, "smallest", counted)
     assert compare(OFFICE, 40, 13, LIVELY, replace(TINY, margin=2)) > 0
     assert any(found)
 

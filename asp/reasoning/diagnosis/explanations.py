@@ -1,0 +1,122 @@
+"""Explanations of histories (D 2.4): what they assume, and how a diagnoser gives them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Protocol, TypeVar
+
+from clingo import Symbol
+
+from asp.language import Action, Literal
+from asp.reasoning.diagnosis.history import Happening, History, Record
+from asp.solving import fact, literal_of, select
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """What makes a history consistent: exogenous events that nobody reported, and how it began.
+
+    `distrusted` are reports of events that did not happen, and attempts that were not executed;
+    `exceptions` are names of the domain's defaults, `initial` literals of the inertial fluents of
+    which nothing was observed at step 0. All are sorted. `proved` says whether it is known that no
+    explanation is smaller.
+    """
+
+    unobserved: tuple[Happening, ...] = ()
+    distrusted: tuple[Happening, ...] = ()
+    exceptions: tuple[str, ...] = ()
+    initial: tuple[Literal, ...] = ()
+    proved: bool = field(default=True, compare=False)
+
+    @property
+    def size(self) -> int:
+        """How many events, and false reports and attempts, it assumes (27)."""
+        return len(self.unobserved) + len(self.distrusted)
+
+    def facts(self, predicate: str) -> Iterator[Symbol]:
+        """predicate(PEA,I) for each event, and predicate_distrusted(A,I) for what is distrusted.
+
+        Also predicate_exception(D), predicate_initial(F,B).
+        """
+        yield from (fact(predicate, action, step) for step, action in self.unobserved)
+        yield from (fact(f"{predicate}_distrusted", a, step) for step, a in self.distrusted)
+        yield from (fact(f"{predicate}_exception", default) for default in self.exceptions)
+        for literal in self.initial:
+            truth = "true" if literal.is_positive else "false"
+            yield fact(f"{predicate}_initial", literal.atom, truth)
+
+    def happened(self, record: Record, step: int) -> tuple[Action, ...]:
+        """The exogenous actions of a step that has this record."""
+        trusted = (e for e in record.reported if (step, e) not in self.distrusted)
+        return (*trusted, *(event.action for event in self.unobserved if event.step == step))
+
+    def executed(self, record: Record, step: int) -> Action | None:
+        """The agent's action of a step that has this record; None where none was executed."""
+        action = record.attempt[0] if record.attempt else None
+        return None if (step, action) in self.distrusted else action
+
+    def followed_by(self, suffix: Explanation, first: int) -> Explanation:
+        """This and an explanation of the history from step `first` on."""
+        unobserved, distrusted = (
+            tuple(Happening(first + step, action) for step, action in happenings)
+            for happenings in (suffix.unobserved, suffix.distrusted)
+        )
+        return replace(
+            self, unobserved=self.unobserved + unobserved, distrusted=self.distrusted + distrusted
+        )
+
+    def left(self, history: History) -> Explanation:
+        """What is left to assume of it where some of its events were reported since."""
+        unobserved = (e for e in self.unobserved if not history.at(e.step).happened.get(e.action))
+        return replace(self, unobserved=tuple(unobserved))
+
+    @property
+    def without_start(self) -> Explanation:
+        """The same, whatever it says of unknown fluents at step 0."""
+        return replace(self, initial=())
+
+
+def explanation_of(shown: Iterable[Symbol], proved: bool = True) -> Explanation:
+    """The explanation that the shown atoms of an answer set are."""
+    atoms = tuple(shown)
+    unobserved, distrusted = (
+        tuple(sorted(Happening(i.number, literal_of(a)) for a, i in select(atoms, predicate, 2)))
+        for predicate in ("unobserved", "distrusted")
+    )
+    exceptions = sorted(str(default) for (default,) in select(atoms, "exception", 1))
+    known = ((literal_of(f), truth.name == "true") for f, truth in select(atoms, "initial", 2))
+    initial = sorted(fluent if truth else fluent.complement for fluent, truth in known)
+    return Explanation(unobserved, distrusted, tuple(exceptions), tuple(initial), proved)
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """An explanation of a history, and the indices of active activities, by name.
+
+    `alternatives` gives at most so many explanations of the same size, and whether there are more;
+    where it is None they have to be looked for.
+    """
+
+    explanation: Explanation
+    indices: Mapping[int, int] = field(default_factory=dict)
+    alternatives: Callable[[int], tuple[list[Explanation], bool]] | None = field(
+        default=None, compare=False, repr=False
+    )
+
+
+class InconsistentHistoryError(Exception):
+    """No exceptions to defaults and no exogenous actions explain what was observed."""
+
+
+H_contra = TypeVar("H_contra", bound=History, contravariant=True)
+
+
+class Diagnoser(Protocol[H_contra]):
+    """Explains one history after another step of it: the reference, or its incremental twin."""
+
+    def diagnose(self, history: H_contra, adopted: Explanation, /) -> Diagnosis:
+        """The adopted explanation if it still explains the history, else the first smallest one.
+
+        The order is that of `order.lp`. Raises InconsistentHistoryError and LimitError.
+        """
