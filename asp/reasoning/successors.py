@@ -13,9 +13,8 @@ from asp.solving import (
     core,
     fact,
     is_satisfiable,
-    literal_of,
-    select,
     solving,
+    state_of,
 )
 
 _CHOOSING = clingo.Function("choosing")
@@ -54,7 +53,7 @@ class Transitions:
         if start is None:
             return set()
         found, _ = answer_sets(self._session.control, start)
-        return {frozenset(literal_of(f) for (f,) in select(shown, "next", 1)) for shown in found}
+        return {state_of(shown) for shown in found}
 
     def hindrance(self, state: State, action: Action) -> tuple[Literal, ...]:
         """Literals of a state that make an action impossible, none of which can be left out.

@@ -3,7 +3,15 @@
 from asp.solving.budget import UNLIMITED, BudgetError, LimitError, Limits, current, deciding, up_to
 from asp.solving.cache import Answers, Recent
 from asp.solving.clock import Reading, preparation, reasoning_clock
-from asp.solving.session import Session, State, assumptions, core, goal_externals, preferring
+from asp.solving.session import (
+    Session,
+    State,
+    assumptions,
+    core,
+    goal_externals,
+    preferring,
+    state_of,
+)
 from asp.solving.signals import undisturbed
 from asp.solving.solver import (
     answer_sets,
@@ -45,6 +53,7 @@ __all__ = [
     "reasoning_clock",
     "select",
     "solving",
+    "state_of",
     "theory",
     "undisturbed",
     "up_to",

@@ -10,7 +10,7 @@ from clingo import Symbol
 from asp.language import Fluent, Literal
 from asp.solving.clock import preparation
 from asp.solving.signals import undisturbed
-from asp.solving.solver import fact, ground, is_satisfiable, solving, theory
+from asp.solving.solver import fact, ground, is_satisfiable, literal_of, solving, theory
 
 State = frozenset[Fluent]
 """A complete state of a domain, as the set of its true fluents."""
@@ -75,6 +75,11 @@ class Session:
             for atom in self._externals ^ wanted:
                 self.control.assign_external(atom, atom in wanted)
             self._externals = wanted
+
+
+def state_of(shown: Iterable[Symbol]) -> State:
+    """The state that an answer set shows as next(F)."""
+    return frozenset(literal_of(symbol.arguments[0]) for symbol in shown if symbol.name == "next")
 
 
 def assumptions(wanted: Iterable[tuple[int | None, bool]]) -> list[int] | None:

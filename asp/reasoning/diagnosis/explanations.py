@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Protocol, TypeVar
@@ -10,7 +11,7 @@ from clingo import Symbol
 
 from asp.language import Action, Literal
 from asp.reasoning.diagnosis.history import Happening, History, Record
-from asp.solving import fact, literal_of, select
+from asp.solving import fact, literal_of
 
 
 @dataclass(frozen=True)
@@ -79,13 +80,15 @@ class Explanation:
 
 def explanation_of(shown: Iterable[Symbol], proved: bool = True) -> Explanation:
     """The explanation that the shown atoms of an answer set are."""
-    atoms = tuple(shown)
+    found: defaultdict[str, list[list[Symbol]]] = defaultdict(list)
+    for symbol in shown:
+        found[symbol.name].append(symbol.arguments)
     unobserved, distrusted = (
-        tuple(sorted(Happening(i.number, literal_of(a)) for a, i in select(atoms, predicate, 2)))
-        for predicate in ("unobserved", "distrusted")
+        tuple(sorted(Happening(step.number, literal_of(action)) for action, step in found[name]))
+        for name in ("unobserved", "distrusted")
     )
-    exceptions = sorted(str(default) for (default,) in select(atoms, "exception", 1))
-    known = ((literal_of(f), truth.name == "true") for f, truth in select(atoms, "initial", 2))
+    exceptions = sorted(str(default) for (default,) in found["exception"])
+    known = ((literal_of(fluent), truth.name == "true") for fluent, truth in found["initial"])
     initial = sorted(fluent if truth else fluent.complement for fluent, truth in known)
     return Explanation(unobserved, distrusted, tuple(exceptions), tuple(initial), proved)
 

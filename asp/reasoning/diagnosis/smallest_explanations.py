@@ -17,9 +17,8 @@ from asp.solving import (
     assumptions,
     goal_externals,
     is_satisfiable,
-    literal_of,
     preferring,
-    select,
+    state_of,
     theory,
 )
 
@@ -101,10 +100,7 @@ class Question:
         if limited is None:
             return [], True
         found, more = answer_sets(self.session.control, limited, most)
-        return [
-            (explanation_of(shown), frozenset(literal_of(f) for (f,) in select(shown, "next", 1)))
-            for shown in found
-        ], more
+        return [(explanation_of(shown), state_of(shown)) for shown in found], more
 
     def _at_most(self, events: int, exceptions: int | None) -> list[int] | None:
         """Assumptions for at most so many events, exactly so many exceptions; None: impossible."""
