@@ -117,20 +117,20 @@ class Rewriting:
         acted = {term.name for action in law.actions for term in action.args}
         body: list[syntax.Condition] = []
         for part in law.body:
-            (condition,) = renaming.body((part,))
             if isinstance(part, syntax.Literal) and text_of(part.atom) not in effects:
-                condition = self._about_any_component(part, condition, acted, renaming)
-            body.append(condition)
+                body.append(self._about_any_component(part, acted, renaming))
+            else:
+                body += renaming.body((part,))
         return replace(law, actions=actions, body=(*body, *renaming.links()))
 
     def _about_any_component(
-        self, part: syntax.Literal, condition: syntax.Condition, acted: set[str], renaming: Renaming
-    ) -> syntax.Condition:
+        self, part: syntax.Literal, acted: set[str], renaming: Renaming
+    ) -> syntax.Literal:
         """A condition on what the action is about: any of its components may meet it.
 
         Not so where a law of the refinement says that the components share the fluent anyway.
         """
-        assert isinstance(condition, syntax.Literal)
+        condition = renaming.literal(part)
         symbol = self.vocabulary.coarse.symbols.get(part.atom.name)
         if not part.positive or symbol is None or symbol.kind not in roles.FLUENTS:
             return condition

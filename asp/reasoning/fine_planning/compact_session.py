@@ -15,6 +15,7 @@ import clingo
 from clingo import Number, Symbol
 
 from asp.language import Action, Fluent, Literal, Signature, syntax
+from asp.reasoning.fine_planning.large.relaxed_reachability import Relaxed
 from asp.solving import fact, ground, literal_of, preparation, solving, theory
 from asp.translation import Part, Rule, compact
 
@@ -54,15 +55,15 @@ class CompactDescription:
 class CompactPart:
     """A part of a description in canonical names.
 
-    `members` are those of each sort and `facts` the true statics that are stated; two parts with
-    equal ones have the same transitions, and are equal. `names` leads from the old names to the
-    canonical ones.
+    `members` are those of each sort and `facts` the true statics that are stated; two parts of a
+    `whole` with equal ones have the same transitions, and are equal. `names` leads from the old
+    names to the canonical ones.
     """
 
     members: tuple[tuple[str, tuple[str, ...]], ...]
     facts: frozenset[str]
     names: Mapping[str, str] = field(compare=False)
-    whole: CompactDescription = field(compare=False)
+    whole: CompactDescription
 
     @cached_property
     def sorts(self) -> Mapping[str, tuple[str, ...]]:
@@ -98,6 +99,11 @@ class CompactPart:
         facts = [f"{sort}({member})." for sort, ms in self.sorts.items() for member in ms]
         facts += (f"{static}." for static in sorted(self.facts))
         return "\n".join([self.worded(Rule.plain), f"#program {Part.BASE}.", *facts])
+
+    @cached_property
+    def relaxed(self) -> Relaxed:
+        """What the program can reach if nothing becomes false again."""
+        return Relaxed(self.program)
 
     def worded(self, wording: Callable[[Rule], Iterable[str]]) -> str:
         """The rules of the program, without the facts about constants and statics."""

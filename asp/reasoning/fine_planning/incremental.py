@@ -3,14 +3,13 @@
 What only large problems need is switched here.
 """
 
-from collections.abc import Mapping
-from functools import cached_property, lru_cache
+from functools import lru_cache, partial
 from itertools import chain
 
-from asp.language import Fluent, Function, Literals, Signature, functions, syntax, without_exogenous
+from asp.language import Fluent, Literals, Signature, functions, syntax, without_exogenous
 from asp.reasoning.fine_planning.compact_session import CompactDescription, CompactPart, Horizon
 from asp.reasoning.fine_planning.large.problem_program import Problem, ProblemPrograms
-from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
+from asp.reasoning.fine_planning.large.relaxed_reachability import Reach
 from asp.reasoning.fine_planning.reference import (
     FinePlan,
     FinePlanner,
@@ -42,22 +41,7 @@ MOST_STEPS = 100_000
 _MOST_PARTS, _MOST_NARROWED = 32, 1_000
 
 
-class _Part:
-    """What plans in a part of a description are made with."""
-
-    def __init__(self, part: CompactPart, known: Mapping[str, Function]) -> None:
-        self.size = len(part.names)
-        self.relaxed = Relaxed(part.program)
-        self.part = part
-        self._functions = known
-
-    @cached_property
-    def problems(self) -> ProblemPrograms:
-        """Programs for single problems."""
-        return ProblemPrograms(self.part, self.relaxed, self._functions, LANDMARKS)
-
-
-Horizons = Recent[tuple[_Part, int], Horizon]
+Horizons = Recent[tuple[CompactPart, int], Horizon]
 """Sessions by part and length; each weighs its length times the constants of its part."""
 
 
@@ -90,7 +74,8 @@ class IncrementalFinePlanner:
         self._relevance = Relevance(without_exogenous(source, signature), signature)
         self._narrowed = lru_cache(_MOST_NARROWED)(CompactDescription(source, signature).part)
         self._largest = LARGEST_SESSION if largest is None else largest
-        self._parts: Recent[object, _Part] = Recent(most)
+        self._parts: Recent[CompactPart, CompactPart] = Recent(most)
+        self._programs: Recent[CompactPart, ProblemPrograms] = Recent(most)
         self._horizons: Horizons = Recent(MOST_STEPS) if horizons is None else horizons
 
     def plan(
@@ -113,8 +98,7 @@ class IncrementalFinePlanner:
         kept -= self._relevance.spare(chain(start.true, *start.candidates), goal)
         names = self._narrowed(kept)
         problem = self._problem(names, start.within(kept), goal)
-        part = self._parts.get(names, lambda: _Part(names, self._functions))
-        plan = self._search(part, problem, limit)
+        plan = self._search(self._parts.get(names, lambda: names), problem, limit)
         return plan if isinstance(plan, NoPlan) else names.back(plan)
 
     @property
@@ -122,7 +106,7 @@ class IncrementalFinePlanner:
         """Of how many parts of the description sessions are kept."""
         return len(self._parts)
 
-    def _search(self, part: _Part, problem: Problem, limit: int) -> FinePlan | NoPlan:
+    def _search(self, part: CompactPart, problem: Problem, limit: int) -> FinePlan | NoPlan:
         possible = chain(problem.true, *problem.candidates.values())
         reach = part.relaxed.reach(possible, problem.goal)
         if reach is None:
@@ -137,16 +121,17 @@ class IncrementalFinePlanner:
         return NoPlan.BEYOND_LIMIT
 
     def _of_length(
-        self, length: int, part: _Part, problem: Problem, reach: Reach
+        self, length: int, part: CompactPart, problem: Problem, reach: Reach
     ) -> FinePlan | None:
-        if length * part.size > self._largest:
-            return part.problems.plan(problem, reach, length)
+        if length * len(part.names) > self._largest:
+            made = partial(ProblemPrograms, part, self._functions, LANDMARKS)
+            return self._programs.get(part, made).plan(problem, reach, length)
         horizon = self._horizon(part, length)
         return horizon.plan(horizon.start(problem.true, problem.candidates), problem.goal)
 
-    def _horizon(self, part: _Part, length: int) -> Horizon:
-        key, weight = (part, length), length * part.size
-        return self._horizons.get(key, lambda: Horizon(part.part, length), weight)
+    def _horizon(self, part: CompactPart, length: int) -> Horizon:
+        weight = length * len(part.names)
+        return self._horizons.get((part, length), lambda: Horizon(part, length), weight)
 
     def _problem(self, part: CompactPart, start: FineStart, goal: Literals) -> Problem:
         """The problem in canonical names. Raises ValueError."""

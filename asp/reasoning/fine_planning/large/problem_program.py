@@ -19,7 +19,7 @@ from clingo import Number
 
 from asp.language import Action, Fluent, Function, Literal
 from asp.reasoning.fine_planning.compact_session import MOST_LEVELS, CompactPart, parts, read
-from asp.reasoning.fine_planning.large.relaxed_reachability import Reach, Relaxed
+from asp.reasoning.fine_planning.large.relaxed_reachability import Reach
 from asp.reasoning.fine_planning.large.value_pruning import Functions, Values, confined
 from asp.solving import ground, literal_of, solving, theory
 from asp.translation import ACTION, Part, Rule
@@ -38,19 +38,15 @@ class ProblemPrograms:
     """Programs for single problems in a part of a description."""
 
     def __init__(
-        self,
-        part: CompactPart,
-        relaxed: Relaxed,
-        functions: Mapping[str, Function],
-        landmarks: bool,
+        self, part: CompactPart, functions: Mapping[str, Function], landmarks: bool
     ) -> None:
         """With `landmarks` functions are confined."""
         self._confines = landmarks
         self._rules = part.worded(Rule.confined)
         self._ranks = {action: rank for rank, action in enumerate(part.actions)}
         self._loose = loose(part.rules, part.sorts)
-        self._known = Functions(relaxed, functions)
-        self._facts = [(f"{fact}.", frozenset(fact.arguments)) for fact in relaxed.facts]
+        self._known = Functions(part.relaxed, functions)
+        self._facts = [(f"{fact}.", frozenset(fact.arguments)) for fact in part.relaxed.facts]
 
     def plan(self, problem: Problem, reach: Reach, length: int) -> tuple[Action, ...] | None:
         """The first plan of exactly so many steps, or None. Raises LimitError."""

@@ -65,13 +65,7 @@ class Relaxed(clingo.Observer):
             for node in body:
                 self.implied[node].append((tuple(n for n in body if n != node), head[0]))
 
-    def weight_rule(
-        self,
-        choice: bool,  # noqa: ARG002 (clingo's names)
-        head: Sequence[int],
-        lower_bound: int,  # noqa: ARG002
-        body: Sequence[tuple[int, int]],  # noqa: ARG002
-    ) -> None:
+    def weight_rule(self, _choice: bool, head: Sequence[int], *_body: object) -> None:
         """What is counted in a body is taken to be so."""
         if head:
             self._add(head, ())
