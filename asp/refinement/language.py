@@ -98,13 +98,9 @@ class Vocabulary:
 
     def bridged(self) -> tuple[str, ...]:
         """The coarse sorts whose constants stand in `component`: those that are refined."""
-        found = (
-            sort.name
-            for symbol in self.counterparts
-            for sort in self.coarse.symbols[symbol].sorts
-            if self.touches(sort.name)
-        )
-        return tuple(dict.fromkeys([*self.magnified, *found]))
+        symbols = (self.coarse.symbols[name] for name in self.counterparts)
+        sorts = (sort.name for symbol in symbols for sort in symbol.sorts)
+        return tuple(dict.fromkeys([*self.magnified, *filter(self.touches, sorts)]))
 
 
 def vocabulary_of(fine: syntax.Source, coarse: Signature, problems: Problems) -> Vocabulary:

@@ -157,14 +157,9 @@ def _signature(refined: syntax.Source, fine: syntax.Source) -> Signature:
 
 def _with(weak: syntax.Source, observation: str) -> syntax.Source:
     """The weak refinement with further sections behind it, which are parsed where they stand."""
-    lines = weak.text.count("\n") + 1
-    added = parse("\n" * lines + observation, weak.file)
-    return syntax.Source(
-        weak.file,
-        f"{weak.text}\n{observation}",
-        weak.statements + added.statements,
-        weak.comments + added.comments,
-    )
+    added = parse("\n" * (weak.text.count("\n") + 1) + observation, weak.file)
+    text, statements = f"{weak.text}\n{observation}", weak.statements + added.statements
+    return syntax.Source(weak.file, text, statements, weak.comments + added.comments)
 
 
 def _check_cycles(weak: syntax.Source, signature: Signature, fine: syntax.Source) -> None:

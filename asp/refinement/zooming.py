@@ -125,34 +125,28 @@ def fine_goal(
 def _writable(source: syntax.Source) -> list[syntax.Statement]:
     """The statements without sorts that are empty now, and without all that speaks of them."""
     signature = signature_of(source, Problems(source.file))
-    empty = {sort for sort, members in signature.sorts.items() if not members}
-    known = {
-        symbol
-        for symbol, declaration in signature.symbols.items()
-        if empty.isdisjoint(sort.name for sort in declaration.sorts)
-    }.union(signature.sorts)
+    sorts = {sort for sort, members in signature.sorts.items() if members}
+    symbols = signature.symbols.items()
+    known = sorts | {name for name, own in symbols if all(s.name in sorts for s in own.sorts)}
     return [
-        _without_parts(statement, empty)
+        _with_parts(statement, sorts)
         for statement in source.statements
-        if _is_writable(statement, empty, known)
-        and all(variable_domains(statement, signature).values())
+        if _names(statement) <= known and all(variable_domains(statement, signature).values())
     ]
 
 
-def _is_writable(statement: syntax.Statement, empty: set[str], known: set[str]) -> bool:
-    if isinstance(statement, syntax.SortDefinition):
-        return statement.name not in empty
-    if isinstance(statement, syntax.Declaration):
-        return statement.name in known
-    names = {use.atom.name for use in roles.scope(statement)}
-    return empty.isdisjoint(names) and names <= known
+def _names(statement: syntax.Statement) -> set[str]:
+    """The sorts and symbols that a statement is about; the one that it defines or declares."""
+    if isinstance(statement, syntax.SortDefinition | syntax.Declaration):
+        return {statement.name}
+    return {use.atom.name for use in roles.scope(statement)}
 
 
-def _without_parts(statement: syntax.Statement, empty: set[str]) -> syntax.Statement:
-    """A definition of a sort without the empty sorts that it names."""
+def _with_parts(statement: syntax.Statement, sorts: set[str]) -> syntax.Statement:
+    """A definition of a sort with those of the sorts that it names; others as they are."""
     if not isinstance(statement, syntax.SortDefinition):
         return statement
-    parts = (p for p in statement.parts if isinstance(p, tuple) or p.name not in empty)
+    parts = (p for p in statement.parts if isinstance(p, tuple) or p.name in sorts)
     return replace(statement, parts=tuple(parts))
 
 
