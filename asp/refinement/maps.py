@@ -89,15 +89,12 @@ class _Map:
             for atom in reversed(atoms)
             if atom.name == self._counterpart
         }
-        self._lost = {
-            whole
-            for whole, parts in self._components.items()
-            if parts == (whole,) and whole not in named
-        }
+        alone = {whole for whole, parts in self._components.items() if parts == (whole,)}
+        self._lost = alone - named
 
     def mistakes(self) -> Mistakes:
         """Where the fine map does not fit the coarse one, and how."""
-        for whole in self._lost:
+        for whole in sorted(self._lost):
             yield self._place(whole), f"'{whole}' has no components, and no fact speaks of it"
         for whole, parts in self._components.items():
             for part, one, other in _apart(parts, self._fine):

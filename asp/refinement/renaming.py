@@ -20,22 +20,14 @@ class Renaming:
     def __init__(self, law: syntax.Statement, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
         self._domains = variable_domains(law, vocabulary.coarse)
-        self._magnified = {
-            name
-            for name, members in self._domains.items()
-            if any(map(vocabulary.is_magnified, members))
-        }
+        domains = self._domains.items()
+        self._magnified = {v for v, own in domains if any(map(vocabulary.is_magnified, own))}
         self._taken = {*self._domains}
         self._fine: dict[str, syntax.Term] = {}
         self._wholes: dict[str, None] = {}
         self._others: list[syntax.Literal] = []
-        self._inside = {
-            term.name
-            for atom in _atoms(law)
-            if atom.name in vocabulary.counterparts
-            for term in atom.args
-            if self.is_magnified(term)
-        }
+        inside = (atom for atom in _atoms(law) if atom.name in vocabulary.counterparts)
+        self._inside = {t.name for atom in inside for t in atom.args if self.is_magnified(t)}
 
     def is_magnified(self, term: syntax.Term) -> bool:
         if term.is_variable:
@@ -44,11 +36,8 @@ class Renaming:
 
     def is_whole(self, atom: syntax.Atom) -> bool:
         """Whether the atom is an attribute of magnified constants that stays as it is."""
-        return (
-            atom.name in self._vocabulary.coarse.symbols
-            and atom.name not in self._vocabulary.counterparts
-            and any(map(self.is_magnified, atom.args))
-        )
+        others = self._vocabulary.coarse.symbols.keys() - self._vocabulary.counterparts.keys()
+        return atom.name in others and any(map(self.is_magnified, atom.args))
 
     def is_about_wholes(self, law: syntax.ExecutabilityCondition) -> bool:
         """Whether a condition is about some wholes and not others, which their components share.
@@ -65,10 +54,8 @@ class Renaming:
     def _is_part(self, atom: syntax.Atom) -> bool:
         """Whether the atom is a sort that has some of the constants of a magnified one only."""
         sorts = self._vocabulary.coarse.sorts
-        return atom.name in sorts and any(
-            set(sorts[atom.name]) < set(sorts[magnified])
-            for magnified in self._vocabulary.magnified
-        )
+        own, wholes = sorts.get(atom.name), [sorts[each] for each in self._vocabulary.magnified]
+        return own is not None and any(set(own) < set(members) for members in wholes)
 
     def atom(self, atom: syntax.Atom) -> syntax.Atom:
         """The counterpart of an atom that has one; another atom as it is, about the wholes."""
@@ -117,11 +104,8 @@ class Renaming:
 
     def links(self) -> syntax.Body:
         """`component(P, O)` for every whole of which the law names a component."""
-        links = (
-            component(self._fine[name], replace(self._fine[name], name=name))
-            for name in self._wholes
-            if name in self._fine
-        )
+        tied = [(self._fine[name], name) for name in self._wholes if name in self._fine]
+        links = (component(part, replace(part, name=name)) for part, name in tied)
         return (*links, *self._others)
 
     def _is_only_inside(self, term: syntax.Term) -> bool:

@@ -99,11 +99,8 @@ class _Ways:
         while agenda and len(layer) <= most:
             node = agenda.pop()
             if node not in layer:
-                layer[node] = [
-                    body
-                    for body in makers.get(node, ())
-                    if all(self._holds(atom, step) for atom in body)
-                ]
+                bodies = makers.get(node, ())
+                layer[node] = [b for b in bodies if all(self._holds(atom, step) for atom in b)]
                 agenda += [atom for body in layer[node] for atom in body]
         return layer
 
