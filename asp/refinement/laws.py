@@ -45,11 +45,9 @@ class Rewriting:
             case syntax.CausalLaw(action=action) if self._concerns(action):
                 yield self._causal(law, renaming), REFINED
             case syntax.CausalLaw(action=action, head=head) if self._concerns(head.atom):
-                self.problems.report(
-                    law.place,
-                    f"'{action.name}' changes '{head.atom.name}', which has a counterpart, so that "
-                    f"'{action.name}' needs one",
-                )
+                needs = f"which has a counterpart, so that '{action.name}' needs one"
+                message = f"'{action.name}' changes '{head.atom.name}', {needs}"
+                self.problems.report(law.place, message)
             case syntax.StateConstraint():
                 yield from self._constraint(law, renaming)
             case syntax.ExecutabilityCondition(actions=actions) if self._concerns(*actions):

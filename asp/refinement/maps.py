@@ -115,11 +115,8 @@ class _Map:
         ways = {(self._owner[one], self._owner[other]) for one, other in self._fine}
         missing = {(a, b) for a, b in self._coarse - ways if a != b and not self._lost & {a, b}}
         for one, other in _once(missing, self._wholes):
-            yield (
-                self._place(one),
-                f"{self._static}({one}, {other}), but no component of '{one}' is "
-                f"{self._counterpart} to one of '{other}'",
-            )
+            none = f"no component of '{one}' is {self._counterpart} to one of '{other}'"
+            yield self._place(one), f"{self._static}({one}, {other}), but {none}"
 
     def _too_many(self) -> Mistakes:
         """A way between components of two wholes that have none between them."""
@@ -130,11 +127,9 @@ class _Map:
         order = [part for pair in stated for part in pair] + sorted(owner)
         for one, other in _once(wrong, order):
             whole, beyond = crossing[one, other]
-            yield (
-                self._stated.get((one, other), self._place(one)),
-                f"{self._counterpart}({one}, {other}) leads from '{whole}' to '{beyond}', "
-                f"but {self._static}({whole}, {beyond}) does not hold",
-            )
+            place = self._stated.get((one, other), self._place(one))
+            leads = f"{self._counterpart}({one}, {other}) leads from '{whole}' to '{beyond}'"
+            yield place, f"{leads}, but {self._static}({whole}, {beyond}) does not hold"
 
 
 def _apart(members: Sequence[str], ways: Pairs) -> Iterator[tuple[str, str, str]]:

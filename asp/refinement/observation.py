@@ -68,11 +68,8 @@ def tested_fluents(fine: syntax.Source, weak: Signature, problems: Problems) -> 
                 place for place, term in terms if tester.is_variable and term.name == tester.name
             }
             if _robot_sort(statement, weak) != robot:
-                problems.report(
-                    statement.place,
-                    f"'{name}' is tested by another sort of robot than in line {line}, which is "
-                    f"'{robot}'",
-                )
+                other = f"by another sort of robot than in line {line}, which is '{robot}'"
+                problems.report(statement.place, f"'{name}' is tested {other}")
         found.append(Tested(name, sorts, robot, own, tuple(statements)))
     return found
 
