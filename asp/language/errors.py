@@ -19,6 +19,7 @@ _READABLE = {
     "DECIMAL": "a number",
     "DOT": "a full stop",
 }
+_ALONE = "the section word '{}' stands alone on its line"
 _LIKENESS = 0.5
 
 
@@ -29,11 +30,9 @@ class SourceError(ValueError):
     first is raised and `all` holds every one of them in the order of the source.
     """
 
-    def __init__(self, file: str, line: int, column: int, message: str) -> None:
-        super().__init__(f"{file}:{line}:{column}: {message}")
-        self.file = file
-        self.line = line
-        self.column = column
+    def __init__(self, file: str, place: syntax.Place, message: str) -> None:
+        super().__init__(f"{file}:{place.line}:{place.column}: {message}")
+        self.file, self.line, self.column = file, place.line, place.column
         self.message = message
         self.all: Sequence[SourceError] = (self,)
 
@@ -51,7 +50,7 @@ class Problems(list[SourceError]):
         self.failed: list[syntax.Declaration] = []
 
     def report(self, place: syntax.Place, message: str) -> None:
-        self.append(SourceError(self.file, place.line, place.column, message))
+        self.append(SourceError(self.file, place, message))
 
     def report_all(self, mistakes: Iterable[tuple[syntax.Place, str]]) -> None:
         for place, message in mistakes:
@@ -92,22 +91,22 @@ def syntax_error(error: UnexpectedInput, text: str, file: str, grammar: Lark) ->
     for token in _last(error):
         meant = _meant_section(token, text, sections)
         if meant is not None:
-            return _at(token, file, f"unknown section '{token}'; did you mean '{meant}'?")
+            message = f"unknown section '{token}'; did you mean '{meant}'?"
+            return SourceError(file, place_of(token), message)
+    place = syntax.Place(error.line, error.column)
     if isinstance(error, UnexpectedCharacters):
-        return SourceError(file, error.line, error.column, f"unexpected character {error.char!r}")
+        return SourceError(file, place, f"unexpected character {error.char!r}")
     assert isinstance(error, UnexpectedToken)
     if error.token.type == "$END":
         lines = text.rstrip().split("\n")
-        return SourceError(file, len(lines), len(lines[-1]) + 1, "the text ends inside a statement")
+        place = syntax.Place(len(lines), len(lines[-1]) + 1)
+        return SourceError(file, place, "the text ends inside a statement")
     for token in _last(error):
-        if (
-            token.line == error.line
-            and token.lower() in sections
-            and _is_first_in_line(token, text)
-        ):
-            return SourceError(file, error.line, error.column, _alone(token))
+        is_section = token.line == error.line and token.lower() in sections
+        if is_section and _is_first_in_line(token, text):
+            return SourceError(file, place, _ALONE.format(token))
     expected = _described(set(error.accepts or error.expected), grammar, sections)
-    return _at(error.token, file, f"unexpected {str(error.token)!r}; expected {expected}")
+    return SourceError(file, place, f"unexpected {str(error.token)!r}; expected {expected}")
 
 
 def check_section_words(tree: ParseTree, text: str, file: str) -> None:
@@ -117,12 +116,7 @@ def check_section_words(tree: ParseTree, text: str, file: str) -> None:
         word = section.children[0]
         assert isinstance(word, Token)
         if not _is_first_in_line(word, text):
-            raise _at(word, file, _alone(word))
-
-
-def _at(token: Token, file: str, message: str) -> SourceError:
-    place = place_of(token)
-    return SourceError(file, place.line, place.column, message)
+            raise SourceError(file, place_of(word), _ALONE.format(word))
 
 
 def _last(error: UnexpectedInput) -> list[Token]:
@@ -149,10 +143,6 @@ def _meant_section(token: Token, text: str, sections: Set[str]) -> str | None:
 
 def _is_first_in_line(token: Token, text: str) -> bool:
     return not text[: token.start_pos].rpartition("\n")[2].strip()
-
-
-def _alone(token: Token) -> str:
-    return f"the section word '{token}' stands alone on its line"
 
 
 def _described(expected: Set[str], grammar: Lark, sections: Set[str]) -> str:

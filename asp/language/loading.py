@@ -81,9 +81,9 @@ def read_text(path: Path) -> str:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         before = error.object[: error.start]
-        line, column = before.count(b"\n") + 1, error.start - before.rfind(b"\n")
+        place = syntax.Place(before.count(b"\n") + 1, error.start - before.rfind(b"\n"))
         message = f"not a text file in UTF-8: {error.reason}"
-        raise SourceError(str(path), line, column, message) from None
+        raise SourceError(str(path), place, message) from None
 
 
 def packaged_domains(ending: str = ".al") -> tuple[str, ...]:
@@ -137,13 +137,9 @@ def check_one_robot(text: str, file: str) -> None:
             for part in definition.parts
             if isinstance(part, tuple) and second in (constant.name for constant in part)
         )
-        raise SourceError(
-            file,
-            place.line,
-            place.column,
-            f"{seers[0]} and {second} are two robots, and a description has one for now; "
-            f"drop {second}, or give what is no robot a sort of its own",
-        )
+        message = f"{seers[0]} and {second} are two robots, and a description has one for now; "
+        message += f"drop {second}, or give what is no robot a sort of its own"
+        raise SourceError(file, place, message)
 
 
 def _second(seers: Sequence[str], signature: Signature) -> Iterator[str]:

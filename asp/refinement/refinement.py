@@ -150,8 +150,7 @@ def _signature(refined: syntax.Source, fine: syntax.Source) -> Signature:
         name = next(iter(re.findall(r"'(\w+)'", problem.message)), "")
         lines = enumerate(fine.text.split("\n"), start=1)
         places = ((n, m.start() + 1) for n, t in lines for m in re.finditer(rf"\b{name}\b", t))
-        line, column = next(places, (1, 1))
-        raise SourceError(fine.file, line, column, problem.message)
+        raise SourceError(fine.file, syntax.Place(*next(places, (1, 1))), problem.message)
     return signature
 
 
@@ -171,7 +170,7 @@ def _check_cycles(weak: syntax.Source, signature: Signature, fine: syntax.Source
     check_cycles(weak, signature, problems)
     for problem in problems:
         law = weak.text.split("\n")[problem.line - 1].strip()
-        raise SourceError(fine.file, 1, 1, f"{problem.message}: {law}")
+        raise SourceError(fine.file, syntax.Place(1, 1), f"{problem.message}: {law}")
 
 
 def load_refinement(name_or_path: str) -> Refinement:
@@ -205,9 +204,9 @@ def _coarse(file: str, text: str) -> tuple[str, str]:
     named = next(parse_fine(text, file).each(Refines), None)
     if named is None:
         message = "it does not say which description it refines: begin with 'refines NAME.'"
-        raise SourceError(file, 1, 1, message)
+        raise SourceError(file, syntax.Place(1, 1), message)
     beside = Path(file).parent / named.name
     try:
         return read_domain(str(beside) if beside.is_file() else named.name)
     except FileNotFoundError as error:
-        raise SourceError(file, named.place.line, named.place.column, str(error)) from None
+        raise SourceError(file, named.place, str(error)) from None
