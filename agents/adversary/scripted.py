@@ -136,7 +136,7 @@ def _by_number(entries: Iterable[tuple[int, Action]]) -> dict[int, Action]:
     return actions
 
 
-def _drawable(trigger: Trigger) -> tuple[str, str]:
+def _drawable(trigger: Trigger) -> tuple[str, str | None]:
     """What is drawn: a value, for this kind of event."""
     return trigger.event.name, trigger.drawn
 

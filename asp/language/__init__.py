@@ -1,6 +1,6 @@
 """The action language AL_d: text in, a checked and ground description out."""
 
-from asp.language.checker import check
+from asp.language.checker import check, check_cycles, reachable
 from asp.language.description import (
     Causal,
     Constraint,
@@ -30,7 +30,6 @@ from asp.language.matching import NOTHING, Facts, Pattern, Row, Truth
 from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
 from asp.language.restriction import named, narrowed, restrict, without_exogenous
 from asp.language.signature import Signature, signature_of
-from asp.language.stratification import check_cycles, reachable
 from asp.language.variable_sorts import variable_domains
 from asp.language.writer import text_of
 

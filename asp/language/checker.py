@@ -1,11 +1,20 @@
-"""The checks that need the signature: symbols, arguments, variables, forbidden forms."""
+"""The checks that need the signature: symbols, arguments, variables, forms, definitions."""
 
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from typing import TypeVar
 
 from asp.language import syntax
 from asp.language import variable_sorts as roles
 from asp.language.errors import Problems, suggestion
+from asp.language.grounding import Instances, instance, static_truth
+from asp.language.literals import Literal
 from asp.language.signature import Signature, check_reserved
+
+T = TypeVar("T", bound=Hashable)
+Mistakes = Iterator[tuple[syntax.Place, str]]
+Law = tuple[syntax.StateConstraint, Literal, Iterable[Literal]]
+"""A state constraint with the head and the body of an instance, or with their names alone."""
 
 _NOUNS = {
     roles.SORT: "a sort",
@@ -15,9 +24,6 @@ _NOUNS = {
     "agent": "an agent action",
     "exogenous": "an exogenous action",
 }
-
-
-Mistakes = Iterator[tuple[syntax.Place, str]]
 
 
 def check(source: syntax.Source, signature: Signature, problems: Problems) -> None:
@@ -73,7 +79,7 @@ def _of_scenarios(source: syntax.Source) -> Mistakes:
 
 def _of_use(use: roles.Use, signature: Signature, failed: Iterable[syntax.Declaration]) -> Mistakes:
     atom = use.atom
-    kind = _kind(atom.name, signature)
+    kind = signature.kind(atom.name)
     if kind is None:
         if any(d.kind in use.kinds and len(d.sorts) == len(atom.args) for d in failed):
             return  # a declaration that failed may have been of this atom
@@ -85,13 +91,6 @@ def _of_use(use: roles.Use, signature: Signature, failed: Iterable[syntax.Declar
         yield atom.place, f"'{atom.name}' is {_NOUNS[kind]}; this place needs {use.wanted}"
     else:
         yield from _of_arguments(atom, signature)
-
-
-def _kind(name: str, signature: Signature) -> str | None:
-    if name in signature.sorts:
-        return roles.SORT
-    declaration = signature.symbols.get(name)
-    return None if declaration is None else declaration.kind
 
 
 def _of_arguments(atom: syntax.Atom, signature: Signature) -> Mistakes:
@@ -114,7 +113,7 @@ def _of_form(statement: syntax.Statement, signature: Signature) -> Mistakes:
         case syntax.Fact(literal=literal) if not literal.positive:
             yield statement.place, "a fact is positive; what is not stated is false"
         case syntax.StateConstraint(head=head):
-            kind = _kind(head.atom.name, signature)
+            kind = signature.kind(head.atom.name)
             if kind == "static":
                 yield from _of_static_law(statement, signature)
             if kind == "defined" and not head.positive:
@@ -130,7 +129,7 @@ def _of_form(statement: syntax.Statement, signature: Signature) -> Mistakes:
 def _of_static_law(law: syntax.StateConstraint, signature: Signature) -> Mistakes:
     name = law.head.atom.name
     for atom in (literal.atom for literal in roles.literals(law.body)):
-        if _kind(atom.name, signature) in roles.FLUENTS:
+        if signature.kind(atom.name) in roles.FLUENTS:
             yield atom.place, f"the static '{name}' cannot depend on the fluent '{atom.name}'"
     if not law.head.positive:
         yield law.place, "a static is false unless derived; drop the negation"
@@ -157,3 +156,72 @@ def _of_variables(statement: syntax.Statement, signature: Signature) -> Mistakes
         elif not term.is_variable and term.name not in signature.constants:
             known = suggestion(term.name, signature.constants)
             yield term.place, f"unknown constant '{term.name}'; {known}"
+
+
+def check_cycles(source: syntax.Source, signature: Signature, problems: Problems) -> None:
+    """Reports each state constraint that closes a cycle through negation.
+
+    A state constraint with a positive head defines that fluent. Where such definitions run in a
+    cycle with a negated body literal on it (`p if -p`, or `p if -q` with `q if -p`), the
+    description says no longer which states there are, and AL_d forbids it. A defined fluent, which
+    is false where nothing derives it, can also depend on its own negation by way of negative
+    literals (`d if -p` with `-p if -d`).
+    """
+    laws = list(source.each(syntax.StateConstraint))
+    # Where the names alone close no cycle the instances, which larger sorts have more of, do not.
+    by_name = [(law, _named(law.head), [*map(_named, roles.literals(law.body))]) for law in laws]
+    if not any(_closing(by_name, signature)):
+        return
+    statics, open_statics = static_truth(source, signature)
+    undecided = {static.name for static in open_statics}
+    for law in laws:
+        if law.head.atom.name in undecided:
+            problems.report(
+                law.place, f"'{law.head.atom.name}' is defined through its own negation"
+            )
+    ground = [
+        (law, instance(law.head, binding), left["body"])
+        for law in laws
+        for binding, left in Instances(source, signature, statics).of(law)
+    ]
+    told: dict[syntax.StateConstraint, str] = {}
+    for law, head, condition in _closing(ground, signature):
+        told.setdefault(
+            law, f"'{head}' is defined through its own negation by way of '{condition}'"
+        )
+    for law, message in told.items():
+        problems.report(law.place, message)
+
+
+def _named(literal: syntax.Literal) -> Literal:
+    return Literal.of(literal.atom.name, (), literal.positive)
+
+
+def _closing(
+    laws: Sequence[Law], signature: Signature
+) -> Iterator[tuple[syntax.StateConstraint, Literal, Literal]]:
+    """The laws with a condition that makes the head depend on its own negation, and these two."""
+    atoms: dict[Literal, set[Literal]] = defaultdict(set)
+    literals: dict[Literal, set[Literal]] = defaultdict(set)
+    for _, head, body in laws:
+        literals[head].update(body)
+        if head.is_positive:
+            atoms[head].update(condition.atom for condition in body)
+            if signature.kind(head.name) == "defined":
+                literals[head.complement].add(head)
+    for law, head, body in laws:
+        is_defined = signature.kind(head.name) == "defined"
+        for condition in body if head.is_positive else ():
+            through_atoms = not condition.is_positive and head in reachable(condition.atom, atoms)
+            if through_atoms or (is_defined and head.complement in reachable(condition, literals)):
+                yield law, head, condition
+
+
+def reachable(start: T, graph: Mapping[T, set[T]]) -> set[T]:
+    """The nodes to which the arcs of a graph lead from one of them, itself included."""
+    found, stack = {start}, [start]
+    while stack:
+        new = graph.get(stack.pop(), set()) - found
+        found |= new
+        stack += new
+    return found

@@ -63,14 +63,14 @@ class Trigger(Node):
     """One way in which a scenario's exogenous action may fire.
 
     `upon` is the robot's action that it goes with (None: any), `drawn` the value of the drawn
-    variable ("" if nothing is drawn), `pool` the literals that make this value drawable, `body`
+    variable (None: nothing is drawn), `pool` the literals that make this value drawable, `body`
     the literals that let the event fire, `probability` that of trying at all in a step.
     """
 
     scenario: str
     event: Action
     upon: Action | None
-    drawn: str
+    drawn: str | None
     pool: Literals
     body: Literals
     probability: float

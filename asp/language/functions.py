@@ -51,23 +51,17 @@ def subject(fluent: Fluent, known: Mapping[str, Function]) -> tuple[str, ...] | 
 
 def excluding_place(law: syntax.Statement) -> int | None:
     """The place of the values that a law `-f(X, V2) if f(X, V1), V1 != V2` keeps apart, or None."""
-    if not isinstance(law, syntax.StateConstraint) or law.head.positive or len(law.body) != 2:
-        return None
-    conditions = [part for part in law.body if isinstance(part, syntax.Literal)]
-    comparisons = [part for part in law.body if isinstance(part, syntax.Comparison)]
-    if len(conditions) != 1 or len(comparisons) != 1 or comparisons[0].equal:
-        return None
-    head, body = law.head.atom, conditions[0].atom
-    if (
-        head.name != body.name
-        or not conditions[0].positive
-        or not (schematic(head) and schematic(body))
-    ):
-        return None
-    pairs = [{a.name, b.name} for a, b in zip(head.args, body.args, strict=True)]
-    apart = [place for place, names in enumerate(pairs) if len(names) == 2]
-    sides = {comparisons[0].left.name, comparisons[0].right.name}
-    return apart[0] if [pairs[place] for place in apart] == [sides] else None
+    match law:
+        case syntax.StateConstraint(
+            head=syntax.Literal(head, False),
+            body=(syntax.Literal(body, True), syntax.Comparison(left, right, False))
+            | (syntax.Comparison(left, right, False), syntax.Literal(body, True)),
+        ) if head.name == body.name and schematic(head) and schematic(body):
+            pairs = [{a.name, b.name} for a, b in zip(head.args, body.args, strict=True)]
+            apart = [place for place, names in enumerate(pairs) if len(names) == 2]
+            sides = {left.name, right.name}
+            return apart[0] if [pairs[place] for place in apart] == [sides] else None
+    return None
 
 
 def schematic(atom: syntax.Atom) -> bool:
@@ -82,10 +76,9 @@ def _is_total(name: str, place: int, source: syntax.Source) -> bool:
         and statement.fluent.args[place].name == statement.variable.name
         for statement in source.each(syntax.InitiallyStatement)
     )
-    laws: list[syntax.CausalLaw | syntax.StateConstraint] = [*source.each(syntax.CausalLaw)]
-    laws += source.each(syntax.StateConstraint)
     denied = any(
         law.head.atom.name == name and not law.head.positive and excluding_place(law) != place
-        for law in laws
+        for law in source.statements
+        if isinstance(law, syntax.CausalLaw | syntax.StateConstraint)
     )
     return given and not denied

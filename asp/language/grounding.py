@@ -3,6 +3,7 @@
 A variable takes the members of its sort, and the statics are those of the closed world.
 """
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from itertools import product
@@ -23,18 +24,17 @@ from asp.language.description import (
 from asp.language.literals import Fluent, Literal
 from asp.language.matching import NOTHING, Facts, Pattern, Row
 from asp.language.signature import Signature
-from asp.language.variable_sorts import variable_domains
+from asp.language.variable_sorts import BODIES, FLUENTS, default_atom, variable_domains
 
 Binding = Mapping[str, str]
-G = TypeVar("G", Causal, Constraint, Executability, Sees, Shows)
+G = TypeVar("G", Causal, Constraint, Executability, Sees, Shows, Trigger)
 
 
 def ground_description(source: syntax.Source, signature: Signature, name: str) -> Description:
     """Instantiates every statement over the members of its variables' sorts."""
     instances = Instances(source, signature, static_truth(source, signature)[0])
-    on_fluents = (
-        law for law in source.each(syntax.StateConstraint) if not instances.is_static(law.head)
-    )
+    constraints = source.each(syntax.StateConstraint)
+    on_fluents = (law for law in constraints if signature.kind(law.head.atom.name) != "static")
     agent_actions = signature.atoms("agent")
     return Description(
         name=name,
@@ -53,7 +53,7 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
         costs=dict.fromkeys(agent_actions, 0) | _costs(instances),
         initially=_initially(instances),
         defaults=_defaults(instances),
-        triggers=_triggers(instances),
+        triggers=instances.ground(source.each(syntax.TriggerStatement), Trigger),
         scenarios=source.scenarios,
     )
 
@@ -68,50 +68,40 @@ class Instances:
 
     def ground(self, statements: Iterable[syntax.Statement], kind: type[G]) -> tuple[G, ...]:
         """The ground statements of a kind, whose fields are named as those of the statements."""
-        names = [field.name for field in fields(kind) if field.name != "body"]
+        names = [field.name for field in fields(kind)]
         return tuple(
-            kind(**{n: instance(getattr(own, n), binding) for n in names}, body=body)
+            kind(**{n: instance(getattr(own, n), binding) for n in names} | bodies)
             for own in statements
-            for binding, body in self.of(own)
+            for binding, bodies in self.of(own)
         )
 
-    def of(self, statement: syntax.Statement) -> Iterator[tuple[Binding, Literals]]:
-        """The bindings that the statics and comparisons allow, with what is left of the body."""
-        for binding in self.bindings(statement):
-            body = self.evaluate(getattr(statement, "body", ()), binding)
-            if body is not None:
-                yield binding, body
-
-    def bindings(self, statement: syntax.Statement) -> Iterator[Binding]:
+    def of(self, statement: syntax.Statement) -> Iterator[tuple[Binding, dict[str, Any]]]:
+        """The bindings that the statics and comparisons allow, with what is left of the bodies."""
         domains = variable_domains(statement, self.signature)
+        bodies = {name: getattr(statement, name) for name in BODIES if hasattr(statement, name)}
+        known = [c for body in bodies.values() for c in body if not self._is_fluent(c)]
+        left = {name: list(filter(self._is_fluent, body)) for name, body in bodies.items()}
         for values in product(*domains.values()):
-            yield dict(zip(domains, values, strict=True))
+            binding = dict(zip(domains, values, strict=True))
+            if all(self._holds(condition, binding) for condition in known):
+                yield (
+                    binding,
+                    {n: tuple(dict.fromkeys(instance(c, binding))) for n, c in left.items()},
+                )
 
-    def evaluate(self, body: Iterable[syntax.Condition], binding: Binding) -> Literals | None:
-        """The fluent literals of a body, or None if a static or a comparison fails."""
-        kept: dict[Literal, None] = {}
-        for condition in body:
-            holds = self._holds(condition, binding)
-            if holds is None:
-                kept[instance(condition, binding)] = None
-            elif not holds:
-                return None
-        return tuple(kept)
+    def _is_fluent(self, condition: syntax.Condition) -> bool:
+        return (
+            isinstance(condition, syntax.Literal)
+            and self.signature.kind(condition.atom.name) in FLUENTS
+        )
 
-    def _holds(self, condition: syntax.Condition, binding: Binding) -> bool | None:
-        """Whether a comparison, a sort or a static holds; None for a fluent."""
+    def _holds(self, condition: syntax.Condition, binding: Binding) -> bool:
+        """Whether a comparison or a static holds; a sort does, for its variable ranges over it."""
         if isinstance(condition, syntax.Comparison):
-            left, right = (binding.get(n, n) for n in (condition.left.name, condition.right.name))
-            return (left == right) == condition.equal
-        atom = condition.atom
-        if atom.name in self.signature.sorts:
-            return instance(atom.args[0], binding) in self.signature.sorts[atom.name]
-        if not self.is_static(condition):
-            return None
-        return (instance(atom, binding) in self.statics) == condition.positive
-
-    def is_static(self, literal: syntax.Literal) -> bool:
-        return self.signature.symbols[literal.atom.name].kind == "static"
+            sides = {instance(condition.left, binding), instance(condition.right, binding)}
+            return (len(sides) == 1) == condition.equal
+        is_sort = condition.atom.name in self.signature.sorts
+        return is_sort or (instance(condition.atom, binding) in self.statics) == condition.positive
 
 
 def static_truth(
@@ -129,7 +119,7 @@ def static_truth(
     laws = [
         pattern_of(law, signature, head=law.head)
         for law in source.each(syntax.StateConstraint)
-        if signature.symbols[law.head.atom.name].kind == "static"
+        if signature.kind(law.head.atom.name) == "static"
     ]
 
     def closed(assumed: frozenset[Literal]) -> frozenset[Literal]:
@@ -150,8 +140,7 @@ def static_truth(
 
 def closed_world(statics: Iterable[Literal], signature: Signature) -> Facts:
     """The true statics of a description as facts: a static is false everywhere else."""
-    names = (name for name, symbol in signature.symbols.items() if symbol.kind == "static")
-    return Facts(statics, names)
+    return Facts(statics, (symbol.name for symbol in signature.of_kind("static")))
 
 
 class _Assumed(Facts):
@@ -191,21 +180,23 @@ def instance(part: Any, binding: Binding) -> Any:
         return Literal.of(part.name, [binding.get(term.name, term.name) for term in part.args])
     if isinstance(part, syntax.Term):
         return binding.get(part.name, part.name)
-    return tuple(instance(each, binding) for each in part) if isinstance(part, tuple) else part
+    if isinstance(part, list | tuple):
+        return tuple([instance(each, binding) for each in part])
+    return part
 
 
 def _costs(instances: Instances) -> dict[str, int]:
     return {
         instance(statement.action, binding): statement.units
         for statement in instances.source.each(syntax.CostStatement)
-        for binding in instances.bindings(statement)
+        for binding, _ in instances.of(statement)
     }
 
 
 def _initially(instances: Instances) -> tuple[tuple[Fluent, ...], ...]:
     groups: dict[tuple[object, ...], list[Fluent]] = {}
     for number, statement in enumerate(instances.source.each(syntax.InitiallyStatement)):
-        for binding in instances.bindings(statement):
+        for binding, _ in instances.of(statement):
             others = (v for name, v in binding.items() if name != statement.variable.name)
             groups.setdefault((number, *others), []).append(instance(statement.fluent, binding))
     return tuple(map(tuple, groups.values()))
@@ -213,36 +204,16 @@ def _initially(instances: Instances) -> tuple[tuple[Fluent, ...], ...]:
 
 def _defaults(instances: Instances) -> tuple[Default, ...]:
     """The defaults but those to which an exception applies whatever the state."""
-    exceptions: dict[str, list[Literals]] = {}
-
-    def name(default: syntax.DefaultStatement | None, binding: Binding) -> str:
-        assert default is not None, "the checker has found every default"
-        variables = variable_domains(default, instances.signature)
-        return Literal.of(default.name, (binding[variable] for variable in variables))
-
+    exceptions: dict[str, list[Literals]] = defaultdict(list)
     for exception in instances.source.each(syntax.ExceptionStatement):
-        for binding, body in instances.of(exception):
-            exceptions.setdefault(name(exception.of, binding), []).append(body)
+        assert exception.of is not None, "the checker has found every default"
+        name = default_atom(exception.of, instances.signature)
+        for binding, bodies in instances.of(exception):
+            exceptions[instance(name, binding)].append(bodies["body"])
     return tuple(
-        Default(of, instance(statement.head, binding), body, tuple(known))
+        Default(of, instance(statement.head, binding), bodies["body"], tuple(exceptions[of]))
         for statement in instances.source.each(syntax.DefaultStatement)
-        for binding, body in instances.of(statement)
-        if () not in (known := exceptions.get(of := name(statement, binding), []))
-    )
-
-
-def _triggers(instances: Instances) -> tuple[Trigger, ...]:
-    return tuple(
-        Trigger(
-            scenario=statement.scenario,
-            event=instance(statement.event, binding),
-            upon=instance(statement.upon, binding),
-            drawn=instance(statement.drawn, binding) or "",
-            pool=pool,
-            body=body,
-            probability=statement.probability,
-        )
-        for statement in instances.source.each(syntax.TriggerStatement)
-        for binding, body in instances.of(statement)
-        if (pool := instances.evaluate(statement.pool, binding)) is not None
+        for name in [default_atom(statement, instances.signature)]
+        for binding, bodies in instances.of(statement)
+        if () not in exceptions[of := instance(name, binding)]
     )

@@ -7,13 +7,12 @@ from math import prod
 from pathlib import Path
 
 from asp.language import syntax
-from asp.language.checker import check
+from asp.language.checker import check, check_cycles
 from asp.language.description import Description
 from asp.language.errors import Problems, SourceError
 from asp.language.grounding import ground_description
 from asp.language.parser import parse
 from asp.language.signature import Signature, signature_of
-from asp.language.stratification import check_cycles
 from asp.language.variable_sorts import variable_domains
 
 MOST_TEXTS = 32
@@ -145,8 +144,7 @@ def check_one_robot(text: str, file: str) -> None:
 def _second(seers: Sequence[str], signature: Signature) -> Iterator[str]:
     actions = [
         [set(signature.sorts[sort.name]) for sort in symbol.sorts]
-        for symbol in signature.symbols.values()
-        if symbol.kind == "agent"
+        for symbol in signature.of_kind("agent")
     ]
     for robot in seers[:1]:
         own = [places for places in actions if any(robot in members for members in places)]

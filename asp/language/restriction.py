@@ -24,7 +24,7 @@ def restrict(source: syntax.Source, dropped: Collection[str]) -> syntax.Source:
 
 def without_exogenous(source: syntax.Source, signature: Signature) -> syntax.Source:
     """The source without exogenous actions and what is said of them."""
-    gone = {name for name, symbol in signature.symbols.items() if symbol.kind == "exogenous"}
+    gone = {symbol.name for symbol in signature.of_kind("exogenous")}
     return replace(
         source,
         statements=tuple(

@@ -43,6 +43,17 @@ class Signature:
             for arguments in product(*(self.sorts[sort.name] for sort in symbol.sorts))
         )
 
+    def kind(self, name: str) -> str | None:
+        """What a name is: the kind of a declared symbol, or `sort`; None: nothing."""
+        if name in self.sorts:
+            return "sort"
+        symbol = self.symbols.get(name)
+        return None if symbol is None else symbol.kind
+
+    def of_kind(self, kind: syntax.SymbolKind) -> list[syntax.Declaration]:
+        """The declared symbols of a kind, in order."""
+        return [symbol for symbol in self.symbols.values() if symbol.kind == kind]
+
 
 def signature_of(source: syntax.Source, problems: Problems) -> Signature:
     """The signature that the sorts, statics, fluents and actions sections declare."""

@@ -13,7 +13,8 @@ AGENT = frozenset({"agent"})
 EXOGENOUS = frozenset({"exogenous"})
 ACTIONS = AGENT | EXOGENOUS
 SORT = "sort"
-
+BODIES = "pool", "body"
+"""The fields of statements that are conjunctions of conditions."""
 
 Domains = Mapping[str, tuple[str, ...]]
 """What each variable of one statement ranges over."""
@@ -91,8 +92,15 @@ def comparisons(body: Iterable[syntax.Condition]) -> Iterator[syntax.Comparison]
 
 def bodies(statement: syntax.Statement) -> Iterator[syntax.Condition]:
     """The conditions of all the bodies of a statement."""
-    for field in ("pool", "body"):
-        yield from getattr(statement, field, ())
+    for name in BODIES:
+        yield from getattr(statement, name, ())
+
+
+def default_atom(default: syntax.DefaultStatement, signature: Signature) -> syntax.Atom:
+    """The name of a default, with its variables: an instance of it is named by their values."""
+    variables = variable_domains(default, signature)
+    terms = tuple(syntax.Term(variable, default.place) for variable in variables)
+    return syntax.Atom(default.name, terms, default.place)
 
 
 def variable_domains(statement: syntax.Statement, signature: Signature) -> Domains:

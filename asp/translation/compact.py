@@ -7,6 +7,7 @@ state(t) and step(t), and goes with the theory `incremental_fine_planning`; its 
 state is complete, are the translation's.
 """
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
@@ -53,9 +54,8 @@ class _Translation:
         self._functions = functions(source, signature)
 
     def rules(self) -> Iterator[Rule]:
-        for symbol in self._signature.symbols.values():
-            if symbol.kind == "inertial":
-                yield from self._inertia(symbol)
+        for symbol in self._signature.of_kind("inertial"):
+            yield from self._inertia(symbol)
         for constraint in self._source.each(syntax.StateConstraint):
             yield from self._constraint(constraint)
         for law in self._source.each(syntax.CausalLaw):
@@ -105,8 +105,7 @@ class _Translation:
             yield self._rule(Part.BASE, law, str(law.head.atom), law.body)
             return
         for literal in roles.literals(law.body):
-            symbol = self._signature.symbols.get(literal.atom.name)
-            if not literal.positive and symbol is not None and symbol.kind == "inertial":
+            if not literal.positive and self._signature.kind(literal.atom.name) == "inertial":
                 raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
         function = self._functions.get(name)
         if function is None or excluding_place(law) != function.place:
@@ -127,23 +126,22 @@ class _Translation:
 
     def _actions(self) -> Iterator[Rule]:
         """Which actions are enabled: by conditions that each allow them, and others that forbid."""
-        numbers: dict[str, list[int]] = {}
+        numbers: dict[str, list[int]] = defaultdict(list)
         for number, law in enumerate(self._source.each(syntax.ExecutabilityCondition)):
             cases = _allowing(law, self._functions)
             if cases is None:
                 yield self._rule(Part.STEP, law, "", law.body, law.actions)
                 continue
             action = law.actions[0]
-            numbers.setdefault(action.name, []).append(number)
+            numbers[action.name].append(number)
             head = f"allowed({number},{action},{BEFORE})"
             for case in cases:
                 yield self._rule(Part.STEP, law, head, case)
-        for symbol in self._signature.symbols.values():
-            if symbol.kind == "agent":
-                term, _, sorts = schema(symbol)
-                body = [f"allowed({n},{term},{BEFORE})" for n in numbers.get(symbol.name, ())]
-                head = f"enabled({term},{BEFORE})"
-                yield Rule(Part.STEP, head, (*body, *sorts), gives=(ACTION, term))
+        for symbol in self._signature.of_kind("agent"):
+            term, _, sorts = schema(symbol)
+            body = [f"allowed({n},{term},{BEFORE})" for n in numbers[symbol.name]]
+            head = f"enabled({term},{BEFORE})"
+            yield Rule(Part.STEP, head, (*body, *sorts), gives=(ACTION, term))
 
     def _rule(
         self,

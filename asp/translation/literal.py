@@ -8,7 +8,7 @@ bind nobody: what they do is up to the theory of defaults.
 
 from itertools import chain, count
 
-from asp.language import Literal, Signature, analyse, syntax, variable_domains
+from asp.language import Signature, analyse, syntax, variable_domains
 from asp.language import variable_sorts as roles
 from asp.solving import theory
 from asp.translation.rules import condition, rule, schema, sorts_of_variables
@@ -116,7 +116,7 @@ def _default(
     body += _narrowest_sorts(statement, signature)
     default = statement.of if isinstance(statement, syntax.ExceptionStatement) else statement
     assert default is not None, "the checker has found every default"
-    name = Literal.of(default.name, variable_domains(default, signature))
+    name = roles.default_atom(default, signature)
     if default is not statement:
         return rule(f"stated_exception({name})", body)
     truth = "true" if default.head.positive else "false"
@@ -141,8 +141,7 @@ def _narrowest_sorts(statement: syntax.Statement, signature: Signature) -> list[
 def _signature_rules(signature: Signature) -> str:
     """Closed world for statics; predicates that nothing declares are defined all the same."""
     lines = ["% Closed world for statics."]
-    for declaration in signature.symbols.values():
-        if declaration.kind == "static":
-            atom, _, sorts = schema(declaration)
-            lines.append(rule(f"-{atom}", [*sorts, f"not {atom}"]))
+    for declaration in signature.of_kind("static"):
+        atom, _, sorts = schema(declaration)
+        lines.append(rule(f"-{atom}", [*sorts, f"not {atom}"]))
     return "\n".join([*lines, "", _DEFINED])

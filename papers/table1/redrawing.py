@@ -85,9 +85,9 @@ def weight(record: TrialRecord, world: World, played: Law, other: Law) -> float:
     return quotient
 
 
-def _grouped(triggers: Iterable[Trigger]) -> dict[tuple[str, str], list[Trigger]]:
+def _grouped(triggers: Iterable[Trigger]) -> dict[tuple[str, str | None], list[Trigger]]:
     """By what is drawn: a value, for this kind of event."""
-    groups: dict[tuple[str, str], list[Trigger]] = {}
+    groups: dict[tuple[str, str | None], list[Trigger]] = {}
     for trigger in triggers:
         groups.setdefault((trigger.event.name, trigger.drawn), []).append(trigger)
     return groups

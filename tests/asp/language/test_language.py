@@ -213,8 +213,8 @@ scenarios
                 ("-storm",),
                 0.25,
             ),
-            Trigger("gale", "blow_up", None, "", (), (), 1.0),
-            Trigger("7", "blow_up", "load(anna)", "", (), ("storm",), 1.0),
+            Trigger("gale", "blow_up", None, None, (), (), 1.0),
+            Trigger("7", "blow_up", "load(anna)", None, (), ("storm",), 1.0),
         )
 
 
