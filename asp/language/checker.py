@@ -148,7 +148,7 @@ def _of_variables(statement: syntax.Statement, signature: Signature) -> Mistakes
             yield statement.place, f"no constant fits all the places of variable {name}"
     beside = [getattr(statement, field, None) for field in ("drawn", "variable", "robot")]
     for comparison in roles.comparisons(roles.bodies(statement)):
-        beside += (comparison.left, comparison.right)
+        beside += comparison.terms
     for term in {term.name: term for term in reversed(beside) if term is not None}.values():
         if term.is_variable and term.name not in bound:
             where = "it stands in no fluent, static or action"

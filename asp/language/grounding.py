@@ -98,8 +98,8 @@ class Instances:
     def _holds(self, condition: syntax.Condition, binding: Binding) -> bool:
         """Whether a comparison or a static holds; a sort does, for its variable ranges over it."""
         if isinstance(condition, syntax.Comparison):
-            sides = {instance(condition.left, binding), instance(condition.right, binding)}
-            return (len(sides) == 1) == condition.equal
+            left, right = instance(condition.terms, binding)
+            return bool(left == right) == condition.positive
         is_sort = condition.atom.name in self.signature.sorts
         return is_sort or (instance(condition.atom, binding) in self.statics) == condition.positive
 

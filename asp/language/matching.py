@@ -71,8 +71,8 @@ NOTHING = Facts(())
 Fits: TypeAlias = Callable[[Row, Values], bool]
 Source: TypeAlias = Callable[[Values, Truth], Iterable[Row]]
 Test: TypeAlias = Callable[[Values, Truth], bool]
-Level: TypeAlias = tuple[Source, Fits, list[Test]]
-"""Where rows come from, whether one fits what is bound (it binds the rest), what is tested then."""
+Level: TypeAlias = tuple[Fits, list[Test], Source | None]
+"""Whether a row fits what is bound (it binds the rest), what is tested then, the next rows."""
 
 
 class Pattern:
@@ -98,7 +98,7 @@ class Pattern:
         self._head = None if head is None else _maker(head)
         literals = (c for c in conditions if isinstance(c, syntax.Literal))
         self._body = tuple(_maker(c) for c in literals if c.atom.name not in statics)
-        parts = [given, *map(_terms, conditions), () if head is None else head.atom.args]
+        parts = [given, *(c.terms for c in conditions), () if head is None else head.terms]
         self._terms = {term.name: term for part in parts for term in part}
         self._constants = {n: n for n, term in self._terms.items() if not term.is_variable}
         self._levels = list(self._plan(given, [*conditions, *also]))
@@ -125,9 +125,7 @@ class Pattern:
     def _search(
         self, number: int, rows: Iterable[Row], values: Values, truth: Truth
     ) -> Iterator[Values]:
-        _, fits, tests = self._levels[number]
-        number += 1
-        following = self._levels[number][0] if number < len(self._levels) else None
+        fits, tests, following = self._levels[number]
         for row in rows:
             if fits(row, values):
                 for test in tests:
@@ -137,29 +135,32 @@ class Pattern:
                     if following is None:
                         yield values
                     else:
-                        yield from self._search(number, following(values, truth), values, truth)
+                        more = following(values, truth)
+                        yield from self._search(number + 1, more, values, truth)
 
     def _plan(
         self, terms: Sequence[syntax.Term], left: Sequence[syntax.Condition]
     ) -> Iterator[Level]:
-        source: Source = _nothing
         bound: frozenset[str] = frozenset()
+        source: Source | None
         while True:
             fits = self._fitting(terms, bound)
             bound |= _variables(terms)
-            ready = [c for c in left if _variables(_terms(c)) <= bound]
+            ready = [c for c in left if _variables(c.terms) <= bound]
             left = [c for c in left if c not in ready]
-            yield source, fits, list(map(self._test, ready))
-            atoms = [c.atom for c in left if isinstance(c, syntax.Literal) and c.positive]
-            if atoms:
-                atom = min(atoms, key=lambda atom: self._cost(atom, bound))
-                left = [c for c in left if isinstance(c, syntax.Comparison) or c.atom is not atom]
-                source, terms = self._source(atom, bound), atom.args
+            positive = [c for c in left if isinstance(c, syntax.Literal) and c.positive]
+            if positive:
+                cheapest = min(positive, key=lambda literal: self._cost(literal.atom, bound))
+                left = [c for c in left if c is not cheapest]
+                source, terms = self._source(cheapest.atom, bound), cheapest.terms
             elif missing := _variables(self._terms.values()) - bound:
                 order = list(self._domains)
                 name = min(missing, key=lambda v: (len(self._domains[v]), order.index(v)))
                 source, terms = self._members(name), [self._terms[name]]
             else:
+                source = None
+            yield fits, list(map(self._test, ready)), source
+            if source is None:
                 return
 
     def _fitting(self, terms: Sequence[syntax.Term], bound: frozenset[str]) -> Fits:
@@ -207,8 +208,8 @@ class Pattern:
 
     def _test(self, condition: syntax.Condition) -> Test:
         if isinstance(condition, syntax.Comparison):
-            left, right, equal = condition.left.name, condition.right.name, condition.equal
-            return lambda values, _: (values[left] == values[right]) == equal
+            left, right, positive = condition.left.name, condition.right.name, condition.positive
+            return lambda values, _: (values[left] == values[right]) == positive
         name, row, positive = condition.atom.name, _row(condition.atom), condition.positive
         if name in self._statics:
             rows = self._statics.rows(name)
@@ -216,10 +217,6 @@ class Pattern:
         if positive:
             return lambda values, truth: truth.may_hold(name, row(values))
         return lambda values, truth: truth.may_fail(name, row(values))
-
-
-def _nothing(_: Values, __: Truth) -> Iterable[Row]:
-    return ()
 
 
 def _bound_places(atom: syntax.Atom, bound: frozenset[str]) -> list[tuple[int, str]]:
@@ -240,12 +237,6 @@ def _row(atom: syntax.Atom) -> Callable[[Values], Row]:
     if len(names) > 1:
         return itemgetter(*names)
     return lambda values: tuple([values[name] for name in names])
-
-
-def _terms(condition: syntax.Condition) -> Sequence[syntax.Term]:
-    if isinstance(condition, syntax.Comparison):
-        return condition.left, condition.right
-    return condition.atom.args
 
 
 def _variables(terms: Iterable[syntax.Term]) -> frozenset[str]:

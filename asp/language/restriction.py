@@ -49,7 +49,7 @@ def named(statement: syntax.Statement) -> Iterator[str]:
     """The constants that a statement names, members of sorts apart."""
     terms = [term for use in roles.uses(statement) for term in use.atom.args]
     for comparison in roles.comparisons(roles.bodies(statement)):
-        terms += (comparison.left, comparison.right)
+        terms += comparison.terms
     if isinstance(statement, syntax.SeesStatement):
         terms.append(statement.robot)
     return (term.name for term in terms if not term.is_variable)

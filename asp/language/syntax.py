@@ -54,14 +54,22 @@ class Literal(Node):
     atom: Atom
     positive: bool
 
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        return self.atom.args
+
 
 class Comparison(Node):
-    """`left = right` or, when not `equal`, `left != right`."""
+    """`left = right` or, when not `positive`, `left != right`."""
 
     left: Term
     right: Term
-    equal: bool
+    positive: bool
     place: Place
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        return self.left, self.right
 
 
 Condition = Literal | Comparison

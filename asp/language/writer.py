@@ -28,8 +28,8 @@ def text_of(part: object) -> str:
             return f"{name}({text_of(args)})" if args else name
         case syntax.Literal(atom=atom, positive=positive):
             return f"{'' if positive else '-'}{text_of(atom)}"
-        case syntax.Comparison(left=left, right=right, equal=equal):
-            return f"{left.name} {'=' if equal else '!='} {right.name}"
+        case syntax.Comparison(left, right, positive):
+            return f"{left.name} {'=' if positive else '!='} {right.name}"
         case tuple():
             return ", ".join(map(text_of, part))
         case syntax.SortDefinition(name=name, parts=parts):

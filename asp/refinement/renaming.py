@@ -45,7 +45,7 @@ class Renaming:
         It is where it names an attribute that stays as it is, a part of a magnified sort, or a
         magnified constant.
         """
-        sides = (t for c in roles.comparisons(law.body) for t in (c.left, c.right))
+        sides = (t for c in roles.comparisons(law.body) for t in c.terms)
         terms = (t for atom in (*law.actions, *_atoms(law)) for t in atom.args)
         return any(self.is_whole(atom) or self._is_part(atom) for atom in _atoms(law)) or any(
             self.is_magnified(t) and not t.is_variable for t in (*sides, *terms)
@@ -112,7 +112,7 @@ class Renaming:
         return self.is_magnified(term) and term.name in self._inside
 
     def _comparison(self, comparison: syntax.Comparison) -> syntax.Comparison:
-        sides = comparison.left, comparison.right
+        sides = comparison.terms
         if all(side.is_variable and self._is_only_inside(side) for side in sides):
             left, right = map(self.fine, sides)
             return replace(comparison, left=left, right=right)

@@ -192,11 +192,10 @@ def _allowing(
     values = {part: v for part in law.body if (v := _value_named(part, known, functions))}
     guards = [part for part in law.body if part not in values]
     known.update(values.values())
-    if len(set(values.values())) < len(values) or not guards:
+    apart = len(set(values.values())) == len(values)
+    if not (apart and guards and all(_is_open(guard, known) for guard in guards)):
         return None
-    if not all(_is_open(guard, known) for guard in guards):
-        return None
-    return [[*values, _negated(guard)] for guard in guards]
+    return [[*values, replace(guard, positive=True)] for guard in guards]
 
 
 def _value_named(
@@ -215,15 +214,4 @@ def _value_named(
 
 def _is_open(guard: syntax.Condition, known: set[str]) -> bool:
     """Whether a condition is negative, so that few instances make it false, and all is known."""
-    if isinstance(guard, syntax.Comparison):
-        terms: tuple[syntax.Term, ...] = (guard.left, guard.right)
-        return not guard.equal and all(t.name in known or not t.is_variable for t in terms)
-    return not guard.positive and all(
-        term.name in known or not term.is_variable for term in guard.atom.args
-    )
-
-
-def _negated(guard: syntax.Condition) -> syntax.Condition:
-    if isinstance(guard, syntax.Comparison):
-        return syntax.Comparison(guard.left, guard.right, not guard.equal, guard.place)
-    return syntax.Literal(guard.atom, not guard.positive)
+    return not guard.positive and all(t.name in known or not t.is_variable for t in guard.terms)
