@@ -48,11 +48,10 @@ def check(source: syntax.Source, signature: Signature, problems: Problems) -> No
 
 def _uses_unknown(statement: syntax.Statement, signature: Signature) -> bool:
     """Whether an atom's declaration is in error, so that no more can be said of its places."""
-    names = {use.atom.name for use in roles.uses(statement)} - signature.sorts.keys()
-    if not names <= signature.symbols.keys():
-        return True
+    names = {use.atom.name for use in roles.uses(statement)}
     return any(
-        sort.name not in signature.sorts for name in names for sort in signature.symbols[name].sorts
+        signature.kind(name) is None or not signature.sorts.keys() >= {*signature.sorts_of(name)}
+        for name in names
     )
 
 
@@ -94,8 +93,7 @@ def _of_use(use: roles.Use, signature: Signature, failed: Iterable[syntax.Declar
 
 
 def _of_arguments(atom: syntax.Atom, signature: Signature) -> Mistakes:
-    is_sort = atom.name in signature.sorts
-    sorts = [atom.name] if is_sort else [s.name for s in signature.symbols[atom.name].sorts]
+    sorts = signature.sorts_of(atom.name)
     if len(sorts) != len(atom.args):
         form = f"{atom.name}({', '.join(sorts)})" if sorts else atom.name
         count = f"{len(sorts)} argument(s), not {len(atom.args)}"
@@ -136,13 +134,10 @@ def _of_static_law(law: syntax.StateConstraint, signature: Signature) -> Mistake
 
 
 def _of_variables(statement: syntax.Statement, signature: Signature) -> Mistakes:
-    places = [
-        (term.name, members)
-        for use in roles.scope(statement)
-        for term, members in zip(use.atom.args, roles.places_of(use.atom, signature), strict=True)
-    ]
-    bound = {name for name, _ in places}
-    of_no_member = {name for name, members in places if not members}  # another mistake is to blame
+    bound = {term.name for term, _ in roles.places(statement, signature)}
+    of_no_member = {  # another mistake is to blame
+        term.name for term, sort in roles.places(statement, signature) if not signature.sorts[sort]
+    }
     for name, members in roles.variable_domains(statement, signature).items():
         if not members and name in bound - of_no_member:
             yield statement.place, f"no constant fits all the places of variable {name}"

@@ -34,14 +34,9 @@ class Signature:
     def constants(self) -> frozenset[str]:
         return frozenset(member for members in self.sorts.values() for member in members)
 
-    def atoms(self, kind: syntax.SymbolKind) -> tuple[Literal, ...]:
-        """The ground fluents or actions of a kind, in the order of declaration."""
-        return tuple(
-            Literal.of(symbol.name, arguments)
-            for symbol in self.symbols.values()
-            if symbol.kind == kind
-            for arguments in product(*(self.sorts[sort.name] for sort in symbol.sorts))
-        )
+    def sorts_of(self, name: str) -> list[str]:
+        """The sorts of the arguments of a declared symbol; a sort has itself for the only one."""
+        return [name] if name in self.sorts else [sort.name for sort in self.symbols[name].sorts]
 
     def kind(self, name: str) -> str | None:
         """What a name is: the kind of a declared symbol, or `sort`; None: nothing."""
@@ -53,6 +48,14 @@ class Signature:
     def of_kind(self, kind: syntax.SymbolKind) -> list[syntax.Declaration]:
         """The declared symbols of a kind, in order."""
         return [symbol for symbol in self.symbols.values() if symbol.kind == kind]
+
+    def atoms(self, kind: syntax.SymbolKind) -> tuple[Literal, ...]:
+        """The ground fluents or actions of a kind, in the order of declaration."""
+        return tuple(
+            Literal.of(symbol.name, arguments)
+            for symbol in self.of_kind(kind)
+            for arguments in product(*map(self.sorts.__getitem__, self.sorts_of(symbol.name)))
+        )
 
 
 def signature_of(source: syntax.Source, problems: Problems) -> Signature:

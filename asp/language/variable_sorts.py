@@ -106,20 +106,19 @@ def default_atom(default: syntax.DefaultStatement, signature: Signature) -> synt
 def variable_domains(statement: syntax.Statement, signature: Signature) -> Domains:
     """The members that each variable may take: common to the sorts of all its places."""
     domains: dict[str, tuple[str, ...]] = {}
-    for use in scope(statement):
-        for term, members in zip(use.atom.args, places_of(use.atom, signature), strict=True):
-            if term.is_variable:
-                found = domains.setdefault(term.name, members)
-                if found is not members:
-                    common = set(members)
-                    domains[term.name] = tuple(each for each in found if each in common)
+    for term, sort in places(statement, signature):
+        if term.is_variable:
+            members = signature.sorts[sort]
+            found = domains.setdefault(term.name, members)
+            if found is not members:
+                common = set(members)
+                domains[term.name] = tuple(each for each in found if each in common)
     if isinstance(statement, syntax.SeesStatement) and statement.robot.is_variable:
         domains.setdefault(statement.robot.name, ())
     return domains
 
 
-def places_of(atom: syntax.Atom, signature: Signature) -> list[tuple[str, ...]]:
-    """The members of the sorts of an atom's arguments."""
-    if atom.name in signature.sorts:
-        return [signature.sorts[atom.name]]
-    return [signature.sorts[sort.name] for sort in signature.symbols[atom.name].sorts]
+def places(statement: syntax.Statement, signature: Signature) -> Iterator[tuple[syntax.Term, str]]:
+    """The arguments of the atoms in scope, each with the sort of its place."""
+    for use in scope(statement):
+        yield from zip(use.atom.args, signature.sorts_of(use.atom.name), strict=True)

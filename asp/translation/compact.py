@@ -59,7 +59,7 @@ class _Translation:
         for constraint in self._source.each(syntax.StateConstraint):
             yield from self._constraint(constraint)
         for law in self._source.each(syntax.CausalLaw):
-            yield self._effect(Part.STEP, law, [law.action])
+            yield self._effect(law)
         yield from self._actions()
 
     def _inertia(self, symbol: syntax.Declaration) -> Iterator[Rule]:
@@ -109,16 +109,12 @@ class _Translation:
                 raise NotCompactError(f"line {law.place.line}: a constraint on a false fluent")
         function = self._functions.get(name)
         if function is None or excluding_place(law) != function.place:
-            yield self._effect(Part.STATE, law)
+            yield self._effect(law)
 
-    def _effect(
-        self,
-        part: Part,
-        law: syntax.CausalLaw | syntax.StateConstraint,
-        occurring: Sequence[syntax.Atom] = (),
-    ) -> Rule:
+    def _effect(self, law: syntax.CausalLaw | syntax.StateConstraint) -> Rule:
         """The rule of a law with a fluent for its head."""
-        atom = law.head.atom
+        occurring = [law.action] if isinstance(law, syntax.CausalLaw) else []
+        part, atom = Part.STEP if occurring else Part.STATE, law.head.atom
         if not law.head.positive:
             return self._rule(part, law, f"denied({atom},{NOW})", law.body, occurring)
         gives = self._gives(atom.name, [term.name for term in atom.args])
@@ -162,17 +158,12 @@ class _Translation:
 
     def _loose(self, law: Law, body: Sequence[syntax.Condition]) -> frozenset[str]:
         """The sorts of variables in neither the law's head, nor its action, nor a true fluent."""
-        literals = [part for part in roles.literals(body) if part.positive]
-        of_sorts = [part.atom for part in literals if part.atom.name in self._signature.sorts]
-        symbols = self._signature.symbols
+        kind = self._signature.kind
+        atoms = [part.atom for part in roles.literals(body) if part.positive]
         own = [use.atom for use in roles.uses(replace(law, body=()))]
-        own += (
-            part.atom
-            for part in literals
-            if part.atom not in of_sorts and symbols[part.atom.name].kind in roles.FLUENTS
-        )
+        own += (atom for atom in atoms if kind(atom.name) in roles.FLUENTS)
         tied = {term.name for atom in own for term in atom.args}
-        sorts = [(atom.args[0].name, atom.name) for atom in of_sorts]
+        sorts = [(atom.args[0].name, atom.name) for atom in atoms if kind(atom.name) == roles.SORT]
         sorts += sorts_of_variables(law, self._signature)
         return frozenset(sort for variable, sort in sorts if variable not in tied)
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple
 
 from asp.language import Literal, Signature, syntax, text_of
 from asp.language import variable_sorts as roles
@@ -28,7 +27,7 @@ def condition(
         return text_of(part)
     sign = "" if part.positive else denied
     name = part.atom.name
-    if name in signature.sorts or signature.symbols[name].kind == "static":
+    if signature.kind(name) in (roles.SORT, "static"):
         return f"{sign}{part.atom}"
     return f"{sign}holds({part.atom},{step})"
 
@@ -38,10 +37,10 @@ def sorts_of_variables(
 ) -> Iterable[tuple[str, str]]:
     """The variables of a statement with the sorts of all their places, each pair once."""
     return dict.fromkeys(
-        (term.name, sort.name)
+        (term.name, sort)
         for use in roles.scope(statement)
         if use.atom.name not in signature.sorts
-        for term, sort in zip(use.atom.args, signature.symbols[use.atom.name].sorts, strict=True)
+        for term, sort in zip(use.atom.args, signature.sorts_of(use.atom.name), strict=True)
         if term.is_variable
     )
 
@@ -51,19 +50,11 @@ def sort_conditions(statement: syntax.Statement, signature: Signature) -> list[s
     return [f"{sort}({name})" for name, sort in sorts_of_variables(statement, signature)]
 
 
-class Schema(NamedTuple):
-    """A symbol with variables for its arguments: `loc(X1,X2)`, X1 and X2, their sorts."""
-
-    term: str
-    variables: list[str]
-    sorts: list[str]
-
-
-def schema(symbol: syntax.Declaration) -> Schema:
-    """The symbol with variables for its arguments."""
+def schema(symbol: syntax.Declaration) -> tuple[Literal, list[str], list[str]]:
+    """A symbol with variables for its arguments: `loc(X1,X2)`, X1 and X2, `room(X1)` and so on."""
     variables = [f"X{number}" for number, _ in enumerate(symbol.sorts, start=1)]
     sorts = [f"{sort.name}({v})" for sort, v in zip(symbol.sorts, variables, strict=True)]
-    return Schema(Literal.of(symbol.name, variables), variables, sorts)
+    return Literal.of(symbol.name, variables), variables, sorts
 
 
 class Part(StrEnum):
