@@ -1,90 +1,55 @@
 """The action language AL_d: text in, a checked and ground description out."""
 
-from asp.language.checker import check, check_cycles, reachable
-from asp.language.description import (
-    Causal,
-    Constraint,
-    Default,
-    Description,
-    Executability,
-    Literals,
-    Sees,
-    Shows,
-    Trigger,
-)
-from asp.language.errors import Problems, SourceError, suggestion
-from asp.language.functions import Function, excluding_place, functions, schematic, subject
-from asp.language.grounding import closed_world, ground_description, pattern_of, static_truth
-from asp.language.literals import Action, Fluent, Literal
-from asp.language.loading import (
-    MOST_TEXTS,
-    analyse,
-    check_one_robot,
-    load_description,
-    packaged_domains,
-    parse_description,
-    read_domain,
-    read_packaged,
-)
-from asp.language.matching import NOTHING, Facts, Pattern, Row, Truth
-from asp.language.parser import ToSyntax, grammar, parse, parse_with, scenario_notes
-from asp.language.restriction import named, narrowed, restrict, without_exogenous
-from asp.language.signature import Signature, signature_of
-from asp.language.variable_sorts import variable_domains
-from asp.language.writer import text_of
-
-__all__ = [
-    "MOST_TEXTS",
-    "NOTHING",
-    "Action",
-    "Causal",
-    "Constraint",
-    "Default",
-    "Description",
-    "Executability",
-    "Facts",
-    "Fluent",
-    "Function",
-    "Literal",
-    "Literals",
-    "Pattern",
-    "Problems",
-    "Row",
-    "Sees",
-    "Shows",
-    "Signature",
-    "SourceError",
-    "ToSyntax",
-    "Trigger",
-    "Truth",
-    "analyse",
-    "check",
-    "check_cycles",
-    "check_one_robot",
-    "closed_world",
-    "excluding_place",
-    "functions",
-    "grammar",
-    "ground_description",
-    "load_description",
-    "named",
-    "narrowed",
-    "packaged_domains",
-    "parse",
-    "parse_description",
-    "parse_with",
-    "pattern_of",
-    "reachable",
-    "read_domain",
-    "read_packaged",
-    "restrict",
-    "scenario_notes",
-    "schematic",
-    "signature_of",
-    "static_truth",
-    "subject",
-    "suggestion",
-    "text_of",
-    "variable_domains",
-    "without_exogenous",
-]
+from asp.language.checker import check as check
+from asp.language.checker import check_cycles as check_cycles
+from asp.language.checker import reachable as reachable
+from asp.language.description import Causal as Causal
+from asp.language.description import Constraint as Constraint
+from asp.language.description import Default as Default
+from asp.language.description import Description as Description
+from asp.language.description import Executability as Executability
+from asp.language.description import Literals as Literals
+from asp.language.description import Sees as Sees
+from asp.language.description import Shows as Shows
+from asp.language.description import Trigger as Trigger
+from asp.language.errors import Problems as Problems
+from asp.language.errors import SourceError as SourceError
+from asp.language.errors import suggestion as suggestion
+from asp.language.functions import Function as Function
+from asp.language.functions import excluding_place as excluding_place
+from asp.language.functions import functions as functions
+from asp.language.functions import schematic as schematic
+from asp.language.functions import subject as subject
+from asp.language.grounding import closed_world as closed_world
+from asp.language.grounding import ground_description as ground_description
+from asp.language.grounding import pattern_of as pattern_of
+from asp.language.grounding import static_truth as static_truth
+from asp.language.literals import Action as Action
+from asp.language.literals import Fluent as Fluent
+from asp.language.literals import Literal as Literal
+from asp.language.loading import MOST_TEXTS as MOST_TEXTS
+from asp.language.loading import analyse as analyse
+from asp.language.loading import check_one_robot as check_one_robot
+from asp.language.loading import load_description as load_description
+from asp.language.loading import packaged_domains as packaged_domains
+from asp.language.loading import parse_description as parse_description
+from asp.language.loading import read_domain as read_domain
+from asp.language.loading import read_packaged as read_packaged
+from asp.language.matching import NOTHING as NOTHING
+from asp.language.matching import Facts as Facts
+from asp.language.matching import Pattern as Pattern
+from asp.language.matching import Row as Row
+from asp.language.matching import Truth as Truth
+from asp.language.parser import ToSyntax as ToSyntax
+from asp.language.parser import grammar as grammar
+from asp.language.parser import parse as parse
+from asp.language.parser import parse_with as parse_with
+from asp.language.parser import scenario_notes as scenario_notes
+from asp.language.parser import text_of as text_of
+from asp.language.restriction import named as named
+from asp.language.restriction import narrowed as narrowed
+from asp.language.restriction import restrict as restrict
+from asp.language.restriction import without_exogenous as without_exogenous
+from asp.language.signature import Signature as Signature
+from asp.language.signature import signature_of as signature_of
+from asp.language.variable_sorts import variable_domains as variable_domains

@@ -1,60 +1,32 @@
 """Solving programs with clingo, within a budget, in one call or over many."""
 
-from asp.solving.budget import UNLIMITED, BudgetError, LimitError, Limits, current, deciding, up_to
-from asp.solving.cache import Answers, Recent
-from asp.solving.clock import Reading, preparation, reasoning_clock
-from asp.solving.session import (
-    Session,
-    State,
-    assumptions,
-    core,
-    goal_externals,
-    preferring,
-    state_of,
-)
-from asp.solving.signals import undisturbed
-from asp.solving.solver import (
-    answer_sets,
-    fact,
-    first_model,
-    ground,
-    is_satisfiable,
-    literal_of,
-    optimal_model,
-    select,
-    solving,
-    theory,
-)
-
-__all__ = [
-    "UNLIMITED",
-    "Answers",
-    "BudgetError",
-    "LimitError",
-    "Limits",
-    "Reading",
-    "Recent",
-    "Session",
-    "State",
-    "answer_sets",
-    "assumptions",
-    "core",
-    "current",
-    "deciding",
-    "fact",
-    "first_model",
-    "goal_externals",
-    "ground",
-    "is_satisfiable",
-    "literal_of",
-    "optimal_model",
-    "preferring",
-    "preparation",
-    "reasoning_clock",
-    "select",
-    "solving",
-    "state_of",
-    "theory",
-    "undisturbed",
-    "up_to",
-]
+from asp.solving.budget import UNLIMITED as UNLIMITED
+from asp.solving.budget import BudgetError as BudgetError
+from asp.solving.budget import LimitError as LimitError
+from asp.solving.budget import Limits as Limits
+from asp.solving.budget import Reading as Reading
+from asp.solving.budget import current as current
+from asp.solving.budget import deciding as deciding
+from asp.solving.budget import preparation as preparation
+from asp.solving.budget import reasoning_clock as reasoning_clock
+from asp.solving.budget import up_to as up_to
+from asp.solving.cache import Answers as Answers
+from asp.solving.cache import Recent as Recent
+from asp.solving.session import Session as Session
+from asp.solving.session import State as State
+from asp.solving.session import assumptions as assumptions
+from asp.solving.session import core as core
+from asp.solving.session import goal_externals as goal_externals
+from asp.solving.session import preferring as preferring
+from asp.solving.session import state_of as state_of
+from asp.solving.signals import undisturbed as undisturbed
+from asp.solving.solver import answer_sets as answer_sets
+from asp.solving.solver import fact as fact
+from asp.solving.solver import first_model as first_model
+from asp.solving.solver import ground as ground
+from asp.solving.solver import is_satisfiable as is_satisfiable
+from asp.solving.solver import literal_of as literal_of
+from asp.solving.solver import optimal_model as optimal_model
+from asp.solving.solver import select as select
+from asp.solving.solver import solving as solving
+from asp.solving.solver import theory as theory

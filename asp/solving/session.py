@@ -8,7 +8,7 @@ import clingo
 from clingo import Symbol
 
 from asp.language import Fluent, Literal
-from asp.solving.clock import preparation
+from asp.solving.budget import preparation
 from asp.solving.signals import undisturbed
 from asp.solving.solver import fact, ground, is_satisfiable, literal_of, solving, theory
 
