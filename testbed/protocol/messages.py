@@ -222,8 +222,11 @@ class Trace(Part, frozen=True, kw_only=True):
     fine: FineTrace | None = None
 
     def __post_init__(self) -> None:
-        if self.mental is not None and not is_mental(Literal.parse(self.mental)):
-            raise ValueError(f"{self.mental[:40]!r} neither starts nor stops an activity")
+        try:
+            if self.mental is not None and not is_mental(literal_within_bounds(str, self.mental)):
+                raise ValueError(f"{self.mental[:40]!r} neither starts nor stops an activity")
+        except ValueError as error:
+            raise ValueError(f"mental: {error}") from error
 
 
 class Decision(Message, frozen=True, kw_only=True):

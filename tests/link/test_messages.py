@@ -105,6 +105,16 @@ def test_literals_are_parsed_where_a_message_comes_in() -> None:
     assert (seen.name, seen.arguments, seen.is_positive) == ("lit", ("lamp",), False)
 
 
+@pytest.mark.parametrize("mental", [3, ["start(1)"], "", "start 1", "wait", "-stop(1)", "start(x)"])
+def test_what_is_no_mental_action_is_refused_by_its_key(mental: object) -> None:
+    with pytest.raises(ValueError, match="mental"):
+        Trace(mental=mental)  # type: ignore[arg-type]
+    answer = {"version": PROTOCOL_VERSION, "trial": "t", "step": 1, "action": "wait"}
+    answer |= {"believes_goal": False, "trace": {"mental": mental}}
+    with pytest.raises(LinkError, match="mental"):
+        decode(msgspec.msgpack.encode(answer), Decision)
+
+
 @pytest.mark.parametrize("text", ["", "lit lamp", "lit(lamp", "Lit", "x" * 10_001, 3, None])
 def test_what_is_no_literal_is_refused_where_it_stands(text: object) -> None:
     trace = Trace(belief=["lit(lamp)", text])  # type: ignore[list-item]
