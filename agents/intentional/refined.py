@@ -1,6 +1,5 @@
 """A robot that decides at the coarse resolution and acts at the fine one (P 3.3)."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import ClassVar
 
@@ -21,12 +20,12 @@ from testbed.protocol import FINISH, WAIT, Capabilities, Decision, Percept, Robo
 class RefinedRobot:
     """Carries out the abstract actions of a coarse robot in cells and parts.
 
-    `coarse` makes the robot that decides; with `zooms` concrete plans are made in the part of the
+    `coarse` is the robot that decides; with `zooms` concrete plans are made in the part of the
     refined description that is relevant to the action and the goal, else in all of it.
     """
 
-    def __init__(self, coarse: Callable[[], Robot] = IntentionalRobot, zooms: bool = True) -> None:
-        self._coarse = coarse()
+    def __init__(self, coarse: Robot, zooms: bool = True) -> None:
+        self._coarse = coarse
         self._zooms = zooms
 
     def begin(self, task: Task) -> None:
@@ -134,19 +133,18 @@ class RefinedRobot:
 
 
 class EitherRobot:
-    """Acts at the fine resolution if its task has one, else as the coarse robot does."""
+    """Acts at the fine resolution if its task has one, else as `IntentionalRobot` does."""
 
     capabilities: ClassVar = Capabilities(
         resolutions=("coarse", "fine"), knowledge=("complete", "seen"), first_action_step=2
     )
-
-    def __init__(self, coarse: Callable[[], Robot] = IntentionalRobot, zooms: bool = True) -> None:
-        self._make = coarse
-        self._zooms = zooms
+    _zooms: ClassVar = True
 
     def begin(self, task: Task) -> None:
         """Takes the task on. Raises SourceError for its texts."""
-        self._robot = RefinedRobot(self._make, self._zooms) if task.refinement else self._make()
+        self._robot: Robot = IntentionalRobot()
+        if task.refinement:
+            self._robot = RefinedRobot(self._robot, self._zooms)
         self._robot.begin(task)
 
     def act(self, percept: Percept) -> Decision:
@@ -158,6 +156,4 @@ class WithoutZooming(EitherRobot):
     """Acts at the fine resolution only, and plans in the whole refined description."""
 
     capabilities: ClassVar = replace(EitherRobot.capabilities, resolutions=("fine",))
-
-    def __init__(self) -> None:
-        super().__init__(zooms=False)
+    _zooms: ClassVar = False

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from agents.intentional import IntentionalRobot
 from agents.intentional.executor import zoomed_planning
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.refined import RefinedRobot
@@ -45,7 +46,7 @@ def _office() -> Refinement:
 
 
 def carried_out(faults: Faults = NO_FAULTS, zooms: bool = True) -> Play:
-    return play(RefinedRobot(zooms=zooms), ROW, ONE_ROOM_AWAY, GOAL, faults)
+    return play(RefinedRobot(IntentionalRobot(), zooms), ROW, ONE_ROOM_AWAY, GOAL, faults)
 
 
 def look(cell: str, thing: str = "object1_1") -> str:
@@ -174,7 +175,7 @@ def test_what_is_seen_on_the_way_changes_the_plan() -> None:
     )
     goal = parsed(["loc(object1,room1)"])
     brought = {("fine_move(rob1,room1_3)", 1): "fine_exo_move(object1_1,room2_1)"}
-    went = play(RefinedRobot(), ROW, start, goal, Faults(events=brought))
+    went = play(RefinedRobot(IntentionalRobot()), ROW, start, goal, Faults(events=brought))
     assert went.achieved
     assert "fine_pickup(rob1,object1_1)" in went.actions
     assert not [a for a in went.actions if "room3" in a]
@@ -196,7 +197,7 @@ def test_a_room_that_is_locked_with_the_robot_inside(zooms: bool) -> None:
     start = [*IN_OFFICE, "fine_loc(rob1,library_1)"]
     locked = {("fine_move(rob1,library_3)", 1): "exo_lock(library)"}
     went = play(
-        RefinedRobot(zooms=zooms),
+        RefinedRobot(IntentionalRobot(), zooms),
         OFFICE,
         start,
         parsed(["loc(rob1,office2)"]),
@@ -211,7 +212,9 @@ def test_a_room_that_is_locked_before_the_robot_is_in(reported: bool) -> None:
     start = [*IN_OFFICE, "fine_loc(rob1,kitchen_1)"]
     locked = {("fine_move(rob1,kitchen_2)", 1): "exo_lock(library)"}
     faults = Faults(events=locked, reported=reported)
-    went = play(RefinedRobot(), OFFICE, start, parsed(["loc(rob1,library)"]), faults)
+    went = play(
+        RefinedRobot(IntentionalRobot()), OFFICE, start, parsed(["loc(rob1,library)"]), faults
+    )
     assert went.achieved
     assert "unlock(rob1,library)" in went.actions
 
@@ -232,7 +235,7 @@ def test_no_cell_is_searched_twice_unless_something_changed(
     start = parsed(
         [f"fine_loc({thing},{cell})" for thing, cell in zip(things, places, strict=True)]
     )
-    went = play(RefinedRobot(), ROW, start, GOAL, Faults(lies=lies))
+    went = play(RefinedRobot(IntentionalRobot()), ROW, start, GOAL, Faults(lies=lies))
     assert went.achieved
     searched: set[str] = set()
     for decision in went.decisions:
@@ -249,14 +252,16 @@ def test_what_is_put_down_may_be_taken_away_at_once(reported: bool) -> None:
     start = parsed(["fine_loc(rob1,room2_1)", "fine_loc(object1_1,room2_1)"])
     start += parsed(["fine_in_hand(rob1,object1_2)", "fine_loc(object2_1,room3_4)"])
     taken = {("test_fine_in_hand(rob1,object1_2)", 1): "fine_exo_move(object1_1,room3_2)"}
-    went = play(RefinedRobot(), ROW, start, GOAL, Faults(events=taken, reported=reported))
+    went = play(
+        RefinedRobot(IntentionalRobot()), ROW, start, GOAL, Faults(events=taken, reported=reported)
+    )
     assert went.achieved
     assert "fine_pickup(rob1,object1_1)" in went.actions
 
 
 def _fine() -> FineTracker:
     """That of a robot which knows its own cell and nothing else."""
-    robot = RefinedRobot()
+    robot = RefinedRobot(IntentionalRobot())
     task = Task(
         trial="play",
         robot="rob1",

@@ -5,6 +5,7 @@ from weakref import ref
 
 import pytest
 
+from agents.intentional import IntentionalRobot
 from agents.intentional.executor import model
 from agents.intentional.executor.model import FineModel, fine_model
 from agents.intentional.refined import RefinedRobot
@@ -31,7 +32,7 @@ def _row(cells: int) -> Refinement:
 def _played(refinement: Refinement) -> ref[FineModel]:
     """The model with which an object was taken from one room to the next."""
     initial = parsed(["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)"])
-    assert play(RefinedRobot(), refinement, initial, GOAL).achieved
+    assert play(RefinedRobot(IntentionalRobot()), refinement, initial, GOAL).achieved
     return ref(fine_model(refinement))
 
 

@@ -38,7 +38,11 @@ def test_a_thing_that_is_not_found_where_it_has_to_be_was_overlooked() -> None:
     overlooked = [("test_fine_stands(tom,other_head,north_2)", n) for n in (1, 2)]
     overlooked += [("test_fine_stands(tom,other_head,north_1)", n) for n in (1, 2)]
     went = play(
-        RefinedRobot(), QUIET, START, parsed(["stands(rake,south)"]), Faults(lies=overlooked)
+        RefinedRobot(IntentionalRobot()),
+        QUIET,
+        START,
+        parsed(["stands(rake,south)"]),
+        Faults(lies=overlooked),
     )
     assert went.achieved
     assert went.abstract[0] == ("lift(tom,rake)", False)
@@ -61,7 +65,7 @@ def test_a_thing_that_is_not_found_where_it_has_to_be_was_overlooked() -> None:
 def test_both_ways_of_reasoning_bear_wrong_tests_alike(
     lies: set[tuple[str, int]], failing: int
 ) -> None:
-    robot = RefinedRobot(coarse=lambda: IntentionalRobot(Both))
+    robot = RefinedRobot(IntentionalRobot(Both))
     slips = [("fine_lift(tom,other_head)", number + 1) for number in range(failing)]
     goal = parsed(["stands(rake,south)", "-carries(tom,rake)"])
     went = play(robot, QUIET, START, goal, Faults(lies=lies, slips=slips), steps=150)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from agents.adversary import AdversaryView, Game, Random
-from agents.intentional.refined import EitherRobot
+from agents.intentional.refined import EitherRobot, WithoutZooming
 from asp.domains.levels import LEVELS, level_text
 from asp.language import read_domain
 from asp.refinement import load, read_refinement
@@ -51,7 +51,7 @@ def trial(
     )
     adversary = Random(game, Random.Options(rate))
     adversary.reset(seed)
-    robot = EitherRobot(zooms=zooms)
+    robot = EitherRobot() if zooms else WithoutZooming()
     robot.begin(
         Task(
             trial="trial",

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from agents.intentional import IntentionalRobot
 from agents.intentional.refined import RefinedRobot
 from asp.domains.levels import level_text
 from asp.language import read_domain
@@ -38,7 +39,13 @@ START += parsed(["fine_loc(book2_cover,office1_2)"])
 
 
 def entered(start: list[str], faults: Faults = NO_FAULTS, zooms: bool = True) -> Play:
-    return play(RefinedRobot(zooms=zooms), OFFICE, start, parsed(["loc(rob1,library)"]), faults)
+    return play(
+        RefinedRobot(IntentionalRobot(), zooms),
+        OFFICE,
+        start,
+        parsed(["loc(rob1,library)"]),
+        faults,
+    )
 
 
 @pytest.mark.parametrize("zooms", [True, False])
@@ -79,7 +86,7 @@ def test_an_indirect_effect_that_nobody_sees_follows() -> None:
     with pytest.raises(NotCompactError):
         IncrementalFinePlanner(HANDS.weak, HANDS.weak_signature)
     start = parsed(["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "free(rob1)"])
-    went = play(RefinedRobot(), HANDS, start, parsed(["loc(object1,room2)"]))
+    went = play(RefinedRobot(IntentionalRobot()), HANDS, start, parsed(["loc(object1,room2)"]))
     assert went.achieved
     assert went.abstract == [("pickup(rob1,object1)", True), ("move(rob1,room2)", True)]
 
@@ -100,7 +107,7 @@ def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: 
     start = parsed(
         ["fine_over(left_arm,green_3)", "fine_held(left_arm,base2)", "fine_lies(base1,yellow_1)"]
     )
-    went = play(RefinedRobot(zooms=zooms), TABLE, start, parsed(["lies(block1,red)"]))
+    went = play(RefinedRobot(IntentionalRobot(), zooms), TABLE, start, parsed(["lies(block1,red)"]))
     assert went.achieved
     assert [action for action, _ in went.abstract] == [
         "swing(left_arm,yellow)",
@@ -115,7 +122,7 @@ def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: 
 def test_what_is_tested_where_a_coarse_fluent_holds_is_tested_there() -> None:
     """`A tests covered(Z) if over(A, Z)`: `over` is defined at the fine resolution."""
     start = ["fine_over(left_arm,green_3)", "fine_lies(base1,yellow_1)", "fine_lies(base2,red_1)"]
-    went = play(RefinedRobot(), TABLE, start, ["held(left_arm,block1)"])
+    went = play(RefinedRobot(IntentionalRobot()), TABLE, start, ["held(left_arm,block1)"])
     tested = {d.action for d in went.decisions if d.action.startswith("test_covered(")}
     assert went.achieved
     assert tested == {"test_covered(left_arm,green)", "test_covered(left_arm,yellow)"}
