@@ -88,10 +88,8 @@ class ReasoningRobot(ABC, Generic[H_contra]):
             self._reasoner: Reasoner[H_contra] | None = None
             self._explanation = Explanation()
             self._told: tuple[Explanation, tuple[Happening, ...]] = (Explanation(), ())
-            self._believed: tuple[int, State] = (
-                0,
-                frozenset(each for each in task.initial if each.is_positive),
-            )
+            known: State = frozenset(each for each in task.initial if each.is_positive)
+            self._believed = (0, known)
             self._begin(task)
         self._prepared = reasoning_clock().since(began).preparation_cpu
 
@@ -135,7 +133,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
     def _relevant(self, percept: Percept) -> Iterable[Literal]:
         """What the robot observes of what it sees: the outcome of the last attempt (P 3.2).
 
-        That are the domain's `shows` statements of the action whose condition is seen.
+        An action's `shows` statements say what that is, those whose condition is seen.
         """
         seen = frozenset(percept.visible)
         shown = {
