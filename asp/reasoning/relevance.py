@@ -9,14 +9,14 @@ many there are; and X is made of groups, of constants that stated statics connec
 its components.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
 from asp.language import Action, Literal, Signature, named, syntax, variable_domains
 from asp.language import variable_sorts as roles
 
 Law = syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition
 Group = frozenset[str]
-Domains = Mapping[str, frozenset[str]]
+Domains = Mapping[str, Collection[str]]
 
 
 class Relevance:
@@ -30,9 +30,15 @@ class Relevance:
         """`source` has the laws that count: without those of exogenous actions, an agent's own."""
         self._source = source
         self._signature = signature
-        self._laws = [s for s in source.statements if isinstance(s, Law) and not self._is_static(s)]
         derived = {law.head.atom.name for law in source.each(syntax.StateConstraint)}
-        self._stated = {n for n, s in signature.symbols.items() if s.kind == "static"} - derived
+        statics = {symbol.name for symbol in signature.of_kind("static")}
+        self._stated = statics - derived
+        self._laws = [
+            law
+            for law in source.statements
+            if isinstance(law, Law)
+            and not (isinstance(law, syntax.StateConstraint) and law.head.atom.name in statics)
+        ]
         atoms = (fact.literal.atom for fact in source.each(syntax.Fact))
         self._facts = [atom for atom in atoms if atom.name in self._stated]
         self.independent = self._greatest()
@@ -73,7 +79,8 @@ class Relevance:
             for literal in self._loose(law, group):
                 if not self._may_be_loose(law, literal):
                     loose = self._loose_variables(law, group).intersection(_variables(literal))
-                    return group.intersection(*(self._domains(law)[v] for v in sorted(loose)[:1]))
+                    domains = variable_domains(law, self._signature)
+                    return group.intersection(*(domains[v] for v in sorted(loose)[:1]))
         return frozenset()
 
     def _loose(self, law: Law, group: Group) -> Iterator[syntax.Literal]:
@@ -96,14 +103,14 @@ class Relevance:
 
     def _may_be_loose(self, law: Law, literal: syntax.Literal) -> bool:
         """Whether a condition on something else can only be in the way."""
-        if not literal.positive or self._signature.symbols[literal.atom.name].kind != "inertial":
+        if not literal.positive or self._signature.kind(literal.atom.name) != "inertial":
             return False
         if isinstance(law, syntax.StateConstraint):
             return comes_true_only_while(literal, law.head, self._source)
         return isinstance(law, syntax.ExecutabilityCondition)
 
     def _loose_variables(self, law: Law, group: Group) -> set[str]:
-        domains = self._domains(law)
+        domains = variable_domains(law, self._signature)
         possible = {v for v, members in domains.items() if not group.isdisjoint(members)}
         heads = law.actions if isinstance(law, syntax.ExecutabilityCondition) else (law.head.atom,)
         tied = {term.name for head in heads for term in head.args} & possible
@@ -129,16 +136,6 @@ class Relevance:
                 value.name in domains.get(term.name, (term.name,))
                 for term, value in zip(atom.args, fact.args, strict=True)
             )
-        )
-
-    def _domains(self, law: Law) -> Domains:
-        found = variable_domains(law, self._signature).items()
-        return {variable: frozenset(members) for variable, members in found}
-
-    def _is_static(self, law: Law) -> bool:
-        return (
-            isinstance(law, syntax.StateConstraint)
-            and self._signature.symbols[law.head.atom.name].kind == "static"
         )
 
 
@@ -173,17 +170,14 @@ def comes_true_only_while(
     A constraint `head if condition` then says only what was so already when the condition came
     true. Decided by the form of the laws: False where that does not tell.
     """
+    laws: list[syntax.CausalLaw | syntax.StateConstraint]
+    laws = [*source.each(syntax.StateConstraint), *source.each(syntax.CausalLaw)]
     name = condition.atom.name
-    derived = any(
-        law.head.atom.name == name and law.head.positive
-        for law in source.each(syntax.StateConstraint)
+    makers = [law for law in laws if law.head.positive and law.head.atom.name == name]
+    return all(
+        isinstance(law, syntax.CausalLaw) and _is_guarded(law, condition, head, source)
+        for law in makers
     )
-    makers = [
-        law
-        for law in source.each(syntax.CausalLaw)
-        if law.head.atom.name == name and law.head.positive
-    ]
-    return not derived and all(_is_guarded(law, condition, head, source) for law in makers)
 
 
 def _is_guarded(

@@ -1,16 +1,9 @@
 """Shortest plans at the coarse resolution: the reference, and incremental planning."""
 
-from asp.reasoning.planning.incremental import IncrementalPlanner
-from asp.reasoning.planning.large.operators import Encoding, Operator, Values
-from asp.reasoning.planning.reachability import Reachability
-from asp.reasoning.planning.reference import Planner, ReferencePlanner
-
-__all__ = [
-    "Encoding",
-    "IncrementalPlanner",
-    "Operator",
-    "Planner",
-    "Reachability",
-    "ReferencePlanner",
-    "Values",
-]
+from asp.reasoning.planning.incremental import IncrementalPlanner as IncrementalPlanner
+from asp.reasoning.planning.large.operators import Encoding as Encoding
+from asp.reasoning.planning.large.operators import Operator as Operator
+from asp.reasoning.planning.large.operators import Values as Values
+from asp.reasoning.planning.reachability import Reachability as Reachability
+from asp.reasoning.planning.reference import Planner as Planner
+from asp.reasoning.planning.reference import ReferencePlanner as ReferencePlanner

@@ -108,11 +108,8 @@ class IncrementalPlanner:
     def _part(self, dropped: frozenset[str]) -> _Part:
         def make() -> _Part:
             with preparation():
-                source, signature = (
-                    restrict(self._source, dropped),
-                    narrowed(self._signature, dropped),
-                )
-                return _Part(source, signature, self._name)
+                source = restrict(self._source, dropped)
+                return _Part(source, narrowed(self._signature, dropped), self._name)
 
         return self._parts.get(dropped, make)
 
