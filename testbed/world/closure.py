@@ -6,6 +6,7 @@ integer, so that a rule fires or not in one comparison.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import TypeAlias
 
 
 @dataclass(frozen=True)
@@ -35,12 +36,8 @@ class LiteralSets:
         return 1 << number if positive else 1 << self.size + number
 
 
-@dataclass(frozen=True)
-class Rule:
-    """`head` follows where all of `body` holds; `head` is a mask of one literal."""
-
-    body: int
-    head: int
+Rule: TypeAlias = tuple[int, int]
+"""A body, and the one literal that follows where all of it holds."""
 
 
 class Closure:
@@ -49,9 +46,9 @@ class Closure:
     def __init__(self, sets: LiteralSets, rules: Iterable[Rule]) -> None:
         self._sets = sets
         # By one literal of the body each, if possible a positive one: few fluents are true.
-        watched: dict[int, list[tuple[int, int]]] = {}
-        for rule in rules:
-            watched.setdefault(rule.body & -rule.body, []).append((rule.body, rule.head))
+        watched: dict[int, list[Rule]] = {}
+        for body, head in rules:
+            watched.setdefault(body & -body, []).append((body, head))
         self._watched = tuple(watched.items())
 
     def consequences(self, literals: int) -> int:
@@ -104,3 +101,11 @@ class Closure:
             safe = undecided & ~complement(possible)
             kept, undecided = kept | safe, undecided ^ safe
         return kept, undecided
+
+
+def bits(mask: int) -> Iterator[int]:
+    """The numbers of the set bits, ascending."""
+    while mask:
+        low = mask & -mask
+        yield low.bit_length() - 1
+        mask ^= low

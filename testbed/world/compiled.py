@@ -19,21 +19,21 @@ class CompiledWorld(World):
         self._arguments = (description,)
         self._sets = LiteralSets(len(self.fluents))
         constraints = description.constraints
-        self._constraints = tuple(Rule(self._mask(c.body), self._bit(c.head)) for c in constraints)
+        self._constraints = tuple((self._mask(c.body), self._bit(c.head)) for c in constraints)
         self._closure = Closure(self._sets, self._constraints)
         self._inertial_fluents = self._mask(description.inertial)
         self._inertial = self._inertial_fluents | self._sets.complement(self._inertial_fluents)
         self._closed_world = self._sets.complement(self._mask(description.defined))
         self._effects: dict[str, list[Rule]] = {action: [] for action in self._actions}
         for law in description.causal:
-            self._effects[law.action].append(Rule(self._mask(law.body), self._bit(law.head)))
+            self._effects[law.action].append((self._mask(law.body), self._bit(law.head)))
         self._impossible: dict[str, list[tuple[int, frozenset[str], int]]] = {}
         for number, condition in enumerate(description.executability):
             own = number, frozenset(condition.actions), self._mask(condition.body)
             self._impossible.setdefault(min(condition.actions), []).append(own)
         self._sees: dict[str, list[Rule]] = {}
         for sight in description.sees:
-            seen = Rule(self._mask(sight.body), self._bit(sight.fluent))
+            seen = self._mask(sight.body), self._bit(sight.fluent)
             self._sees.setdefault(sight.robot, []).append(seen)
 
     def is_state(self, state: int) -> bool:
@@ -75,8 +75,8 @@ class CompiledWorld(World):
         if self._sets.consistent(known):
             return None
         denied = self._sets.complement(known)
-        for law, rule in zip(self.description.constraints, self._constraints, strict=True):
-            if not rule.body & ~known and rule.head & denied:
+        for law, (body, head) in zip(self.description.constraints, self._constraints, strict=True):
+            if not body & ~known and head & denied:
                 return (law.head,), law.body
         raise AssertionError("a contradiction follows from a law")
 
@@ -124,7 +124,7 @@ class CompiledWorld(World):
 def _fired(rules: Iterable[Rule], literals: int) -> int:
     """The heads of the rules whose body is among the literals."""
     heads = 0
-    for rule in rules:
-        if rule.body & literals == rule.body:
-            heads |= rule.head
+    for body, head in rules:
+        if body & literals == body:
+            heads |= head
     return heads

@@ -4,14 +4,13 @@
 literals, and the lines that say what is wrong. A backend finds states and transitions.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import Any
 
 from asp.language import Action, Description, Facts, Fluent, Literal
+from testbed.world.closure import bits
 
 
 class StateError(ValueError):
@@ -44,6 +43,7 @@ class World(ABC):
     actions that happen at once; the empty one is one, too. Every method is a pure function of its
     arguments; the successors asked for last are remembered.
 
+    `facts` are the fluents that are true in a state, for laws that are matched against them.
     `fluents`, `agent_actions` and `exogenous_actions` are in the order of declaration, defined
     fluents behind inertial ones. `description` is the ground description; where the laws are
     matched it is without laws about fluents and actions.
@@ -58,18 +58,16 @@ class World(ABC):
         self.agent_actions: tuple[Action, ...] = description.agent_actions
         self.exogenous_actions: tuple[Action, ...] = description.exogenous_actions
         self._actions: frozenset[str] = frozenset((*self.agent_actions, *self.exogenous_actions))
-        self._numbers: dict[str, tuple[int, bool]] = {}
-        for number, fluent in enumerate(self.fluents):
-            self._numbers[fluent] = number, True
-            self._numbers[fluent.complement] = number, False
+        self._numbers = {fluent: (n, True) for n, fluent in enumerate(self.fluents)}
+        self._numbers |= {fluent.complement: (n, False) for fluent, (n, _) in self._numbers.items()}
         self._remembered = lru_cache(remembered)(self._successors)
-        self.facts = lru_cache(_STATES)(self._facts)
+        self.facts = lru_cache(_STATES)(lambda state: Facts(self.true_atoms(state)))
         self._needed = tuple(
             (sum(1 << self._numbers[fluent][0] for fluent in some), some)
             for some in description.initially
         )
 
-    def __reduce__(self) -> tuple[type[World], tuple[Any, ...]]:
+    def __reduce__(self) -> tuple[Any, ...]:
         """A copy is compiled anew: neither compiled laws nor what is remembered can be pickled."""
         return type(self), self._arguments
 
@@ -147,18 +145,13 @@ class World(ABC):
         """The fluents that are true in the state, in their order."""
         return tuple(self.fluents[number] for number in bits(state))
 
-    def _facts(self, state: int) -> Facts:
-        """The fluents that are true in the state, for laws that are matched against them."""
-        return Facts(self.true_atoms(state))
-
     def holds(self, state: int, literal: Literal) -> bool:
         """Whether the literal holds. Raises UnknownFluentError."""
-        number, positive = self._numbered(literal)
-        return bool(state >> number & 1) == positive
+        return self.satisfies(state, (literal,))
 
     def satisfies(self, state: int, literals: Iterable[Literal]) -> bool:
         """Whether all the literals hold. Raises UnknownFluentError."""
-        numbered = list(map(self._numbered, literals))
+        numbered = [*map(self._numbered, literals)]  # all of them: each may be unknown
         return all(bool(state >> number & 1) == positive for number, positive in numbered)
 
     def successors(self, state: int, actions: Iterable[Action]) -> tuple[int, ...]:
@@ -186,7 +179,7 @@ class World(ABC):
             raise NotExecutableError(self.why_not(state, compound))
         if len(found) > 1:
             outcomes = " | ".join(" ".join(self.true_atoms(s)) for s in found)
-            raise ValueError(f"{_names(compound)} has several outcomes: {outcomes}")
+            raise ValueError(f"{', '.join(sorted(compound))} has several outcomes: {outcomes}")
         return found[0]
 
     def executable(self, state: int, actions: Iterable[Action]) -> bool:
@@ -203,8 +196,8 @@ class World(ABC):
             return None
         law = self._forbidding(state, compound)
         if law is None:
-            return f"the effects of {_names(compound)} contradict each other"
-        return self._if(f"impossible {_names(frozenset(law[0]))}", law[1])
+            return f"the effects of {', '.join(sorted(compound))} contradict each other"
+        return self._if(f"impossible {', '.join(sorted(law[0]))}", law[1])
 
     def visible(self, state: int, robot: str) -> tuple[Literal, ...]:
         """The literals that the robot sees in the state, in the order of the fluents."""
@@ -253,15 +246,3 @@ class World(ABC):
 
     def _if(self, head: str, body: Iterable[Literal]) -> str:
         return f"{head} if {self._listed(body)}".removesuffix(" if ")
-
-
-def bits(mask: int) -> Iterator[int]:
-    """The numbers of the set bits, ascending."""
-    while mask:
-        low = mask & -mask
-        yield low.bit_length() - 1
-        mask ^= low
-
-
-def _names(actions: Iterable[Action]) -> str:
-    return ", ".join(sorted(actions))

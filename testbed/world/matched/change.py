@@ -15,7 +15,7 @@ from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 
 from asp.language import Constraint, Facts, Fluent, Literal, Row
-from testbed.world.closure import Closure, LiteralSets, Rule
+from testbed.world.closure import Closure, LiteralSets
 from testbed.world.matched.laws import Laws
 
 
@@ -100,10 +100,8 @@ class Change:
 
     @cached_property
     def _closure(self) -> Closure:
-        rules = {
-            (self._mask(instance.body), self._bit(instance.head)) for instance in self.instances
-        }
-        return Closure(self._sets, [Rule(body, head) for body, head in sorted(rules)])
+        rules = {(self._mask(i.body), self._bit(i.head)) for i in self.instances}
+        return Closure(self._sets, sorted(rules))
 
     def outcomes(self) -> tuple[Mapping[Fluent, bool], ...]:
         """The values of the touched atoms in each outcome; none: the literals cannot be."""

@@ -1,21 +1,13 @@
 """The laws of a description as patterns, each found by what could make it matter."""
 
 from collections import defaultdict
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from asp.language import Facts, Pattern, Signature, pattern_of, reachable, syntax
 from asp.language import variable_sorts as roles
 
 Sign = tuple[str, bool]
 """The name of a literal, and whether it is positive."""
-
-
-@dataclass(frozen=True)
-class Prohibition:
-    """The actions that a law forbids together, by name; their arguments are given."""
-
-    names: tuple[str, ...]
-    pattern: Pattern
 
 
 class Laws:
@@ -26,7 +18,8 @@ class Laws:
         self._statics = statics
         self.effects: dict[str, list[Pattern]] = defaultdict(list)
         """Causal laws by the name of the action, which is given."""
-        self.prohibitions: list[Prohibition] = []
+        self.prohibitions: list[tuple[tuple[str, ...], Pattern]] = []
+        """The actions that a law forbids together, by name; their arguments are given."""
         self.sights: list[Pattern] = []
         """What is seen by a robot, which is given."""
         self.consequences: dict[Sign, list[Pattern]] = defaultdict(list)
@@ -47,7 +40,7 @@ class Laws:
             given = [term for action in condition.actions for term in action.args]
             names = tuple(action.name for action in condition.actions)
             pattern = pattern_of(condition, signature, statics, given)
-            self.prohibitions.append(Prohibition(names, pattern))
+            self.prohibitions.append((names, pattern))
         for sight in source.each(syntax.SeesStatement):
             seen = syntax.Literal(sight.fluent, True)
             self.sights.append(pattern_of(sight, signature, statics, [sight.robot], seen))

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache
-from itertools import chain, product
+from itertools import product
 from pathlib import Path
 
 from asp.language import (
@@ -11,7 +11,6 @@ from asp.language import (
     Description,
     Fluent,
     Literal,
-    Row,
     Signature,
     closed_world,
     ground_description,
@@ -110,9 +109,9 @@ class MatchedWorld(World):
             by_name.setdefault(action.name, []).append(action)
         found = (
             (given, body)
-            for law in self._laws.prohibitions
-            for given in product(*(by_name.get(name, ()) for name in law.names))
-            for body in law.pattern.bodies(_row(given), self.facts(state))
+            for names, law in self._laws.prohibitions
+            for given in product(*(by_name.get(name, ()) for name in names))
+            for body in law.bodies(tuple(x for a in given for x in a.arguments), self.facts(state))
         )
         return next(found, None)
 
@@ -132,10 +131,6 @@ class MatchedWorld(World):
             self.fluents[number] if positive else self.fluents[number].complement
             for number, positive in numbered
         ]
-
-
-def _row(actions: Iterable[Literal]) -> Row:
-    return tuple(chain.from_iterable(action.arguments for action in actions))
 
 
 def _declared(source: syntax.Source, signature: Signature) -> Description:
