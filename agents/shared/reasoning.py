@@ -64,7 +64,7 @@ def sessions_of(knowledge: Knowledge) -> Sessions:
         description = knowledge.description
         plans = IncrementalPlanner(description.source, f"{description.name}.al")
         diagnosis = DiagnosisSessions(knowledge)
-        reach = Reachability(description, diagnosis.transitions, plans.reachable)
+        reach = Reachability(description, diagnosis.transitions, plans)
         return Sessions(diagnosis.transitions, diagnosis, plans, reach)
 
     return _SESSIONS.get(knowledge.program, made)

@@ -1,17 +1,15 @@
 """Goals that no plan of any length achieves."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 
 from clingo import Symbol
 
 from asp.language import Causal, Constraint, Description, Literal
+from asp.reasoning.planning.incremental import IncrementalPlanner
 from asp.reasoning.successors import Transitions
 from asp.solving import Answers, State, fact, first_model, ground, theory
 
 _MOST_STATES = 2_000
-
-Searched = Callable[[State, tuple[Literal, ...]], bool | None]
-"""Whether a state that satisfies a goal can be reached; None: not known."""
 
 MOST_ANSWERS = 1_000
 """How many answers are remembered."""
@@ -27,16 +25,14 @@ class Reachability:
     """
 
     def __init__(
-        self, description: Description, transitions: Transitions, searched: Searched
+        self, description: Description, transitions: Transitions, plans: IncrementalPlanner
     ) -> None:
-        """`searched` is an answer by search, if any."""
+        """`plans` are of the description, too."""
         self._fluents = description.fluents
         self._laws = list(_laws(description))
         self._transitions = transitions
-        self._searched = searched
-        self._answers: Answers[tuple[State, tuple[Literal, ...]], bool | None] = Answers(
-            MOST_ANSWERS
-        )
+        self._plans = plans
+        self._answers: Answers[object, bool | None] = Answers(MOST_ANSWERS)
 
     def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
         """Whether some plan, of any length, leads from the state to the goal; None: not known.
@@ -48,7 +44,7 @@ class Reachability:
     def _decide(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
         if not self._transitions.satisfiable(goal) or self._relaxed(state, goal):
             return False
-        reachable = self._searched(state, goal)
+        reachable = self._plans.reachable(state, goal)
         return self._explored(state, goal) if reachable is None else reachable
 
     def _relaxed(self, state: State, goal: tuple[Literal, ...]) -> bool:
@@ -73,14 +69,12 @@ class Reachability:
 
 
 def _laws(description: Description) -> Iterator[Symbol]:
-    for fluent in description.fluents:
-        yield fact("fluent", fluent)
-    for fluent in description.defined:
-        yield fact("defined", fluent)
+    yield from (fact("fluent", fluent) for fluent in description.fluents)
+    yield from (fact("defined", fluent) for fluent in description.defined)
     laws: list[Causal | Constraint] = [*description.causal, *description.constraints]
     for number, law in enumerate(laws):
         yield fact("law", number, _term(law.head))
-        yield from _conditions("needs", number, law.body)
+        yield from (fact("needs", number, _term(literal)) for literal in law.body)
     own = frozenset(description.agent_actions)
     for number, causal in enumerate(description.causal):
         # What others do is no part of a plan: their laws have an action that cannot occur.
@@ -89,11 +83,7 @@ def _laws(description: Description) -> Iterator[Symbol]:
     for number, condition in enumerate(description.executability):
         for action in condition.actions if len(condition.actions) == 1 else ():
             yield fact("hinders", number, action)
-            yield from _conditions("while", number, condition.body)
-
-
-def _conditions(predicate: str, number: int, body: Iterable[Literal]) -> Iterator[Symbol]:
-    return (fact(predicate, number, _term(literal)) for literal in body)
+            yield from (fact("while", number, _term(literal)) for literal in condition.body)
 
 
 def _term(literal: Literal) -> Symbol:

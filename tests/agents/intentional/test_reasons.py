@@ -230,7 +230,7 @@ def test_where_states_are_too_many_to_look_at_there_are_shorter_proofs(
 ) -> None:
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     plans = IncrementalPlanner(CART.description.source, "cart.al")
-    reach = Reachability(CART.description, sessions_of(CART).transitions, plans.reachable)
+    reach = Reachability(CART.description, sessions_of(CART).transitions, plans)
     assert (reach.reachable(frozenset(parsed(["at(left)"])), parsed(goal)) is False) is provable
 
 
@@ -238,7 +238,7 @@ def test_what_holds_by_definition_may_cease_to(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr("asp.reasoning.planning.reachability._MOST_STATES", 0)
     moved = knowledge("cart", CART.description.source.replace("if lit, -shut", "if at(left)"))
     plans = IncrementalPlanner(moved.description.source, "cart.al")
-    reach = Reachability(moved.description, sessions_of(moved).transitions, plans.reachable)
+    reach = Reachability(moved.description, sessions_of(moved).transitions, plans)
     assert reach.reachable(frozenset(parsed(["at(left)", "safe"])), parsed(["-safe"])) is not False
 
 

@@ -119,14 +119,10 @@ def _groups(description: Description) -> Iterator[list[Fluent]]:
 
 
 def _domain(description: Description, group: list[Fluent]) -> tuple[Fluent | None, ...]:
-    always_one = len(group) > 1 and _always_one(description, group)
-    return (*group,) if always_one else (*group, None)
-
-
-def _always_one(description: Description, group: list[Literal]) -> bool:
-    """Whether some fluent of the group is true at first, and none is ever made false alone."""
+    """The values of a group: no None where one is true at first, and none is made false alone."""
     members = set(group)
     heads = {law.head for law in description.causal}
     heads |= {law.head for law in description.constraints if not members.issuperset(law.body)}
     given = any(set(some) <= members for some in description.initially)
-    return given and heads.isdisjoint(each.complement for each in group)
+    unmade = heads.isdisjoint(each.complement for each in group)
+    return (*group,) if len(group) > 1 and given and unmade else (*group, None)

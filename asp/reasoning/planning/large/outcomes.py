@@ -195,13 +195,13 @@ def by_value(bodies: Sequence[Body], variable: int, size: int) -> list[list[Body
     found: list[list[Body]] = [[] for _ in range(size)]
     for body in bodies:
         rest = tuple(literal for literal in body if literal[0] != variable)
-        values = set(range(size)) if len(rest) == len(body) else _values(body, variable, size)
+        values = set(range(size)) if len(rest) == len(body) else allowed(body, variable, size)
         for value in values:
             found[value].append(rest)
     return found
 
 
-def _values(body: Body, variable: int, size: int) -> set[int]:
+def allowed(body: Body, variable: int, size: int) -> set[int]:
     """The values of a variable that satisfy what a body says of it."""
     values = set(range(size))
     for about, value, truth in body:

@@ -14,11 +14,9 @@ from itertools import product
 from math import prod
 
 from asp.language import Action, Fluent, Literal
-from asp.reasoning.planning.large.operators import Encoding, Operator
+from asp.reasoning.planning.large import outcomes
+from asp.reasoning.planning.large.operators import Encoding, Operator, Values
 from asp.solving import current, preparation
-
-Condition = tuple[int, int, bool]
-"""A variable, a value, and whether it has this value."""
 
 StateSet = Mapping[int, int]
 """Of each place that has some of the states, these as bits."""
@@ -46,25 +44,20 @@ class Space:
         self._sizes = sizes
         self._outer = _Numbering(sizes, outer)
         self._inner = _Numbering(sizes, inner)
-        self._masks: dict[tuple[tuple[int, int], ...], int] = {(): (1 << self._inner.count) - 1}
+        self._masks: dict[Values, int] = {(): (1 << self._inner.count) - 1}
         self.moves: dict[int, list[Move]] = {}
         for operator in changing:
             self._add(operator)
 
-    def states(self, conditions: Iterable[Condition]) -> dict[int, int]:
+    def states(self, conditions: Iterable[outcomes.Literal]) -> dict[int, int]:
         """The states that satisfy conditions."""
-        allowed: dict[int, set[int]] = {}
-        for variable, value, truth in conditions:
-            values = allowed.setdefault(variable, set(range(self._sizes[variable])))
-            values &= {value} if truth else values - {value}
+        body = tuple(conditions)
+        allowed = {v: outcomes.allowed(body, v, self._sizes[v]) for v, _, _ in body}
         inner = self._masks[()]
         for variable in self._inner.strides.keys() & allowed.keys():
             # Different values exclude each other, so that the sum is the union.
             inner &= sum(self._mask(((variable, value),)) for value in allowed[variable])
-        places = self._outer.numbers(
-            {v: values for v, values in allowed.items() if v in self._outer.strides}
-        )
-        return dict.fromkeys(places, inner) if inner else {}
+        return dict.fromkeys(self._outer.numbers(allowed), inner) if inner else {}
 
     def _add(self, operator: Operator) -> None:
         before = dict(operator.before)
@@ -74,13 +67,12 @@ class Space:
             mask = self._mask(tuple((v, x) for v, x in now.items() if v in self._inner.strides))
             shift = self._inner.difference(now, operator.after)
             step = self._outer.difference(now, operator.after)
-            fixed = {v: {x} for v, x in now.items() if v in self._outer.strides}
-            for place in self._outer.numbers(fixed):
+            for place in self._outer.numbers({v: (x,) for v, x in now.items()}):
                 self.moves.setdefault(place, []).append(
                     Move(operator.action, place + step, mask, shift)
                 )
 
-    def _mask(self, values: tuple[tuple[int, int], ...]) -> int:
+    def _mask(self, values: Values) -> int:
         """The states of a place in which variables have these values."""
         if values not in self._masks:
             *others, last = values
@@ -130,7 +122,9 @@ class Search:
     It goes on where it was interrupted.
     """
 
-    def __init__(self, space: Space, state: Sequence[int], goal: Iterable[Condition]) -> None:
+    def __init__(
+        self, space: Space, state: Sequence[int], goal: Iterable[outcomes.Literal]
+    ) -> None:
         self._space = space
         self._goal = space.states(goal)
         start = space.states((v, x, True) for v, x in enumerate(state))
@@ -142,7 +136,7 @@ class Search:
 
         Raises LimitError.
         """
-        while not _meets(self._new, self._goal):
+        while not any(states & self._goal.get(place, 0) for place, states in self._new.items()):
             if not self._new or len(self._reached) - 1 == limit:
                 return None
             self._spend(self._new)
@@ -241,10 +235,6 @@ class StateSpace:
 
 def _shifted(states: int, by: int) -> int:
     return states << by if by >= 0 else states >> -by
-
-
-def _meets(some: StateSet, others: StateSet) -> bool:
-    return any(states & others.get(place, 0) for place, states in some.items())
 
 
 def _arranged(sizes: Sequence[int], operators: Sequence[Operator]) -> tuple[list[int], list[int]]:
