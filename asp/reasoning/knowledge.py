@@ -13,6 +13,9 @@ from asp.translation import translate
 # A robot whose domain follows from its goal has as many domains as goals.
 _REMEMBERED = 32
 
+Goal = tuple[Literal, ...]
+"""Literals that are to hold together."""
+
 
 @dataclass(frozen=True)
 class Knowledge:

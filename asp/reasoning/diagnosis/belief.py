@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from asp.language import Literal
 from asp.reasoning.diagnosis.explanations import Explanation
 from asp.reasoning.diagnosis.history import GOAL, History, Moment, record_of
-from asp.reasoning.knowledge import Knowledge
+from asp.reasoning.knowledge import Goal, Knowledge
 from asp.reasoning.successors import Transitions
 from asp.solving import State
 
@@ -23,7 +23,7 @@ class BeliefTracker:
     """Carries beliefs about one goal forward, `since` being the first step with events."""
 
     def __init__(
-        self, knowledge: Knowledge, transitions: Transitions, goal: tuple[Literal, ...], since: int
+        self, knowledge: Knowledge, transitions: Transitions, goal: Goal, since: int
     ) -> None:
         self.knowledge = knowledge
         self.transitions = transitions

@@ -93,6 +93,10 @@ def explanation_of(shown: Iterable[Symbol], proved: bool = True) -> Explanation:
     return Explanation(unobserved, distrusted, tuple(exceptions), tuple(initial), proved)
 
 
+Alternatives = tuple[list[Explanation], bool]
+"""Explanations of one size, and whether there are more than were asked for."""
+
+
 @dataclass(frozen=True)
 class Diagnosis:
     """An explanation of a history, and the indices of active activities, by name.
@@ -103,7 +107,7 @@ class Diagnosis:
 
     explanation: Explanation
     indices: Mapping[int, int] = field(default_factory=dict)
-    alternatives: Callable[[int], tuple[list[Explanation], bool]] | None = field(
+    alternatives: Callable[[int], Alternatives] | None = field(
         default=None, compare=False, repr=False
     )
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from clingo import Symbol
 
 from asp.language import Action, Fluent, Literal
-from asp.reasoning.knowledge import Knowledge
+from asp.reasoning.knowledge import Goal, Knowledge
 from asp.solving import fact
 
 GOAL = Literal.of("my_goal")
@@ -155,7 +155,7 @@ class Problem:
     `since` is the first step at which an event may have occurred.
     """
 
-    goal: tuple[Literal, ...]
+    goal: Goal
     records: Mapping[int, Record]
     step: int
     since: int
@@ -179,9 +179,7 @@ class Problem:
         return atoms
 
 
-def problem_of(
-    knowledge: Knowledge, goal: tuple[Literal, ...], history: History, since: int
-) -> Problem:
+def problem_of(knowledge: Knowledge, goal: Goal, history: History, since: int) -> Problem:
     """All that there is to explain of a history."""
     known = sorted(history.moments.items())
     records = {step: record_of(m, knowledge) for step, m in known if step <= history.step}

@@ -11,14 +11,20 @@ from dataclasses import replace
 from functools import partial
 from typing import Generic
 
-from asp.language import Fluent, Literal
+from asp.language import Fluent
 from asp.reasoning.diagnosis.belief import Belief, BeliefTracker
-from asp.reasoning.diagnosis.explanations import Diagnoser, Diagnosis, Explanation, H_contra
+from asp.reasoning.diagnosis.explanations import (
+    Alternatives,
+    Diagnoser,
+    Diagnosis,
+    Explanation,
+    H_contra,
+)
 from asp.reasoning.diagnosis.history import History, Problem, Record, problem_of, record_of
 from asp.reasoning.diagnosis.long_histories.frontier import Compression, Frontier
 from asp.reasoning.diagnosis.reference import SEARCH
 from asp.reasoning.diagnosis.smallest_explanations import Interpretation, SmallestExplanations
-from asp.reasoning.knowledge import Knowledge
+from asp.reasoning.knowledge import Goal, Knowledge
 from asp.reasoning.successors import Transitions
 from asp.solving import BudgetError, LimitError, State, current, up_to
 
@@ -39,7 +45,7 @@ class DiagnosisSessions:
         self.explanations = SmallestExplanations(knowledge)
         self.ends = SmallestExplanations(knowledge, begins=False)
 
-    def tracker(self, goal: tuple[Literal, ...], since: int = 0) -> BeliefTracker:
+    def tracker(self, goal: Goal, since: int = 0) -> BeliefTracker:
         """A tracker of beliefs about a goal; `since` is the first step with events."""
         return BeliefTracker(self.knowledge, self.transitions, goal, since)
 
@@ -53,11 +59,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
     """
 
     def __init__(
-        self,
-        sessions: DiagnosisSessions,
-        goal: tuple[Literal, ...],
-        since: int,
-        reference: Diagnoser[H_contra],
+        self, sessions: DiagnosisSessions, goal: Goal, since: int, reference: Diagnoser[H_contra]
     ) -> None:
         self._sessions = sessions
         self._knowledge = sessions.knowledge
@@ -171,9 +173,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
         initial = sorted(f if f in found.initial else f.complement for f in unknown)
         return replace(found.explanation, initial=tuple(initial))
 
-    def _alternatives(
-        self, history: History, adopted: Explanation, most: int
-    ) -> tuple[list[Explanation], bool]:
+    def _alternatives(self, history: History, adopted: Explanation, most: int) -> Alternatives:
         """At most so many explanations of the size of one, and whether there are more of them."""
         problem, frontier = self._problem(history), self.frontier
         found = frontier and frontier.alternatives(problem, adopted.size, most)

@@ -7,7 +7,6 @@ from typing import ClassVar, Generic
 import clingo
 from clingo import Symbol
 
-from asp.language import Literal
 from asp.reasoning.diagnosis.explanations import (
     Diagnosis,
     Explanation,
@@ -16,7 +15,7 @@ from asp.reasoning.diagnosis.explanations import (
     explanation_of,
 )
 from asp.reasoning.diagnosis.inconsistency import cannot_hold, conflict
-from asp.reasoning.knowledge import Knowledge, goal_facts
+from asp.reasoning.knowledge import Goal, Knowledge, goal_facts
 from asp.solving import (
     BudgetError,
     Limits,
@@ -46,7 +45,7 @@ class ReferenceDiagnoser(Generic[H_contra]):
     theories: ClassVar[Sequence[str]] = ("history",)
     """The theories beside those of explanations."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...]) -> None:
+    def __init__(self, knowledge: Knowledge, goal: Goal) -> None:
         self._base = (knowledge.program, *map(theory, self.theories))
         self._given = (*knowledge.ranks, *knowledge.start, *goal_facts(goal))
 
@@ -197,10 +196,8 @@ def _best(control: clingo.Control, adopted: Explanation, step: int) -> Diagnosis
 
 def _keeping(control: clingo.Control, adopted: Explanation, until: int) -> Iterator[int]:
     """Assumptions for the events and distrusted reports that were adopted, before a step."""
-    for predicate, happenings in (
-        ("unobserved", adopted.unobserved),
-        ("distrusted", adopted.distrusted),
-    ):
+    kept = {"unobserved": adopted.unobserved, "distrusted": adopted.distrusted}
+    for predicate, happenings in kept.items():
         for atom in control.symbolic_atoms.by_signature(predicate, 2):
             action, step = atom.symbol.arguments
             if step.number < until:

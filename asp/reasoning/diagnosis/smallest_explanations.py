@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from asp.reasoning.diagnosis.explanations import Explanation, explanation_of
+from asp.reasoning.diagnosis.explanations import Alternatives, Explanation, explanation_of
 from asp.reasoning.diagnosis.history import Problem
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import (
@@ -164,9 +164,7 @@ class SmallestExplanations:
         question = question.assuming(assumptions((each, True) for each in exactly))
         return question.first(adopted.size, len(adopted.exceptions))
 
-    def alternatives(
-        self, problem: Problem, adopted: Explanation, most: int
-    ) -> tuple[list[Explanation], bool]:
+    def alternatives(self, problem: Problem, adopted: Explanation, most: int) -> Alternatives:
         """Explanations with as many events and distrusted reports, and exceptions, as one.
 
         With them, whether there are more than `most`; True also where the session cannot tell. If

@@ -24,9 +24,11 @@ from asp.language import (
     syntax,
     without_exogenous,
 )
+from asp.reasoning.knowledge import Goal
 from asp.reasoning.planning.large.operators import Encoding
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.search import Search, StateSpace
+from asp.reasoning.planning.reference import Plan
 from asp.reasoning.relevance import Relevance, interchangeable
 from asp.solving import (
     LimitError,
@@ -80,9 +82,7 @@ class IncrementalPlanner:
         self._classes = interchangeable(source, self._signature)
         self._parts: Recent[frozenset[str], _Part] = Recent(MOST_PARTS)
 
-    def shortest(
-        self, state: State, goal: tuple[Literal, ...], limit: int
-    ) -> tuple[Action, ...] | None:
+    def shortest(self, state: State, goal: Goal, limit: int) -> Plan | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
         Earlier actions count before later ones, at one step the action declared first. Raises
@@ -92,12 +92,12 @@ class IncrementalPlanner:
         plan = self._part(view.dropped).shortest(view.state, view.goal, limit)
         return None if plan is None else view.back(plan)
 
-    def succeeds(self, state: State, goal: tuple[Literal, ...], plan: tuple[Action, ...]) -> bool:
+    def succeeds(self, state: State, goal: Goal, plan: Plan) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         view = _View(self._relevance, self._classes, state, (*goal, *plan))
         return self._part(view.dropped).succeeds(view.state, view.seen(goal), view.seen(plan))
 
-    def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
+    def reachable(self, state: State, goal: Goal) -> bool | None:
         """Whether a plan of any length succeeds; None where there is too much to look at.
 
         Raises LimitError.
@@ -118,11 +118,7 @@ class _View:
     """A planning problem without the constants that it can do without, in canonical names."""
 
     def __init__(
-        self,
-        relevance: Relevance,
-        classes: Iterable[tuple[str, ...]],
-        state: State,
-        goal: tuple[Literal, ...],
+        self, relevance: Relevance, classes: Iterable[tuple[str, ...]], state: State, goal: Goal
     ) -> None:
         self._spare = relevance.spare(state, goal)
         self._names: dict[str, str] = {}
@@ -145,7 +141,7 @@ class _View:
             if self._spare.isdisjoint(literal.arguments)
         )
 
-    def back(self, plan: tuple[Action, ...]) -> tuple[Literal, ...]:
+    def back(self, plan: Plan) -> Plan:
         """The plan in the names of the problem."""
         back = {new: old for old, new in self._names.items()}
         return tuple(action.renamed(back) for action in plan)
@@ -155,7 +151,7 @@ class _View:
 class _Question:
     """A problem that is not answered yet; no plan is shorter than `length`."""
 
-    asked: tuple[State, tuple[Literal, ...]]
+    asked: tuple[State, Goal]
     search: Search | None
     length: int = 1
 
@@ -176,9 +172,7 @@ class _Part:
         self._following: Recent[int, Session] = Recent(MOST_LENGTHS)
         self._open: _Question | None = None
 
-    def shortest(
-        self, state: State, goal: tuple[Literal, ...], limit: int
-    ) -> tuple[Action, ...] | None:
+    def shortest(self, state: State, goal: Goal, limit: int) -> Plan | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
         Raises LimitError; asked again, it goes on where it was.
@@ -192,7 +186,7 @@ class _Part:
             self._open = question
             raise
 
-    def succeeds(self, state: State, goal: tuple[Literal, ...], plan: tuple[Action, ...]) -> bool:
+    def succeeds(self, state: State, goal: Goal, plan: Plan) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         if self._space is not None:
             return self._space.succeeds(state, goal, plan)
@@ -204,7 +198,7 @@ class _Part:
         start = session.assume_state(state, 0)
         return start is not None and is_satisfiable(session.control, start)
 
-    def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
+    def reachable(self, state: State, goal: Goal) -> bool | None:
         """Whether some state that can be reached satisfies the goal; None where nothing is said.
 
         Raises LimitError.
@@ -212,10 +206,10 @@ class _Part:
         search = self._search(state, goal)
         return None if search is None else search.distance(None) is not None
 
-    def _search(self, state: State, goal: tuple[Literal, ...]) -> Search | None:
+    def _search(self, state: State, goal: Goal) -> Search | None:
         return None if self._space is None else self._space.search(state, goal)
 
-    def _answer(self, question: _Question, limit: int) -> tuple[Action, ...] | None:
+    def _answer(self, question: _Question, limit: int) -> Plan | None:
         if question.search is not None:
             least = question.search.distance(limit)
             return None if least is None else question.search.first_plan()
@@ -226,7 +220,7 @@ class _Part:
             question.length += 1
         return None
 
-    def _of_length(self, question: _Question) -> tuple[Action, ...] | None:
+    def _of_length(self, question: _Question) -> Plan | None:
         """The first plan of the question's length in the order of declaration, or None."""
         (state, goal), length = question.asked, question.length
         session = self._planning.get(length, lambda: self._session("plan", length))

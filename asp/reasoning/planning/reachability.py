@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from clingo import Symbol
 
 from asp.language import Causal, Constraint, Description, Literal
+from asp.reasoning.knowledge import Goal
 from asp.reasoning.planning.incremental import IncrementalPlanner
 from asp.reasoning.successors import Transitions
 from asp.solving import Answers, State, fact, first_model, ground, theory
@@ -34,20 +35,20 @@ class Reachability:
         self._plans = plans
         self._answers: Answers[object, bool | None] = Answers(MOST_ANSWERS)
 
-    def reachable(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
+    def reachable(self, state: State, goal: Goal) -> bool | None:
         """Whether some plan, of any length, leads from the state to the goal; None: not known.
 
         Raises LimitError.
         """
         return self._answers.get((state, goal), lambda: self._decide(state, goal))
 
-    def _decide(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
+    def _decide(self, state: State, goal: Goal) -> bool | None:
         if not self._transitions.satisfiable(goal) or self._relaxed(state, goal):
             return False
         reachable = self._plans.reachable(state, goal)
         return self._explored(state, goal) if reachable is None else reachable
 
-    def _relaxed(self, state: State, goal: tuple[Literal, ...]) -> bool:
+    def _relaxed(self, state: State, goal: Goal) -> bool:
         """Whether some literal of a goal can never become true, however little laws ask for."""
         facts = [fact("wanted", _term(literal)) for literal in goal]
         facts += (
@@ -56,7 +57,7 @@ class Reachability:
         )
         return bool(first_model(ground([theory("reach")], {}, [*self._laws, *facts])))
 
-    def _explored(self, state: State, goal: tuple[Literal, ...]) -> bool | None:
+    def _explored(self, state: State, goal: Goal) -> bool | None:
         """Whether a state that can be reached satisfies a goal; None where these are too many."""
         found, left = {state}, [state]
         while left:

@@ -2,17 +2,18 @@
 
 from typing import Protocol
 
-from asp.language import Action, Literal
-from asp.reasoning.knowledge import Knowledge, goal_facts
+from asp.language import Action
+from asp.reasoning.knowledge import Goal, Knowledge, goal_facts
 from asp.solving import State, fact, first_model, ground, literal_of, select, theory
+
+Plan = tuple[Action, ...]
+"""Actions, one after the other."""
 
 
 class Planner(Protocol):
     """Shortest plans of a domain from complete states."""
 
-    def shortest(
-        self, state: State, goal: tuple[Literal, ...], limit: int
-    ) -> tuple[Action, ...] | None:
+    def shortest(self, state: State, goal: Goal, limit: int) -> Plan | None:
         """The first of the shortest plans of at most `limit` actions, or None.
 
         Earlier actions count before later ones, at one step the action declared first. The goal
@@ -27,9 +28,7 @@ class ReferencePlanner:
         self._texts = knowledge.program, theory("shortest_plan")
         self._ranks = knowledge.ranks
 
-    def shortest(
-        self, state: State, goal: tuple[Literal, ...], limit: int
-    ) -> tuple[Action, ...] | None:
+    def shortest(self, state: State, goal: Goal, limit: int) -> Plan | None:
         """The first of the shortest plans of at most `limit` actions, or None."""
         facts = [*self._ranks, *goal_facts(goal), *(fact("starts", f) for f in sorted(state))]
         for length in range(1, limit + 1):

@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from asp.reasoning.diagnosis.belief import BeliefTracker
-from asp.reasoning.diagnosis.explanations import Explanation
+from asp.reasoning.diagnosis.explanations import Alternatives, Explanation
 from asp.reasoning.diagnosis.history import Happening, History, Problem, Record, record_of
 from asp.reasoning.diagnosis.smallest_explanations import (
     FEW,
@@ -105,9 +105,7 @@ class Frontier:
                 return min(found, key=lambda whole: self._order(whole.explanation))
         return None
 
-    def alternatives(
-        self, problem: Problem, size: int, most: int
-    ) -> tuple[list[Explanation], bool] | None:
+    def alternatives(self, problem: Problem, size: int, most: int) -> Alternatives | None:
         """At most so many explanations of the smallest size, and whether there are more of them.
 
         None where the frontier does not know. Raises LimitError.

@@ -13,9 +13,11 @@ from functools import cached_property
 from itertools import product
 from math import prod
 
-from asp.language import Action, Fluent, Literal
+from asp.language import Action, Fluent
+from asp.reasoning.knowledge import Goal
 from asp.reasoning.planning.large import outcomes
 from asp.reasoning.planning.large.operators import Encoding, Operator, Values
+from asp.reasoning.planning.reference import Plan
 from asp.solving import current, preparation
 
 StateSet = Mapping[int, int]
@@ -143,7 +145,7 @@ class Search:
             self._advance()
         return len(self._reached) - 1
 
-    def first_plan(self) -> tuple[Action, ...]:
+    def first_plan(self) -> Plan:
         """The first of the shortest plans in the order of actions, whose length was found.
 
         Raises LimitError.
@@ -205,16 +207,14 @@ class StateSpace:
         self._sizes = [len(values) for values in encoding.domains]
         self.size = prod(self._sizes)
 
-    def search(self, true: Collection[Fluent], goal: Iterable[Literal]) -> Search | None:
+    def search(self, true: Collection[Fluent], goal: Goal) -> Search | None:
         """The search from a state, in which these fluents are true; None where it is none."""
         state = self._encoding.values(true)
         if state is None:
             return None
         return Search(self._space, state, map(self._encoding.assignment, goal))
 
-    def succeeds(
-        self, true: Collection[Fluent], goal: Iterable[Literal], plan: Iterable[Action]
-    ) -> bool:
+    def succeeds(self, true: Collection[Fluent], goal: Goal, plan: Plan) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
         state = self._encoding.values(true)
         wanted = [self._encoding.assignment(literal) for literal in goal]
