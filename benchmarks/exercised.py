@@ -29,6 +29,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
         "tests/asp/reasoning/fine_planning/test_fine_planning.py",
         "tests/asp/reasoning/fine_planning/test_fine_plans.py",
     ),
+    "goal_persistence": ("tests/agents/intentional/test_persistence.py",),
     "history": (_AXIOMS, _REPORTS),
     "incremental_diagnosis": (
         "tests/asp/reasoning/test_successors.py",
@@ -51,7 +52,6 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "joint": (_JOINT, _JOINT_LIVES),
     "misreadings": ("tests/asp/reasoning/diagnosis/test_misreadings.py",),
     "order": (_EXPLANATIONS, "tests/asp/theories/test_order.py"),
-    "persistence": ("tests/agents/intentional/test_persistence.py",),
     "planning": (_REPORTS, _PREFERENCES, _PLANS, _LIVES),
     "reach": (
         f"{_REASONS}::test_where_states_are_too_many_to_look_at_there_are_shorter_proofs",

@@ -70,7 +70,7 @@ class History(diagnosis.History):
 class ReferenceReasoner(ReferenceDiagnoser[History]):
     """Reasons about one goal in one domain; every call solves its program from scratch."""
 
-    theories = ("history", "intentions", "persistence")
+    theories = ("history", "intentions", "goal_persistence")
 
     def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""

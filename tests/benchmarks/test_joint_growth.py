@@ -42,7 +42,7 @@ def test_it_asks_for_as_many_explanations_as_it_says() -> None:
             *question.history().facts(),
             fact("explaining", question.steps),
         ]
-        names = ("history", "intentions", "persistence", "defaults", "diagnosis")
+        names = ("history", "intentions", "goal_persistence", "defaults", "diagnosis")
         texts = [question.knowledge.program, *map(theory, names)]
         most = {"max_unobserved": question.books, "max_name": 2, "max_len": 1}
         control = ground(texts, {"n": question.steps, **most}, facts)
