@@ -98,10 +98,7 @@ class IncrementalPlanner:
         return self._part(view.dropped).succeeds(view.state, view.seen(goal), view.seen(plan))
 
     def reachable(self, state: State, goal: Goal) -> bool | None:
-        """Whether a plan of any length succeeds; None where there is too much to look at.
-
-        Raises LimitError.
-        """
+        """Whether a plan of any length succeeds; None: too much to look at. Raises LimitError."""
         view = _View(self._relevance, self._classes, state, goal)
         return self._part(view.dropped).reachable(view.state, view.goal)
 
@@ -135,11 +132,8 @@ class _View:
 
     def seen(self, literals: Iterable[Literal]) -> tuple[Literal, ...]:
         """Those of the literals or actions that the problem is left with, in its names."""
-        return tuple(
-            literal.renamed(self._names)
-            for literal in literals
-            if self._spare.isdisjoint(literal.arguments)
-        )
+        left = (each for each in literals if self._spare.isdisjoint(each.arguments))
+        return tuple(each.renamed(self._names) for each in left)
 
     def back(self, plan: Plan) -> Plan:
         """The plan in the names of the problem."""
@@ -199,10 +193,7 @@ class _Part:
         return start is not None and is_satisfiable(session.control, start)
 
     def reachable(self, state: State, goal: Goal) -> bool | None:
-        """Whether some state that can be reached satisfies the goal; None where nothing is said.
-
-        Raises LimitError.
-        """
+        """Whether a plan of any length succeeds; None: too much to look at. Raises LimitError."""
         search = self._search(state, goal)
         return None if search is None else search.distance(None) is not None
 
@@ -214,8 +205,7 @@ class _Part:
             least = question.search.distance(limit)
             return None if least is None else question.search.first_plan()
         while question.length <= limit:
-            plan = self._of_length(question)
-            if plan is not None:
+            if (plan := self._of_length(question)) is not None:
                 return plan
             question.length += 1
         return None
