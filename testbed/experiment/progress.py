@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from testbed.experiment.runner import Notify, RunStatus
-from testbed.text import counted, warn
+from testbed.text import Say, counted, warn
 
 EVERY_S = 30.0
 
@@ -33,9 +33,7 @@ def _failed(run: RunStatus) -> str:
 class Lines:
     """Says a line whenever `EVERY_S` seconds have passed; the rate is that of this session."""
 
-    def __init__(
-        self, say: Callable[[str], None], clock: Callable[[], float] = time.monotonic
-    ) -> None:
+    def __init__(self, say: Say, clock: Callable[[], float] = time.monotonic) -> None:
         self._say, self._clock = say, clock
         self._began: tuple[float, int] | None = None
         self._due = 0.0

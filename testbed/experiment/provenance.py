@@ -32,9 +32,7 @@ class Provenance:
         self._entry: dict[str, Any] = {
             "command": list(command),
             "start": _now(),
-            "end": None,
-            "exit": None,
-            "workers": None,
+            **dict.fromkeys(("end", "exit", "workers")),
             "versions": versions(),
             "platform": {"system": platform.platform(), "machine": platform.machine()},
             "revision": revision(folder),
@@ -79,12 +77,10 @@ def revision(folder: Path, root: Path = ROOT) -> dict[str, object] | None:
     """
     if not (root / ".git").exists():
         return None
-    commit = _git(root, "rev-parse", "HEAD")
-    changed = _git(root, "status", "--porcelain")
+    commit, changed = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain")
     if commit is None or changed is None:
         return None
-    difference = _git(root, "diff", "HEAD")
-    if difference:
+    if difference := _git(root, "diff", "HEAD"):
         replace_text(folder / DIFFERENCE, difference + "\n")
     return {"commit": commit, "changed": changed.splitlines()}
 

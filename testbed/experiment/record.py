@@ -130,8 +130,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     exogenous, of a trial that counts. Where the actions are None `minimal_reason`
     says why: `no plan` exists, or the `budget` of states did not suffice to find the least. The
     plan with the fewest actions need not be the one that costs least. `correct` is None where that
-    depends on the fewest actions and these are not known (so is `in_reach`), and of a trial that is
-    `lost`.
+    depends on the fewest actions and these are not known (so is `in_reach`), and of a trial that
+    something other than its robot ended: it says nothing of the robot.
     `no_plan` says why the robot gave up, from what it believed; `in_reach` from what is true.
     `mental` holds `start(N)`, `stop(N)` and `finish`.
     Times are seconds, `..._time_s` by the wall clock, `..._cpu_s` process time of the robot, its
@@ -182,19 +182,9 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     deadline: bool = False
 
     @property
-    def lost(self) -> bool:
-        """Whether something other than its robot ended the trial, which then says nothing of it."""
-        return self.outcome in FAILURES and self.cause != "robot"
-
-    @property
     def failed(self) -> bool:
         """Whether the robot's own error ended the trial: it counts, and is not correct."""
         return self.outcome in FAILURES and self.cause == "robot"
-
-    @property
-    def counts(self) -> bool:
-        """Whether the trial says something of its robot that another machine would say, too."""
-        return not (self.lost or self.deadline)
 
     def _repr_html_(self) -> str:
         """What a notebook shows: how the trial came out, and what happened step by step."""

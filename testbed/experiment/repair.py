@@ -2,7 +2,7 @@
 
 import shutil
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from itertools import chain, count
 from pathlib import Path
 
@@ -14,10 +14,10 @@ from testbed.experiment.recorder import strangeness
 from testbed.experiment.run_folder import TRIALS, locked, read_config, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_lines, settle
-from testbed.text import counted
+from testbed.text import Say, counted
 
 
-def repair(folder: Path, say: Callable[[str], None]) -> None:
+def repair(folder: Path, say: Say) -> None:
     """Drop the lines of a run's records that are not whole, and say which and why.
 
     Dropped are lines that are no records or do not match their checksums, records of no planned

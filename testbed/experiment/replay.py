@@ -1,7 +1,7 @@
 """Play a stored trial again, in this process, and tell it step by step."""
 
 import shlex
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 
 from asp.language import Action, Fluent, suggestion
@@ -17,11 +17,9 @@ from testbed.experiment.timeline import explanation, in_words, of_place, place
 from testbed.experiment.trial import Moment, play_trial, refinement_of
 from testbed.link import InProcessRobot
 from testbed.protocol import FINISH, FineTrace, Trace
-from testbed.text import columns, counted
+from testbed.text import Say, columns, counted
 from testbed.text.grid import Grid
 from testbed.world import World, load_world, world_of
-
-Say = Callable[[str], None]
 
 
 def replay(folder: Path, trial: str, say: Say) -> bool:
@@ -79,9 +77,8 @@ def find_trial(specs: Iterable[TrialSpec], trial: str) -> TrialSpec:
         raise StoreError(f"--trial {trial}: several trials begin so: {ids}")
     near = suggestion(trial, [spec.trial for spec in known])
     hint = near if near.startswith("did") else f"one of them is {known[0].trial}"
-    raise StoreError(
-        f"--trial {trial}: not one of the run's {counted(len(known), 'trial')}; {hint}"
-    )
+    among = f"not one of the run's {counted(len(known), 'trial')}"
+    raise StoreError(f"--trial {trial}: {among}; {hint}")
 
 
 def _compare(recorded: TrialRecord | None, now: TrialRecord, say: Say) -> bool:

@@ -1,6 +1,5 @@
 """Run a configuration into a run folder: all trials of a new run, the rest of one that was left."""
 
-import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -177,5 +176,5 @@ def player(link: str, run: str, answer_s: float) -> Iterator[Play]:
     Raises:
         RobotLost: when a robot of another process does not start.
     """
-    with connect(link, make_robot, run, answer_s, group=os.getpgrp()) as robot:
+    with connect(link, make_robot, run, answer_s) as robot:
         yield lambda spec: play_trial(spec, robot)

@@ -71,8 +71,7 @@ def check(record: TrialRecord) -> None:
     """Raise msgspec.ValidationError unless the record can be written and read again."""
     line = encode(record)
     if len(line) > MOST_BYTES:
-        message = f"a record of {len(line)} bytes; {MOST_BYTES} are the most"
-        raise msgspec.ValidationError(message)
+        raise msgspec.ValidationError(f"a record of {len(line)} bytes; {MOST_BYTES} are the most")
     decode(line)
 
 

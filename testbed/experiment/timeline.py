@@ -44,12 +44,10 @@ def timeline(record: TrialRecord) -> Iterator[Step]:
         attempt, event = attempts.get(number), others.get(number)
         if record.fine is not None and number not in told:
             continue
+        kind, robot = "mental", str(mental.get(number, "wait"))
         if attempt is not None:
-            kind = "done" if attempt.happened else "failed"
-            robot = attempt.action if attempt.happened else f"{attempt.action} failed"
-        else:
-            kind = "mental"
-            robot = mental.get(number, "wait")
+            kind, failed = ("done", "") if attempt.happened else ("failed", " failed")
+            robot = f"{attempt.action}{failed}"
         unseen = "" if event is None or event.observed else ", unseen"
         seen = rejected.get(number, "") if event is None else f"{event.action}{unseen}"
         adopted = explanations.get(number)

@@ -3,6 +3,7 @@
 `connect` gives a driver such a robot, or one in its own process.
 """
 
+import os
 import signal
 import subprocess
 import sys
@@ -169,17 +170,17 @@ class SpawnedRobot:
 
 @contextmanager
 def connect(
-    link: str, make_robot: RobotFactory, run: str, answer_s: float, group: int = 0
+    link: str, make_robot: RobotFactory, run: str, answer_s: float
 ) -> Iterator[RobotClient]:
     """Yield a robot that plays trial after trial; ends its process, if it has one.
 
     It is in this process (``link`` is ``"inprocess"``), made by ``make_robot``, or in a process of
-    its own, in the process group ``group``, with ``answer_s`` seconds for an answer
+    its own, in the process group of this one, with ``answer_s`` seconds for an answer
     (``"zenoh"``). Raises RobotLost when that does not start.
     """
     if link == "inprocess":
         yield InProcessRobot(make_robot)
         return
-    with spawned_robot(run, answer_s, group=group) as robot:
+    with spawned_robot(run, answer_s, group=os.getpgrp()) as robot:
         robot.start()
         yield robot
