@@ -259,7 +259,7 @@ def test_what_is_too_much_to_enumerate_is_searched_without(monkeypatch: pytest.M
     world = world_of(parse_description(CARTS))
     start, goal, (costs, _) = next(world.states()), parsed(["at(jar,gate)"]), measures(world)
     assert Potentials(world.description).heuristic(start, goal, costs) is not blind
-    monkeypatch.setattr("testbed.experiment.changes.MOST_CHANGES", 3)
+    monkeypatch.setattr("testbed.experiment.heuristic.MOST_CHANGES", 3)
     assert Potentials(world.description).heuristic(start, goal, costs) is blind
 
 
