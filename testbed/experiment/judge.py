@@ -23,7 +23,7 @@ from asp.language import (
 )
 from asp.reasoning.relevance import Relevance
 from testbed.experiment.heuristic import Heuristic, Potentials, blind
-from testbed.experiment.record import Minimal, MinimalReason
+from testbed.experiment.record import Minimal
 from testbed.world import World, world_of
 
 MOST_ANSWERS = 4_096
@@ -46,32 +46,30 @@ class Judge:
 
     def in_reach(self, state: int, goal: Goal, most_states: int) -> bool | None:
         """Whether some plan achieves the goal from the state; None where the budget struck."""
-        _, reason = self._fewest(state, goal, most_states)
+        reason = self._fewest(state, goal, most_states).reason
         return None if reason == "budget" else reason is None
 
-    def _search(
-        self, state: int, goal: Goal, most_states: int
-    ) -> tuple[int | None, MinimalReason | None]:
-        """The fewest actions; where they are not known, why."""
+    def _search(self, state: int, goal: Goal, most_states: int) -> Minimal:
+        """The fewest actions, without their units; where they are not known, why."""
         try:
             plan = cheapest_plan(self._problem(state, goal), most_states=most_states)
         except BudgetError:
-            return None, "budget"
-        return (None, "no plan") if plan is None else (len(plan), None)
+            return Minimal(None, None, "budget")
+        return Minimal(None, None, "no plan") if plan is None else Minimal(len(plan), None, None)
 
     def _minimal(self, state: int, goal: Goal, most_states: int) -> Minimal:
         """The least that achieves the goal from the state.
 
         Where the budget suffices for the actions and not for the units, only these are unknown.
         """
-        actions, reason = self._fewest(state, goal, most_states)
-        if actions is None:
-            return Minimal(None, None, reason)
+        fewest = self._fewest(state, goal, most_states)
+        if fewest.actions is None:
+            return fewest
         try:
             plan = cheapest_plan(self._problem(state, goal), self._costs, most_states)
         except BudgetError:
-            return Minimal(actions, None, None)
-        return Minimal(actions, sum(self._costs.get(own, 0) for own in plan or ()), None)
+            return fewest
+        return fewest._replace(units=sum(self._costs.get(own, 0) for own in plan or ()))
 
 
 class BudgetError(RuntimeError):

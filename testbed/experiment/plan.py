@@ -35,10 +35,7 @@ def planned_trials(config: ExperimentConfig) -> dict[str, int]:
         own = [Path(config.refinement).stem] if config.refinement else []
         return dict.fromkeys((*own, *config.levels), (config.limit or 0) * robots)
     world = load_world(config.domain)
-    return {
-        scenario: sum(1 for _ in _starts(config, scenario, world)) * robots
-        for scenario in config.scenarios
-    }
+    return {name: len(list(_starts(config, name, world))) * robots for name in config.scenarios}
 
 
 def _in_scenarios(config: ExperimentConfig) -> Iterator[TrialSpec]:

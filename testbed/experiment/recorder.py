@@ -103,9 +103,8 @@ class Recorder:
 
     def report(self, told: int, event: Event) -> None:
         """What the robot is told at step `told`; after what truly happened was recorded."""
-        happened = [
-            e for e in self.record.exogenous if (e.step, e.action) == (event.step, event.action)
-        ]
+        told_of = event.step, event.action
+        happened = [own for own in self.record.exogenous if (own.step, own.action) == told_of]
         for occurrence in happened:
             occurrence.observed = True
         self.record.reports.append(Report(told, event.step, event.action, bool(happened)))

@@ -1,7 +1,7 @@
 """Play a stored trial again, in this process, and tell it step by step."""
 
 import shlex
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from asp.language import Action, Fluent, suggestion
@@ -66,18 +66,17 @@ def list_trials(folder: Path, say: Say) -> None:
     say(f"choose one by its id, or the beginning of it: {command} {rows[-1][0]}")
 
 
-def find_trial(specs: Iterable[TrialSpec], trial: str) -> TrialSpec:
+def find_trial(specs: Sequence[TrialSpec], trial: str) -> TrialSpec:
     """The trial whose id begins with `trial`. Raises StoreError unless there is exactly one."""
-    known = list(specs)
-    found = [spec for spec in known if trial and spec.trial.startswith(trial)]
+    found = [spec for spec in specs if trial and spec.trial.startswith(trial)]
     if len(found) == 1:
         return found[0]
     if found:
         ids = ", ".join(spec.trial for spec in found[:5])
         raise StoreError(f"--trial {trial}: several trials begin so: {ids}")
-    near = suggestion(trial, [spec.trial for spec in known])
-    hint = near if near.startswith("did") else f"one of them is {known[0].trial}"
-    among = f"not one of the run's {counted(len(known), 'trial')}"
+    near = suggestion(trial, [spec.trial for spec in specs])
+    hint = near if near.startswith("did") else f"one of them is {specs[0].trial}"
+    among = f"not one of the run's {counted(len(specs), 'trial')}"
     raise StoreError(f"--trial {trial}: {among}; {hint}")
 
 
@@ -196,7 +195,14 @@ class FineNarrator(Narrator):
         for literal in moment.percept.visible:
             wrong = "" if self._world.satisfies(moment.before, (literal,)) else ", which is wrong"
             yield f"  observed     {literal}{wrong}"
-        yield from _learned(fine)
+        if fine.committed:
+            yield f"  certain now  {' '.join(fine.committed)}"
+        if fine.failed:
+            yield f"  failed       {fine.failed}"
+        if fine.ended:
+            outcome = "happened" if fine.happened else "did not happen"
+            yield f"  over         {fine.ended}: {outcome}"
+            yield f"  inferred     {' '.join(fine.inferred) or 'nothing'}"
         if not fine.abstract or fine.begun == step:
             yield from super()._mind(moment, true & self._coarse)
         if fine.begun == step:
@@ -205,18 +211,6 @@ class FineNarrator(Narrator):
             yield f"  relevant     {' '.join(fine.zoomed)}"
         if fine.plan:
             yield f"  refined to   {' '.join(fine.plan)}"
-
-
-def _learned(fine: FineTrace) -> Iterator[str]:
-    """What came of the concrete actions so far."""
-    if fine.committed:
-        yield f"  certain now  {' '.join(fine.committed)}"
-    if fine.failed:
-        yield f"  failed       {fine.failed}"
-    if fine.ended:
-        outcome = "happened" if fine.happened else "did not happen"
-        yield f"  over         {fine.ended}: {outcome}"
-        yield f"  inferred     {' '.join(fine.inferred) or 'nothing'}"
 
 
 def narrator_of(setting: Setting, say: Say) -> Narrator:

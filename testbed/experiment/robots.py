@@ -6,8 +6,6 @@ from typing import Any, Protocol
 from testbed.protocol import Capabilities, Robot
 from testbed.registry import Registry, class_fault
 
-_INTENTIONAL, _TRADITIONAL = "agents.intentional", "agents.traditional.robot"
-
 
 class RobotClass(Protocol):
     """The class of a robot: it is made without arguments, and says what it can do."""
@@ -28,14 +26,14 @@ ROBOTS: Registry[RobotClass] = Registry(
     "robot",
     "intention_testbed.robots",
     {
-        "intentional": f"{_INTENTIONAL}.refined:EitherRobot",
-        "intentional-nozoom": f"{_INTENTIONAL}.refined:WithoutZooming",
-        "intentional-plain": f"{_INTENTIONAL}.controller:Reference",
-        "intentional-joint": f"{_INTENTIONAL}.joint:Joint",
-        "intentional-joint-plain": f"{_INTENTIONAL}.joint:JointReference",
-        "intentional-checking": f"{_INTENTIONAL}.checking:CheckingRobot",
-        "traditional": f"{_TRADITIONAL}:TraditionalRobot",
-        "traditional-plain": f"{_TRADITIONAL}:TraditionalReference",
+        "intentional": "agents.intentional.refined:EitherRobot",
+        "intentional-nozoom": "agents.intentional.refined:WithoutZooming",
+        "intentional-plain": "agents.intentional.controller:Reference",
+        "intentional-joint": "agents.intentional.joint:Joint",
+        "intentional-joint-plain": "agents.intentional.joint:JointReference",
+        "intentional-checking": "agents.intentional.checking:CheckingRobot",
+        "traditional": "agents.traditional.robot:TraditionalRobot",
+        "traditional-plain": "agents.traditional.robot:TraditionalReference",
     },
     _fault,
 )

@@ -11,13 +11,13 @@ from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import INTERRUPTED
-from testbed.experiment.plan import coverage_of, places_of, plan_trials
+from testbed.experiment.plan import plan_trials, planned_trials
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.record import FAILURES
 from testbed.experiment.recorder import Result
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import ERRORS, begin_or_resume, choose_folder, locked, naming
-from testbed.experiment.store import TrialWriter
+from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
 from testbed.experiment.worker_pool import Play, Results, play_all, workers_for
 from testbed.link import connect
@@ -95,9 +95,7 @@ def run_in(
         provenance.close(BAD_INPUT, workers=0)
         raise
     except KeyboardInterrupt:  # while the trials were planned: none was played
-        covered = coverage_of(places_of(folder), config)
-        planned = sum(covered.planned.values())
-        done = planned - sum(covered.missing.values())
+        planned, done = sum(planned_trials(config).values()), sum(1 for _ in read_records(folder))
         played = RunStatus(planned, done, failed=0, workers=0, interrupted=True)
     provenance.close(played.exit_code, played.workers)
     return played

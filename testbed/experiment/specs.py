@@ -147,9 +147,8 @@ def pair_specs(
 def _without_files(setting: Setting, domain: str) -> object:
     """The setting as it is hashed: wherever its files lie, and without what is as by default."""
     fine = setting.fine and msgspec.structs.replace(setting.fine, refinement=None)
-    values = msgspec.to_builtins(
-        msgspec.structs.replace(setting, domain=domain, fine=fine), enc_hook=str
-    )
+    own = msgspec.structs.replace(setting, domain=domain, fine=fine)
+    values = msgspec.to_builtins(own, enc_hook=str)
     defaults = {field.name: field.default for field in msgspec.structs.fields(Setting)}
     # msgspec omits a default that is the same object, which an equal number need not be.
     given = {name: value for name, value in values.items() if value != defaults[name]}

@@ -10,7 +10,7 @@ import re
 import shlex
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import BinaryIO, NamedTuple, Self
+from typing import BinaryIO, Self
 from zlib import crc32
 
 import msgspec
@@ -42,19 +42,6 @@ class _Seal(msgspec.Struct):
     trial: str = ""
 
 
-class NewerVersionError(StoreError):
-    """A record that a newer testbed wrote: nothing is wrong with it, but it is not read here."""
-
-
-class Line(NamedTuple):
-    """A line of a file of records, with its record, or its fault where it is none."""
-
-    number: int
-    text: bytes
-    record: TrialRecord | None
-    fault: str | None
-
-
 # Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
 # once end the interpreter.
 _decoder = msgspec.json.Decoder(TrialRecord, dec_hook=literal_within_bounds)
@@ -80,7 +67,7 @@ def decode(line: bytes) -> TrialRecord:
 
     Raises:
         msgspec.DecodeError: for anything else, and where the checksum is not that of the line.
-        NewerVersionError: for a record that a newer testbed wrote.
+        StoreError: for a record that a newer testbed wrote, with which nothing is wrong.
     """
     try:
         _check_seal(line)
@@ -102,20 +89,23 @@ def _check_seal(line: bytes) -> None:
         raise msgspec.DecodeError("its checksum (crc32) is not that of the line")
     if version > VERSION:
         newer = f"a record of version {version}, and this testbed reads up to {VERSION}"
-        raise NewerVersionError(f"{newer}; install the one that provenance.json names")
+        raise StoreError(f"{newer}; install the one that provenance.json names")
 
 
-def read_lines(path: Path) -> Iterator[Line]:
-    """The lines of a file of records. Raises StoreError for a record of a newer testbed."""
+def read_lines(path: Path) -> Iterator[tuple[int, bytes, TrialRecord | None, str | None]]:
+    """The lines of a file of records: number and text, the record, and the fault where it is none.
+
+    Raises StoreError for a record of a newer testbed.
+    """
     with path.open("rb") as file:
         for number, text in enumerate(file, start=1):
             try:
                 record, fault = (decode(text), None) if text.endswith(b"\n") else (None, TORN)
             except msgspec.DecodeError as error:
                 record, fault = None, f"not a record of a trial: {error}"
-            except NewerVersionError as error:
+            except StoreError as error:
                 raise StoreError(f"{path}:{number}: {error}") from None
-            yield Line(number, text, record, fault)
+            yield number, text, record, fault
 
 
 def read_records(folder: Path, specs: Iterable[TrialSpec] | None = None) -> Iterator[TrialRecord]:
@@ -206,7 +196,7 @@ def settle(folder: Path) -> None:
     retries, trials = folder / RETRIES, folder / TRIALS
     if not retries.is_file():
         return
-    again = {line.record.trial: line.text for line in read_lines(retries) if line.record}
+    again = {record.trial: text for _, text, record, _ in read_lines(retries) if record}
     trials.touch()
     with trials.open("rb") as file:
         lost = sorted(again.keys() - set(map(_trial_of, file)))
