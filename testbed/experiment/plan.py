@@ -19,6 +19,7 @@ from testbed.experiment.timeline import place
 from testbed.text import listed
 from testbed.world import World, load_world, world_of
 
+Atoms = tuple[Literal, ...]
 SCENARIO = "levels"
 """What stands in place of a scenario in the records of trials at the fine resolution."""
 
@@ -49,9 +50,7 @@ def _in_scenarios(config: ExperimentConfig) -> Iterator[TrialSpec]:
             yield from pair_specs(config, scenario, COARSE, path, initial, setting, domain)
 
 
-def _starts(
-    config: ExperimentConfig, scenario: str, world: World
-) -> Iterator[tuple[tuple[Literal, ...], int]]:
+def _starts(config: ExperimentConfig, scenario: str, world: World) -> Iterator[tuple[Atoms, int]]:
     """Initial states, and which of the pairs from there this is, from 0 on."""
     given = config.settings(scenario).initial
     states = world.initial_states() if given is None else [world.state(given)]
@@ -107,7 +106,7 @@ def _at_levels(config: ExperimentConfig) -> Iterator[TrialSpec]:
 
 def _drawn(
     config: ExperimentConfig, refinement: Refinement, place: Sequence[str]
-) -> Iterator[tuple[list[object], tuple[Literal, ...], tuple[Literal, ...]]]:
+) -> Iterator[tuple[list[object], Atoms, Atoms]]:
     """The pairs of a level: their seed paths, the inertial atoms true at first, and goals.
 
     A goal does not hold at first. What the configuration gives is not drawn.

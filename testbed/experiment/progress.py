@@ -20,7 +20,17 @@ def progress(quiet: bool) -> Iterator[Notify]:
     if quiet:
         yield lambda _: None
     elif console.is_terminal:
-        with _bar(console) as notify:
+        told, rate = TextColumn("{task.description}"), TextColumn("{task.fields[rate]}")
+        columns = told, BarColumn(), MofNCompleteColumn(), rate, TimeRemainingColumn()
+        with Progress(*columns, console=console) as bar:
+            task = bar.add_task("planning the trials", total=None, rate="")
+
+            def notify(run: RunStatus) -> None:
+                bar.update(task, total=run.planned, completed=run.done)
+                speed = bar.tasks[task].speed
+                rate = "" if speed is None else f"{speed:.1f}/s"
+                bar.update(task, description=f"trials{_failed(run)}", rate=rate)
+
             yield notify
     else:
         yield Lines(warn).notify
@@ -52,19 +62,3 @@ class Lines:
         left = round((run.planned - run.done) / rate)
         trials = f"{run.done} of {counted(run.planned, 'trial')}{_failed(run)}"
         return f"{trials}, {rate:.1f}/s, {left // 3600}:{left // 60 % 60:02}:{left % 60:02} left"
-
-
-@contextmanager
-def _bar(console: Console) -> Iterator[Notify]:
-    told, rate = TextColumn("{task.description}"), TextColumn("{task.fields[rate]}")
-    columns = told, BarColumn(), MofNCompleteColumn(), rate, TimeRemainingColumn()
-    with Progress(*columns, console=console) as bar:
-        task = bar.add_task("planning the trials", total=None, rate="")
-
-        def notify(run: RunStatus) -> None:
-            bar.update(task, total=run.planned, completed=run.done)
-            speed = bar.tasks[task].speed
-            rate = "" if speed is None else f"{speed:.1f}/s"
-            bar.update(task, description=f"trials{_failed(run)}", rate=rate)
-
-        yield notify

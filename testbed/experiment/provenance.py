@@ -15,9 +15,8 @@ import asp
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
 from testbed.experiment.run_folder import PROVENANCE, replace_text
-from testbed.registry import PATH_VARIABLE
+from testbed.registry import OURS, PATH_VARIABLE
 
-DISTRIBUTION = "intention-testbed"
 LIBRARIES = ("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic")
 DIFFERENCE = "difference.patch"
 ROOT = Path(__file__).resolve().parents[2]
@@ -62,7 +61,7 @@ def modules_of(folder: Path) -> Path | None:
 def versions() -> dict[str, str]:
     """Versions of Python, of this distribution and of the libraries that results rest on."""
     found = {"python": platform.python_version()}
-    for name in (DISTRIBUTION, *LIBRARIES):
+    for name in (OURS, *LIBRARIES):
         try:
             found[name] = importlib.metadata.version(name)
         except importlib.metadata.PackageNotFoundError:

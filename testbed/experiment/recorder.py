@@ -156,8 +156,7 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
 def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
     """The result of a trial whose worker process ended in the middle of it."""
     recorder = Recorder(spec)
-    reason = f"worker process ended with exit code {exit_code}"
-    recorder.fail("error", reason, "infrastructure")
+    recorder.fail("error", f"worker process ended with exit code {exit_code}", "infrastructure")
     return Result(recorder.record)
 
 

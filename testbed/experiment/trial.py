@@ -60,7 +60,7 @@ MOST_DETAILS = 100_000
 Watch = Callable[[Moment], None]
 
 
-def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None) -> Result:
+def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch = lambda _: None) -> Result:
     """The result of a trial. A lost robot and any error end in the record, never in a raise."""
     recorder = Recorder(spec)
     started = time.perf_counter()
@@ -87,7 +87,7 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch | None = None)
     return Result(recorder.record, details and details[-MOST_DETAILS:])
 
 
-def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch | None) -> None:
+def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch) -> None:
     setup, goal, record = setup_of(spec.setting), spec.setting.goal, recorder.record
     for_world, for_adversary, for_robot = seeds_within(spec.seed)
     recorder.costs, core = setup.costs, setup.core(spec.setting)
@@ -98,9 +98,7 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     try:
         client.begin(setup.task(spec, core.situation.state, for_robot))
         while core.situation.ending is None:
-            moment = _step(core, client, adversary, recorder)
-            if watch is not None:
-                watch(moment)
+            watch(_step(core, client, adversary, recorder))
     except RobotGone:
         raise
     except RobotLost:  # its own error: the trial counts if the goal has a plan

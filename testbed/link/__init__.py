@@ -1,7 +1,7 @@
 """The link between a driver and its robots: in process, or over zenoh between processes."""
 
 from testbed.link.exchange import InProcessRobot
-from testbed.link.process import RobotProcess, SpawnedRobot, connect, spawned_robot
+from testbed.link.process import SpawnedRobot, connect, spawned_robot
 from testbed.link.remote import RemoteRobot
 from testbed.link.serving import serve, serve_forever
 from testbed.link.session import endpoint, open_as_configured, open_driver, open_robot, open_waiting
@@ -9,7 +9,6 @@ from testbed.link.session import endpoint, open_as_configured, open_driver, open
 __all__ = [
     "InProcessRobot",
     "RemoteRobot",
-    "RobotProcess",
     "SpawnedRobot",
     "connect",
     "endpoint",

@@ -169,17 +169,15 @@ class SpawnedRobot:
 
 
 @contextmanager
-def connect(
-    link: str, make_robot: RobotFactory, run: str, answer_s: float
-) -> Iterator[RobotClient]:
+def connect(link: str, factory: RobotFactory, run: str, answer_s: float) -> Iterator[RobotClient]:
     """Yield a robot that plays trial after trial; ends its process, if it has one.
 
-    It is in this process (``link`` is ``"inprocess"``), made by ``make_robot``, or in a process of
+    It is in this process (``link`` is ``"inprocess"``), made by ``factory``, or in a process of
     its own, in the process group of this one, with ``answer_s`` seconds for an answer
     (``"zenoh"``). Raises RobotLost when that does not start.
     """
     if link == "inprocess":
-        yield InProcessRobot(make_robot)
+        yield InProcessRobot(factory)
         return
     with spawned_robot(run, answer_s, group=os.getpgrp()) as robot:
         robot.start()

@@ -13,7 +13,6 @@ from testbed.protocol import (
     Explanation,
     FineTrace,
     LinkError,
-    Message,
     Percept,
     Question,
     Task,
@@ -21,6 +20,7 @@ from testbed.protocol import (
     decode,
     encode,
 )
+from testbed.protocol.messages import Message
 from tests.link.scripted import percept
 
 pytestmark = pytest.mark.versions

@@ -12,7 +12,6 @@ import zenoh
 
 from testbed.link import (
     RemoteRobot,
-    RobotProcess,
     SpawnedRobot,
     endpoint,
     keys,
@@ -20,6 +19,7 @@ from testbed.link import (
     open_robot,
     spawned_robot,
 )
+from testbed.link.process import RobotProcess
 from testbed.protocol import Decision, RobotLost, decode
 from tests.link.scripted import COMMAND, PATIENCE_S, percept, task
 
