@@ -4,14 +4,13 @@ It searches the compiled world within a budget of states, and shares no line wit
 planners: by uniform cost at first, then A* with a heuristic that is consistent in every domain.
 """
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from functools import lru_cache
 from heapq import heapify, heappop, heappush
 from itertools import count
 
 from asp.language import (
     Action,
-    Description,
     Fluent,
     Literal,
     Signature,
@@ -131,19 +130,16 @@ def _potentials(world: World) -> Potentials:
 class Narrowing:
     """Leaves out the constants of a large domain that no plan needs."""
 
-    def __init__(
-        self, description: Description, source: syntax.Source, signature: Signature
-    ) -> None:
-        self._name, self._source, self._signature = description.name, source, signature
+    def __init__(self, source: syntax.Source, signature: Signature, name: str) -> None:
+        self._source, self._signature, self._name = source, signature, name
         self._relevance = Relevance(without_exogenous(source, signature), signature)
         self._world = lru_cache(maxsize=64)(self._without)
 
-    def problem(self, state: Collection[Fluent], goal: Iterable[Literal]) -> Problem:
+    def problem(self, state: Collection[Fluent], goal: Goal) -> Problem:
         """The narrowed world, and in it the state with these true atoms, and the goal."""
-        wanted = tuple(goal)
-        world = self._world(self._relevance.spare(state, wanted))
+        world = self._world(self._relevance.spare(state, goal))
         known = frozenset(world.fluents)
-        left = tuple(literal for literal in wanted if literal.atom in known)
+        left = tuple(literal for literal in goal if literal.atom in known)
         return world, world.state(a for a in state if a in known), left
 
     def _without(self, dropped: frozenset[str]) -> World:

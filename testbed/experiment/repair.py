@@ -61,8 +61,7 @@ def _faults(path: Path, planned: Mapping[str, TrialSpec]) -> dict[int, str | Non
     for trial, by_line in results.items():
         first, *others = by_line
         if len({*by_line.values()}) > 1:
-            different = f"trial {trial} has lines with different results"
-            faults |= dict.fromkeys(by_line, different)
+            faults |= dict.fromkeys(by_line, f"trial {trial} has lines with different results")
         else:
             faults |= dict.fromkeys(others, f"trial {trial} is at line {first}, too")
     return faults

@@ -201,7 +201,7 @@ class FineTrialSetup(TrialSetup):
         self._refinement, self._source = refinement, coarse.text
         self._fine = world_of(refinement)
         self._exogenous = self._fine.exogenous_actions
-        narrowing = Narrowing(description, coarse, refinement.coarse_signature)
+        narrowing = Narrowing(coarse, refinement.coarse_signature, description.name)
         self.judge = Judge(
             lambda state, goal: narrowing.problem(self._coarse_atoms(state), goal), self.costs
         )

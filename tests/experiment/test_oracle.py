@@ -121,7 +121,7 @@ def test_no_shorter_sequence_of_actions_does_it(office: World) -> None:
 def test_a_narrowed_domain_has_the_same_least(patterns: list[str]) -> None:
     source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
     description = ground_description(source, signature, "level")
-    world, narrowing = world_of(description), Narrowing(description, source, signature)
+    world, narrowing = world_of(description), Narrowing(source, signature, description.name)
     draw = RandomGoal(world, parsed(patterns), description.sorts)
     random = np.random.default_rng(1)
     states = world.initial_states()
@@ -137,7 +137,7 @@ def test_a_narrowed_domain_has_the_same_least(patterns: list[str]) -> None:
 def test_a_narrowed_domain_says_what_is_out_of_reach() -> None:
     source, signature = analyse(level_text(3, 1, 1, ((3, 1),))[0])
     description = ground_description(source, signature, "level")
-    narrowing = Narrowing(description, source, signature)
+    narrowing = Narrowing(source, signature, description.name)
     start = parsed(f"loc({thing},room1)" for thing in ("rob1", "object1", "object2", "object3"))
     impossible = parsed(["in_hand(rob1,object1)", "loc(rob1,room1)", "loc(object1,room2)"])
     assert minimal_actions(*narrowing.problem(start, impossible)) is None
