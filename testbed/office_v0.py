@@ -26,9 +26,6 @@ Config: TypeAlias = str | PathLike[str] | ExperimentConfig | None
 level `levels`."""
 
 
-PARAMETERS = ("config", "render_mode", "max_cycles", "level")
-
-
 @lists_keys
 def env(config: Config = None, render_mode: str | None = None, **options: Any) -> OrderedView:
     """The AEC environment, wrapped: what is called out of order raises, too.
@@ -99,9 +96,9 @@ def _read(config: Config, level: str | None, overrides: dict[str, Any]) -> Exper
     known = ExperimentConfig.model_fields.keys()
     unknown = [name for name in overrides if name.partition(".")[0] not in known]
     if unknown:
-        nearest = {name: suggestion(name, [*PARAMETERS, *known]) for name in unknown}
-        lines = [f"keyword argument: {name}: unknown key; {n}" for name, n in nearest.items()]
-        raise ConfigError(lines)
+        choices = ("config", "render_mode", "max_cycles", "level", *known)
+        lines = [f"{name}: unknown key; {suggestion(name, choices)}" for name in unknown]
+        raise ConfigError([f"keyword argument: {line}" for line in lines])
     chosen = overrides if level is None else {**overrides, "levels": [level]}
     changes = [f"{key}={json.dumps(value)}" for key, value in chosen.items()]
     packaged = "office" if level is None else "levels"

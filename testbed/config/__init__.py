@@ -10,7 +10,6 @@ from testbed.config.levels import (
 )
 from testbed.config.loading import config_names, find_config, lists_keys, load_config
 from testbed.config.models import (
-    JUDGE_STATES,
     TRIGGERS,
     AdversarySettings,
     ExperimentConfig,
@@ -23,7 +22,6 @@ from testbed.config.places import ConfigError, Finding, dotted
 from testbed.config.scenarios import early_script_findings
 
 __all__ = [
-    "JUDGE_STATES",
     "SCENARIO_KEYS",
     "TRIGGERS",
     "AdversarySettings",

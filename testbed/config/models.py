@@ -28,8 +28,6 @@ from testbed.protocol import Knowledge
 
 LinkKind = Literal["zenoh", "inprocess"]
 ScriptPolicy = Literal["error", "skip"]
-JUDGE_STATES = 5_000
-"""States that are looked at for the least that achieves a goal, unless given."""
 FINE_STEPS = 5000
 """Environment steps of a trial at the fine resolution, unless given."""
 TRIGGERS = "triggers"
@@ -87,7 +85,7 @@ class Limits(Section):
     ground_rules: Count | None = 1_000_000
     expansions: Count | None = 1_000_000
     decision_s: Seconds | None = 30.0
-    judge_states: Count = JUDGE_STATES
+    judge_states: Count = 5_000
 
 
 class AdversarySettings(Section):

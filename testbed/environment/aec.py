@@ -7,7 +7,6 @@ from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from asp.language import Action
-from testbed.environment.core import Core
 from testbed.environment.observation import Observation, View, infos, observe
 from testbed.environment.rules import (
     ADVERSARY,
@@ -44,9 +43,8 @@ class AECView(View, AECEnv[str, Observation, int | None]):
     and raises UnknownOptionError for others. Before it, what needs a game raises NotResetError.
     """
 
-    def __init__(self, core: Core, render_mode: str | None = None) -> None:
-        super().__init__(core, render_mode)
-        self._chosen: Action | None = None
+    _chosen: Action | None = None
+    """The robot's answer, until the adversary has given its own."""
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
         self._begin(seed, options)

@@ -158,6 +158,8 @@ class Core:
         state = self._draw(self.world.successors(now.state, compound))
         played = Played(
             execution=execution,
+            rules=self.rules.observability,
+            random=self._random,
             before=now,
             effective=effective,
             event=None if event == NONE else event,
@@ -165,7 +167,7 @@ class Core:
             possible=self.legal_events(robot_action).allows,
         )
         sensed = execution.sensed(robot_action, state, self._random) if happened else ()
-        news = (*now.pending, *played.reports(self.rules.observability, self._random))
+        news = (*now.pending, *played.reports())
         self._situation = Situation(
             trial=now.trial,
             step=now.step + 1,

@@ -39,9 +39,8 @@ class Execution:
         _check(self.statistics, {*(action.name for action in self.actions), *self._tests})
         if self.sensing:
             self.actions += self.sensing.actions
-        names = self.coarse or ()
-        are_coarse = enumerate(fluent.name in names for fluent in self.world.fluents)
-        self._coarse = sum(is_coarse << number for number, is_coarse in are_coarse)
+        names, fluents = self.coarse or (), enumerate(self.world.fluents)
+        self._coarse = sum(1 << number for number, fluent in fluents if fluent.name in names)
 
     def possible(self, state: int, action: Action) -> bool:
         """Whether the robot attempts something, and what can come to anything in the state."""
@@ -66,13 +65,10 @@ class Execution:
         if not self.sensing or self.physical(action):
             return ()
         fluent = self.sensing.fluent(action)
-        right = 1.0
-        if self.robot not in fluent.arguments:
-            right = self.statistics.get(action.name, 1.0)
-        holds = self.world.holds(after, fluent)
-        if right < 1 and random.random() >= right:
-            holds = not holds
-        return (fluent if holds else fluent.complement,)
+        certain = self.robot in fluent.arguments
+        right = 1.0 if certain else self.statistics.get(action.name, 1.0)
+        wrong = right < 1 and random.random() >= right
+        return (fluent if self.world.holds(after, fluent) != wrong else fluent.complement,)
 
     def visible(self, state: int) -> tuple[Literal, ...]:
         """The literals that the robot sees whatever it does."""
@@ -110,33 +106,31 @@ def _check(statistics: Statistics, names: Collection[str]) -> None:
 class Played:
     """A step as it was played: the robot's part of the compound action, and the event, if any.
 
-    `possible` says whether an event might have been instead.
+    `possible` says whether an event might have been instead; by `rules` and `random` the robot is
+    told of events.
     """
 
     execution: Execution
+    rules: Mapping[str, Observability]
+    random: np.random.Generator
     before: Situation
     effective: tuple[Action, ...]
     event: Action | None
     after: int
     possible: Callable[[Action], bool]
 
-    def reports(
-        self, rules: Mapping[str, Observability], random: np.random.Generator
-    ) -> Iterator[tuple[int, Event]]:
+    def reports(self) -> Iterator[tuple[int, Event]]:
         """What the robot is told of the step, truly and falsely, each with the step at which."""
-        told = [self.event] if self.event and self._is_told(self.event, rules, random) else []
-        for action in (*told, *self._false_reports(rules, random)):
-            late = rules[action.name].delay
-            step = self.before.step
+        told = [self.event] if self.event and self._is_told(self.event) else []
+        for action in (*told, *self._false_reports()):
+            step, late = self.before.step, self.rules[action.name].delay
             yield step + 1 + late, Event(step=step, action=action)
 
-    def _is_told(
-        self, event: Action, rules: Mapping[str, Observability], random: np.random.Generator
-    ) -> bool:
-        how = rules.get(event.name, Observability())
+    def _is_told(self, event: Action) -> bool:
+        how = self.rules.get(event.name, Observability())
         if how.mode == "never" or (how.mode == "colocated" and not self._witnessed()):
             return False
-        return bool(random.random() < how.probability)
+        return bool(self.random.random() < how.probability)
 
     def _witnessed(self) -> bool:
         """Whether the robot can tell, before or after, what is as it is because of the event."""
@@ -145,12 +139,10 @@ class Played:
         changed = frozenset(world.true_atoms(self.after ^ (*alone, before)[0]))
         return any(self.execution.notices(state, changed) for state in (before, self.after))
 
-    def _false_reports(
-        self, rules: Mapping[str, Observability], random: np.random.Generator
-    ) -> Iterator[Action]:
-        for name, how in rules.items():
-            if how.false_reports > 0.0 and random.random() < how.false_reports:
+    def _false_reports(self) -> Iterator[Action]:
+        for name, how in self.rules.items():
+            if how.false_reports > 0.0 and self.random.random() < how.false_reports:
                 events = self.execution.world.exogenous_actions
                 others = [e for e in events if e.name == name and e != self.event]
-                drawn = (others[int(number)] for number in random.permutation(len(others)))
+                drawn = (others[int(number)] for number in self.random.permutation(len(others)))
                 yield from islice(filter(self.possible, drawn), 1)

@@ -11,7 +11,7 @@ import msgspec
 
 from asp.domains.levels import LevelSize
 from asp.language import Action, Literal
-from testbed.config import JUDGE_STATES, TRIGGERS, ExperimentConfig, ScriptEntry
+from testbed.config import TRIGGERS, ExperimentConfig, Limits, ScriptEntry
 from testbed.environment import Observability, Pace
 from testbed.experiment.seeds import playing_order, short_hash, trial_seed
 from testbed.protocol import Knowledge
@@ -59,7 +59,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     fine: FineSetting | None = None
     strategy: str | None = None
     options: dict[str, Any] | None = None
-    judge_states: int = JUDGE_STATES
+    judge_states: int = Limits().judge_states
     script_at_actions: tuple[tuple[int, Action], ...] = ()
     script_skips: bool = False
 

@@ -2,16 +2,6 @@
 
 from testbed.environment.rendering.modes import MODES, draw_text, html_of, render
 from testbed.environment.rendering.picture import Image, draw_picture
-from testbed.environment.rendering.scene import Place, Scene, scene
+from testbed.environment.rendering.scene import Scene, scene
 
-__all__ = [
-    "MODES",
-    "Image",
-    "Place",
-    "Scene",
-    "draw_picture",
-    "draw_text",
-    "html_of",
-    "render",
-    "scene",
-]
+__all__ = ["MODES", "Image", "Scene", "draw_picture", "draw_text", "html_of", "render", "scene"]
