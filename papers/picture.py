@@ -10,7 +10,7 @@ from markupsafe import Markup
 from testbed.analysis import load_run
 from testbed.experiment.errors import StoreError
 from testbed.report.figures import Panel, drawn
-from testbed.report.rendering import environment
+from testbed.report.page import environment
 from testbed.studies import Key, Section, results_of
 
 COLUMNS = 4

@@ -4,8 +4,8 @@ from statistics import fmean
 
 from papers.table1 import evidence
 from papers.text import percent, render
-from testbed.studies.table1.classify import UNCLASSIFIED
 from testbed.studies.table1.measures import Analysis
+from testbed.studies.table1.pairs import UNCLASSIFIED
 from testbed.studies.table1.published import ALL, PUBLISHED, SCENARIOS
 
 

@@ -8,7 +8,7 @@ import pytest
 from testbed.analysis.comparison import COUNTS, MEASURES
 from testbed.experiment.record import Outcome, TrialRecord
 from testbed.report.comparison import groups_of, optima
-from testbed.report.rendering import environment
+from testbed.report.page import environment
 from tests.experiment.samples import a_record, summary_of
 
 

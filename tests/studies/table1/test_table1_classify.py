@@ -5,13 +5,14 @@ from functools import lru_cache
 import pytest
 
 from asp.language import Literal
+from testbed.analysis.comparison import NOTHING_TO_DO
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Activity, At, Attempt, Occurrence, TrialRecord
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
-from testbed.studies.table1.classify import NOTHING_TO_DO, UNCLASSIFIED, classify, state_at
+from testbed.studies.table1.pairs import UNCLASSIFIED, classify, state_at
 from testbed.world import load_world
 from tests.experiment.samples import a_record
 from tests.literals import parsed
