@@ -7,7 +7,7 @@ from papers.table1 import evidence
 from papers.table1.pairs import Pair
 from papers.table1.runs import Run
 from papers.text import percent, render
-from testbed.analysis.comparison import NO_EVENT, NOTHING_TO_DO
+from testbed.analysis.comparison import Apart
 from testbed.studies.table1.measures import RANDOM, Row
 from testbed.studies.table1.published import MEASURES, PUBLISHED
 from testbed.studies.table1.tables import HEADINGS
@@ -84,8 +84,8 @@ def _achieved(run: Run) -> Iterator[tuple[str, ...]]:
 
 def _reasons(run: Run) -> dict[str, str]:
     """Why pairs are in no row, by the baseline's trial: no event, or nothing to do."""
-    own = run.pairs[run.minds[0]]
-    return {p.baseline.trial: p.apart for p in own if p.apart in (NO_EVENT, NOTHING_TO_DO)}
+    own, told = run.pairs[run.minds[0]], (Apart.WITHOUT_EVENT, Apart.NOTHING_TO_DO)
+    return {pair.baseline.trial: pair.apart for pair in own if pair.apart in told}
 
 
 def _place(pair: Pair) -> str:

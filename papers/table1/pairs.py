@@ -7,7 +7,7 @@ from typing import Any
 import polars as pl
 
 from asp.language import Action, Literal
-from testbed.analysis.comparison import DIVIDED, Apart
+from testbed.analysis.comparison import DIVIDED
 from testbed.analysis.pairs import OTHER
 from testbed.studies.table1.measures import LEFT_OUT
 from testbed.studies.table1.pairs import Meeting, meeting
@@ -44,7 +44,7 @@ class Pair:
     treatment: Side
     baseline: Side
     state: str
-    apart: Apart | None = None
+    apart: str | None = None
 
     @property
     def played(self) -> bool:

@@ -1,7 +1,8 @@
 """Two robots of a run compared: which pairs count, their accuracy, ratios and tests."""
 
 from collections.abc import Collection, Mapping
-from typing import Any, Literal, TypeAlias
+from enum import StrEnum
+from typing import Any
 
 import polars as pl
 
@@ -10,26 +11,21 @@ from testbed.config import ExperimentConfig
 from testbed.experiment.record import FAILURES
 from testbed.world import load_world
 
-Apart: TypeAlias = Literal[
-    "incomplete", "lost", "deadline", "unsolvable", "nothing to do", "no event"
-]
-LOST: Apart = "lost"
-DEADLINE: Apart = "deadline"
-UNSOLVABLE: Apart = "unsolvable"
-NOTHING_TO_DO: Apart = "nothing to do"
-NO_EVENT: Apart = "no event"
-COUNTS: Mapping[Apart, str] = {
-    "incomplete": "incomplete",
-    LOST: "failed_pairs",
-    DEADLINE: "deadline",
-    UNSOLVABLE: "unsolvable",
-    NOTHING_TO_DO: "nothing_to_do",
-    NO_EVENT: "without_event",
-}
+
+class Apart(StrEnum):
+    """Why a pair is not compared; in `summary.json` such pairs are counted under the names."""
+
+    INCOMPLETE = "incomplete"
+    FAILED_PAIRS = "lost"
+    DEADLINE = "deadline"
+    UNSOLVABLE = "unsolvable"
+    NOTHING_TO_DO = "nothing to do"
+    WITHOUT_EVENT = "no event"
+
+
+COUNTS: Mapping[Apart, str] = {reason: reason.name.lower() for reason in Apart}
 """The keys under which pairs are counted apart."""
 ACCURACY = "accuracy"
-CERTAIN = 1.0
-NOBODY = ""
 
 MEASURES: Mapping[str, pl.Expr] = {
     "total_time": pl.col("planning_cpu_s") + pl.col("execution_units"),
@@ -52,9 +48,9 @@ LEAST: Mapping[str, str] = {"execution_units": "minimal_units", "actions": "mini
 
 
 def compared(config: ExperimentConfig) -> tuple[Compared, ...]:
-    """The comparisons of a configuration, the main one first; of a single robot one with none."""
+    """The comparisons of a configuration, the main one first; of a single robot one with ""."""
     asked = tuple(Compared(*robots) for robots in config.comparisons)
-    return asked or (Compared(NOBODY, config.robots[0]),)
+    return asked or (Compared("", config.robots[0]),)
 
 
 def measured(trials: pl.DataFrame) -> pl.DataFrame:
@@ -102,7 +98,7 @@ def eventful(config: ExperimentConfig) -> frozenset[str]:
     if config.is_fine:
         return frozenset()
     triggers = load_world(config.domain).description.triggers
-    certain = {trigger.scenario for trigger in triggers if trigger.probability == CERTAIN}
+    certain = {trigger.scenario for trigger in triggers if trigger.probability == 1.0}
     sure: set[str] = certain if config.plays_triggers else set()
     scripts = {name: config.settings(name).script for name in config.scenarios}
     return frozenset(
@@ -126,12 +122,12 @@ def with_apart(trials: pl.DataFrame, robots: Compared, sure: Collection[str]) ->
         return pl.when(judge.any()).then((pl.col(name) & judge).any()).otherwise(pl.col(name).all())
 
     reasons = {
-        "incomplete": own.sum() < len(needed),
-        LOST: (pl.col("lost") & own).any(),
-        DEADLINE: (pl.col("late") & own).any(),
-        UNSOLVABLE: (~pl.col("solvable") & own).any(),
-        NOTHING_TO_DO: judged("idle"),
-        NO_EVENT: judged("quiet") & pl.col("scenario").first().is_in(list(sure)),
+        Apart.INCOMPLETE: own.sum() < len(needed),
+        Apart.FAILED_PAIRS: (pl.col("lost") & own).any(),
+        Apart.DEADLINE: (pl.col("late") & own).any(),
+        Apart.UNSOLVABLE: (~pl.col("solvable") & own).any(),
+        Apart.NOTHING_TO_DO: judged("idle"),
+        Apart.WITHOUT_EVENT: judged("quiet") & pl.col("scenario").first().is_in(list(sure)),
     }
     told = [pl.when(holds).then(pl.lit(reason)) for reason, holds in reasons.items()]
     pairs = trials.group_by("pair").agg(apart=pl.coalesce(*told, pl.lit(None, pl.String)))

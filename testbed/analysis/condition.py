@@ -17,7 +17,7 @@ def condition(config: ExperimentConfig) -> str:
     """One line: observability, feedback, adversary, knowledge, limits and statistics."""
     parts = [
         _observability(config),
-        _of_scenarios(config, _feedback),
+        _of_scenarios(config, lambda own: f"{'' if own.goal_feedback else 'no '}goal feedback"),
         _of_scenarios(config, lambda own: _adversary(config, own)),
         f"{config.knowledge} knowledge of the initial state",
         "limits: " + ", ".join(_limit(key, value) for key, value in _limits(config).items()),
@@ -38,6 +38,8 @@ def deviations(config: ExperimentConfig, published: ExperimentConfig) -> tuple[s
 
 
 def _rules(config: ExperimentConfig, robots: Collection[str]) -> Mapping[str, object]:
+    adversary = config.adversary
+    strategy = adversary.strategy or ("random" if config.is_fine else "triggers")
     played = [config.settings(name) for name in config.scenarios] or [config.settings("")]
     return {
         "domain": (read_domain(config.domain)[1], config.refinement),
@@ -47,25 +49,14 @@ def _rules(config: ExperimentConfig, robots: Collection[str]) -> Mapping[str, ob
         "observability": {n: o for n, o in config.observability.items() if o != UNSEEN},
         "goal feedback": {own.goal_feedback for own in played},
         "knowledge": config.knowledge,
-        "adversary": ({_script(own) for own in played}, _events(config)),
+        "adversary": (
+            {(own.script, own.exogenous_while_thinking) for own in played},
+            adversary.model_copy(update={"strategy": strategy}),
+        ),
         "limits": _limits(config),
         "statistics": config.statistics,
         "draw": config.draw if config.is_fine else None,
     }
-
-
-def _script(own: ScenarioSettings) -> object:
-    return own.script, own.exogenous_while_thinking
-
-
-def _events(config: ExperimentConfig) -> object:
-    own = config.adversary
-    return (
-        own.strategy or ("random" if config.is_fine else "triggers"),
-        own.rate,
-        own.options,
-        own.pace,
-    )
 
 
 def _limits(config: ExperimentConfig) -> dict[str, object]:
@@ -89,10 +80,6 @@ def _observability(config: ExperimentConfig) -> str:
 def _news(own: Observability) -> str:
     given = own.model_dump(exclude_defaults=True)
     return ", ".join([own.mode, *(f"{in_words(k)} {v}" for k, v in given.items() if k != "mode")])
-
-
-def _feedback(own: ScenarioSettings) -> str:
-    return "goal feedback" if own.goal_feedback else "no goal feedback"
 
 
 def _adversary(config: ExperimentConfig, own: ScenarioSettings) -> str:

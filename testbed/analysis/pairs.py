@@ -5,24 +5,14 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import polars as pl
 
-from testbed.analysis.bootstrap import (
-    Estimate,
-    Observations,
-    Values,
-    bootstrap,
-    means,
-    medians,
-    proportion,
-    sample_of,
-)
+from testbed.analysis.bootstrap import Estimate, bootstrap, means, medians, proportion, sample_of
 from testbed.analysis.statistics import Test, holm, mcnemar, signed_rank
 
 Found = TypeVar("Found")
-Condition: TypeAlias = str | pl.Expr
 OTHER = " of the treatment"
 """The end of a column's name in `pairs_of` that is of the treatment's trial."""
 
@@ -73,7 +63,7 @@ class Sample:
     cluster: str | None = "state"
     weight: str | None = None
 
-    def where(self, *holds: Condition) -> Sample:
+    def where(self, *holds: str | pl.Expr) -> Sample:
         """The pairs for which this holds."""
         return dataclasses.replace(self, pairs=self.pairs.filter(*holds))
 
@@ -87,19 +77,20 @@ class Sample:
         """The pairs of which it is known of both trials if they were correct."""
         return self.where(*(pl.col("correct" + who).is_not_null() for who in ("", OTHER)))
 
-    def mean(self, value: Condition) -> Estimate | None:
+    def mean(self, value: pl.Expr) -> Estimate | None:
         """The mean of a value of pairs; None of none."""
-        return bootstrap(means, self._sample(value))
+        return bootstrap(means, sample_of(self._values(value), **self._labels))
 
-    def share(self, holds: Condition) -> Estimate | None:
-        """The share of the pairs for which this holds; None of none."""
-        return proportion(self._sample(holds))
+    def share(self, holds: str) -> Estimate | None:
+        """The share of the pairs, of which it is known, for which this holds; None of none."""
+        known = self.where(pl.col(holds).is_not_null())
+        return proportion(sample_of(known.pairs[holds], **known._labels))
 
     def ratio(self, name: str) -> Ratio:
         """A measure of the baseline divided by the treatment's."""
         above, below = pl.col(name), pl.col(name + OTHER)
         known = self.where(below != 0)
-        quotients = known._sample(above / below)
+        quotients = sample_of(known._values(above / below), **known._labels)
         weight = pl.lit(1.0) if self.weight is None else pl.col(self.weight)
         sums = self.pairs.select(a=(weight * above).sum(), b=(weight * below).sum()).row(0)
         return Ratio(
@@ -119,12 +110,8 @@ class Sample:
         own, base = (self.pairs[who].to_numpy() for who in (name + OTHER, name))
         return mcnemar(own, base, **self._labels)
 
-    def _values(self, value: Condition) -> Values:
-        own = pl.col(value) if isinstance(value, str) else value
-        return self.pairs.select(value=own.cast(pl.Float64))["value"].to_numpy()
-
-    def _sample(self, value: Condition) -> Observations:
-        return sample_of(self._values(value), **self._labels)
+    def _values(self, value: pl.Expr) -> Any:
+        return self.pairs.select(value.cast(pl.Float64)).to_series().to_numpy()
 
     @property
     def _labels(self) -> dict[str, Any]:

@@ -7,16 +7,15 @@ from typing import Any
 import polars as pl
 
 from testbed.analysis.bootstrap import Estimate
-from testbed.analysis.comparison import LEAST as MINIMAL
-from testbed.analysis.comparison import MEASURES
+from testbed.analysis.comparison import LEAST, MEASURES
 from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
 from testbed.experiment.record import COARSE
 from testbed.experiment.timeline import in_words
-from testbed.studies import Chart, Colour, Series, points
+from testbed.studies import Chart, Point, Series, points
 from testbed.text import number
 
-OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in MINIMAL))
-LEAST = 2
+OPTIMUM = ("robot", "trials", *(in_words(measure) for measure in LEAST))
+ENOUGH = 2
 """Pairs from which on an interval says something."""
 
 
@@ -35,7 +34,7 @@ def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
     levels = [name for name in summary["levels"] if name != COARSE]
     groups = summary["levels" if levels else "scenarios"].items()
     return [
-        (name, robot, str(own["trials"]), *(number(own[measure]) for measure in MINIMAL))
+        (name, robot, str(own["trials"]), *(number(own[measure]) for measure in LEAST))
         for name, group in groups
         for robot, own in sorted(group["optimum"].items())
         if own["trials"]
@@ -53,37 +52,26 @@ def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
     groups = {
         str(name): Sample(own)
         for (name,), own in pairs.partition_by("place", as_dict=True).items()
-        if len(own) >= LEAST
+        if len(own) >= ENOUGH
     }
     if not groups:
         return []
 
-    def series(
-        label: str, colour: Colour, estimate: Callable[[Sample], Estimate | None], marker: str = "o"
-    ) -> Series:
-        drawn = points((name, estimate(own)) for name, own in groups.items())
-        return Series(label, colour, drawn, marker)
+    def drawn(estimate: Callable[[Sample], Estimate | None]) -> tuple[Point, ...]:
+        return points((name, estimate(own)) for name, own in groups.items())
 
     shares = [
-        series(robots.treatment, "first", partial(_share, "correct" + OTHER)),
-        series(robots.baseline, "second", partial(_share, "correct"), "s"),
+        Series(robots.treatment, "first", drawn(lambda own: own.share("correct" + OTHER))),
+        Series(robots.baseline, "second", drawn(lambda own: own.share("correct")), "s"),
     ]
+    ratios = {name: Series("ratio", "first", drawn(partial(_mean, name))) for name in MEASURES}
     return [
         Chart("compared-correct", "correct", list(groups), shares, "shares"),
         *(
-            Chart(
-                f"compared-{name}",
-                f"{in_words(name)}, ratio",
-                list(groups),
-                [series("ratio", "first", partial(_mean, name))],
-            )
-            for name in MEASURES
+            Chart(f"compared-{name}", f"{in_words(name)}, ratio", list(groups), [own])
+            for name, own in ratios.items()
         ),
     ]
-
-
-def _share(correct: str, sample: Sample) -> Estimate | None:
-    return sample.where(pl.col(correct).is_not_null()).share(correct)
 
 
 def _mean(measure: str, sample: Sample) -> Estimate | None:

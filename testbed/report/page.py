@@ -24,8 +24,8 @@ from testbed.report.comparison import OPTIMUM, charts, groups_of, optima
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Chart, Results, Section, grid, left_out, results_of
-from testbed.text.grid import Grid
 from testbed.text import chance, counted, number, plain
+from testbed.text.grid import Grid
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 import polars as pl
 
-from testbed.analysis.comparison import DEADLINE, NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.analysis.comparison import Apart
 from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome
 from testbed.experiment.timeline import exception, in_words, of_place, place
 from testbed.text import counted
@@ -26,6 +26,8 @@ COLUMNS = (
 AT_LEVELS = {"scenario": "level", "planning": "coarse planning"}
 MEANS = ("plans", "action_count", "execution_units")
 MOST_COMMON = 3
+TOLD_APART = [Apart.NOTHING_TO_DO, Apart.WITHOUT_EVENT, Apart.DEADLINE]
+"""Why trials have rows of their own."""
 UNJUDGED = "the fewest actions are not known: more than limits.judge_states states"
 
 
@@ -40,7 +42,7 @@ class Row:
 
     scenario: str
     level: str
-    apart: Apart | None
+    apart: str | None
     robot: str
     trials: int
     lost: int
@@ -82,8 +84,8 @@ class Row:
         return tuple(f"{whose}: {reason} in {n} of {self.trials} trials" for reason, n in reasons)
 
     def _named(self, where: str) -> str:
-        if self.apart == NOTHING_TO_DO:
-            return NOTHING_TO_DO
+        if self.apart == Apart.NOTHING_TO_DO:
+            return Apart.NOTHING_TO_DO
         return where if self.apart is None else f"{where}, {self.apart}"
 
     def _achieved(self) -> str:
@@ -128,11 +130,11 @@ def rows_of(trials: pl.DataFrame) -> list[Row]:
     how they ended.
     """
     failure, own = pl.col("outcome").is_in(FAILURES), pl.col("cause").eq_missing("robot")
-    lost, told_apart = failure & ~own, pl.col("apart").is_in([NOTHING_TO_DO, NO_EVENT, DEADLINE])
+    lost, told_apart = (failure & ~own, pl.col("apart").is_in(TOLD_APART))
     unjudged = pl.when(pl.col("minimal_reason") == "budget").then(pl.lit(UNJUDGED))
     groups = trials.with_columns(
         apart=pl.when(told_apart).then("apart"),
-        scenario=pl.when(pl.col("apart").eq_missing(NOTHING_TO_DO))
+        scenario=pl.when(pl.col("apart").eq_missing(Apart.NOTHING_TO_DO))
         .then(pl.lit(""))
         .otherwise("scenario"),
         reasons=pl.concat_list("reason", unjudged),
@@ -153,7 +155,7 @@ def rows_of(trials: pl.DataFrame) -> list[Row]:
 
     def order(row: Row) -> tuple[bool, int, str, str]:
         where = places[row.scenario, row.level]
-        return row.apart == NOTHING_TO_DO, where, row.apart or "", row.robot
+        return row.apart == Apart.NOTHING_TO_DO, where, row.apart or "", row.robot
 
     return sorted(known, key=order)
 

@@ -7,7 +7,7 @@ import msgspec
 import polars as pl
 import pytest
 
-from testbed.analysis.comparison import NO_EVENT, NOTHING_TO_DO, Apart
+from testbed.analysis.comparison import Apart
 from testbed.analysis.table import table_of
 from testbed.experiment.record import At, Explained, Occurrence, TrialRecord
 from testbed.report.tables import COLUMNS, Row, explained, rows_of
@@ -146,9 +146,9 @@ def test_pairs_that_are_not_compared_have_rows_of_their_own() -> None:
         *_pair(5, {"scenario": "4"}, {"scenario": "4", "outcome": "error", "cause": "robot"}),
     ]
     apart: dict[str, Apart] = {
-        "pair 1": NO_EVENT,
-        "pair 2": NOTHING_TO_DO,
-        "pair 4": NOTHING_TO_DO,
+        "pair 1": Apart.WITHOUT_EVENT,
+        "pair 2": Apart.NOTHING_TO_DO,
+        "pair 4": Apart.NOTHING_TO_DO,
         "pair 5": "lost",
     }
     rows = _rows(records, apart)
@@ -163,7 +163,7 @@ def test_pairs_that_are_not_compared_have_rows_of_their_own() -> None:
 
 def test_a_note_says_where_its_pairs_are() -> None:
     records = [a_record(name, reason="why", pair=name) for name in "ab"]
-    rows = _rows(records, {"a": NO_EVENT, "b": NOTHING_TO_DO})
+    rows = _rows(records, {"a": Apart.WITHOUT_EVENT, "b": Apart.NOTHING_TO_DO})
     assert [note for row in rows for note in row.notes()] == [
         "scenario 1, no event, intentional: why",
         "nothing to do, intentional: why",

@@ -178,8 +178,7 @@ def _spread(values: pl.Series) -> Spread | None:
 
 def _shares(robots: Trials, holds: str) -> dict[str, Estimate]:
     """Of the trials of which it is known."""
-    known = ((robot, own.drop_nulls(holds)) for robot, own in robots.items())
-    shares = {robot: Sample(own, cluster=None).share(holds) for robot, own in known}
+    shares = {robot: Sample(own, cluster=None).share(holds) for robot, own in robots.items()}
     return {robot: share for robot, share in shares.items() if share is not None}
 
 

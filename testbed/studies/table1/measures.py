@@ -11,16 +11,7 @@ import polars as pl
 
 from testbed.analysis import Run
 from testbed.analysis.bootstrap import Estimate
-from testbed.analysis.comparison import (
-    DEADLINE,
-    LOST,
-    NO_EVENT,
-    NOTHING_TO_DO,
-    TIMES,
-    UNSOLVABLE,
-    eventful,
-    optimum,
-)
+from testbed.analysis.comparison import TIMES, Apart, eventful, optimum
 from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, corrected
 from testbed.analysis.statistics import Test
 from testbed.config import ExperimentConfig
@@ -39,7 +30,11 @@ from testbed.world import load_world
 
 RANDOM = "random"
 EACH = dict.fromkeys(("triggered", "random"), PUBLISHED)
-LEFT_OUT = {"failed": LOST, "deadline": DEADLINE, "unsolvable": UNSOLVABLE}
+LEFT_OUT = {
+    "failed": Apart.FAILED_PAIRS,
+    "deadline": Apart.DEADLINE,
+    "unsolvable": Apart.UNSOLVABLE,
+}
 """Why pairs of a scenario do not count, by the keys of a summary."""
 Optimum: TypeAlias = Mapping[str, float | None]
 """What a robot needed over the least that achieves the goal, by measure; of how many `trials`."""
@@ -138,7 +133,7 @@ def analyse(
 ) -> Analysis:
     """Both tables of `pairs_in`, beside these published rows."""
     # Failures and goals that nothing achieves are told in the row of their scenario.
-    apart = pl.col("apart").is_in([NOTHING_TO_DO, NO_EVENT])
+    apart = pl.col("apart").is_in([Apart.NOTHING_TO_DO, Apart.WITHOUT_EVENT])
     ways = {
         "triggered": pairs.filter(pl.col("scenario") != RANDOM).with_columns(
             row=pl.when(apart).then("apart").otherwise("scenario")
@@ -187,7 +182,7 @@ def _row(name: str, sample: Sample, robots: Compared) -> Row:
     reasons = Counter(sample.pairs["apart"])
     counted = sample.where(~pl.col("apart").is_in(list(LEFT_OUT.values())).fill_null(False))
     pairs, decided, ended = counted.pairs, counted.decided, counted.ended
-    own, base = pl.col("correct" + OTHER), pl.col("correct")
+    own, base = (pl.col(name).cast(pl.Int8) for name in ("correct" + OTHER, "correct"))
     return Row(
         name=name,
         pairs=len(pairs),
@@ -195,10 +190,10 @@ def _row(name: str, sample: Sample, robots: Compared) -> Row:
         out_of_reach=len(pairs.filter(pl.col("out_of_reach") | pl.col("out_of_reach" + OTHER))),
         meetings=dict(sorted(Counter(pairs["meeting"]).items())),
         undecided=len(pairs) - len(decided.pairs),
-        baseline=decided.share(base),
-        treatment=decided.share(own),
+        baseline=decided.share("correct"),
+        treatment=decided.share("correct" + OTHER),
         accuracy=decided.mcnemar("correct"),
-        advantage=decided.mean(own.cast(pl.Int8) - base.cast(pl.Int8)),
+        advantage=decided.mean(own - base),
         ratios={measure: ended.ratio(measure) for measure in MEASURES},
         optimum={
             robots.treatment: optimum(ended.pairs, OTHER, "weight"),

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import polars as pl
 
 from asp.language import Action
-from testbed.analysis.comparison import NOTHING_TO_DO, measured, with_apart
+from testbed.analysis.comparison import Apart, measured, with_apart
 from testbed.analysis.pairs import OTHER, Compared, pairs_of
 from testbed.analysis.table import records_of
 from testbed.experiment.record import Activity, Occurrence, TrialRecord
@@ -90,14 +90,14 @@ def undone(record: TrialRecord, event: Occurrence, world: World) -> bool:
 
 
 def classify(record: TrialRecord, world: World) -> str:
-    """The scenario that a trial came to be: `1` to `6`; `NOTHING_TO_DO`; or that no rule fits.
+    """The scenario that a trial came to be, `1` to `6`; or nothing to do; or that no rule fits.
 
     Read off what the intentional robot did, as in the original experiments: its activities, and
     what it could see when it stopped the first of them. The record is that of a robot with
     activities, at the coarse resolution.
     """
     if record.achieved and not (record.activities or record.actions or record.failed):
-        return NOTHING_TO_DO
+        return Apart.NOTHING_TO_DO
     if not record.activities:
         return UNCLASSIFIED
     first = record.activities[0]

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 import polars as pl
 
 from papers.table1.pairs import Pair, Side
-from testbed.analysis.comparison import DIVIDED, LEAST, Apart
+from testbed.analysis.comparison import DIVIDED, LEAST
 from testbed.analysis.pairs import OTHER, Compared
 from testbed.studies.table1.measures import Analysis, analyse
 from testbed.studies.table1.pairs import TOLD
@@ -39,7 +39,7 @@ def a_pair(
     baseline: Side | None = None,
     intended: str = "random",
     state: str = "s",
-    apart: Apart | None = None,
+    apart: str | None = None,
 ) -> Pair:
     """A pair that came to be a scenario; drawn at random unless another one was intended."""
     sides = treatment or a_side(), baseline or a_side()
@@ -71,7 +71,7 @@ def frame_of(pairs: Iterable[Pair], least: Mapping[str, int | None]) -> pl.DataF
     )
 
 
-def _columns(side: Side, who: str, apart: Apart | None) -> dict[str, object]:
+def _columns(side: Side, who: str, apart: str | None) -> dict[str, object]:
     own = {
         "trial": side.trial,
         "achieved": side.achieved,

@@ -6,7 +6,7 @@ from itertools import count
 import pytest
 
 from papers.table1.pairs import Pair, Side, each
-from testbed.analysis.comparison import DIVIDED, Apart
+from testbed.analysis.comparison import DIVIDED
 from testbed.analysis.comparison import MEASURES as COMPUTED
 from testbed.analysis.table import table_of
 from testbed.experiment.record import Activity, Attempt, Occurrence, TrialRecord
@@ -40,7 +40,7 @@ def _pair(
     treatment: Side,
     baseline: Side,
     happened: str | None = None,
-    apart: Apart | None = None,
+    apart: str | None = None,
 ) -> Pair:
     """A pair from a state of its own."""
     state = f"state {next(NUMBERS)}"

@@ -5,7 +5,7 @@ from functools import lru_cache
 import pytest
 
 from asp.language import Literal
-from testbed.analysis.comparison import NOTHING_TO_DO
+from testbed.analysis.comparison import Apart
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Activity, At, Attempt, Occurrence, TrialRecord
@@ -70,7 +70,7 @@ def _record(
         (_record(1, 3, "exo_move(book2,library)"), "3"),
         (_record(1, 3, "exo_lock(library)"), "6"),
         (_record(1, 3), UNCLASSIFIED),
-        (_record(0, None, activities=[]), NOTHING_TO_DO),
+        (_record(0, None, activities=[]), Apart.NOTHING_TO_DO),
         (_record(0, None, activities=[], achieved=False), UNCLASSIFIED),
         (_record(1, None, activities=[]), UNCLASSIFIED),
     ],
