@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
 
-from testbed.studies import Chart, Point, Series
+from testbed.studies import Chart, Series
 from testbed.text import plain
 
 WIDTH = 3.2
@@ -50,8 +50,6 @@ SETTINGS: Any = {  # matplotlib names every setting that there is in its type
     "lines.linewidth": 1.4,
     "lines.markersize": 4.5,
 }
-_FAMILY = re.compile(r"font-family: [^;\"]+; ?")
-_IDS = re.compile(r' id="([^"]+)"')
 
 
 @dataclass(frozen=True)
@@ -67,7 +65,9 @@ def drawn(chart: Chart) -> Panel:
     """A chart as a figure; seconds over levels, anything else a line a row."""
     with mpl.rc_context(SETTINGS):
         own = _curves(chart) if chart.kind == "seconds" else _forest(chart)
-        return Panel(chart.name, chart.title, _inline(own, chart.name, _told(chart)))
+        labels = ", ".join(series.label for series in chart.series)
+        told = plain(f"{chart.title}: {labels}. The table has the numbers.")
+        return Panel(chart.name, chart.title, _inline(own, chart.name, told))
 
 
 def _forest(chart: Chart) -> Figure:
@@ -79,7 +79,10 @@ def _forest(chart: Chart) -> Figure:
         _dots(axes, own, {row: index + shift for index, row in enumerate(rows)})
     axes.set_yticks(range(len(rows)), list(map(plain, rows)))
     axes.set_ylim(len(rows) - 0.4, -0.6)
-    _bands(axes, len(rows))
+    for edge in range(1, len(rows)):
+        axes.axhline(edge - 0.5, color=LINE, linewidth=0.6, zorder=0)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_visible(False)
     _shares(axes) if chart.kind == "shares" else _ratios(axes, series)
     return figure
 
@@ -134,13 +137,6 @@ def _look(series: Series) -> dict[str, Any]:
     }
 
 
-def _bands(axes: Axes, rows: int) -> None:
-    for edge in range(1, rows):
-        axes.axhline(edge - 0.5, color=LINE, linewidth=0.6, zorder=0)
-    for side in ("left", "bottom"):
-        axes.spines[side].set_visible(False)
-
-
 def _shares(axes: Axes) -> None:
     axes.set_xlim(-0.03, 1.03)
     axes.set_xticks([0, 0.25, 0.5, 0.75, 1], ["0", "25", "50", "75", "100 %"])
@@ -148,7 +144,8 @@ def _shares(axes: Axes) -> None:
 
 
 def _ratios(axes: Axes, series: Sequence[Series]) -> None:
-    ends = [end for own in series for p in own.points for end in _ends(p) if end > 0]
+    drawn = (end for own in series for p in own.points for end in (p.low, p.value, p.high))
+    ends = [end for end in drawn if end is not None and end > 0]
     low, high = min(ends, default=1.0), max(ends, default=1.0)
     axes.set_xscale("log")
     axes.set_xlim(min(low / ROOM, 0.8), max(high * ROOM, 1.25))
@@ -160,18 +157,8 @@ def _ratios(axes: Axes, series: Sequence[Series]) -> None:
     axes.axvline(1.0, color=SOFT, linewidth=1.0, zorder=1)
 
 
-def _ends(point: Point) -> tuple[float, ...]:
-    return tuple(end for end in (point.low, point.value, point.high) if end is not None)
-
-
 def _seconds(value: float) -> str:
     return f"{1000 * value:g} ms" if value < 1 else f"{value:g} s"
-
-
-def _told(chart: Chart) -> str:
-    """The figure for those who do not see it: the numbers are in the tables."""
-    labels = ", ".join(own.label for own in chart.series)
-    return plain(f"{chart.title}: {labels}. The table has the numbers.")
 
 
 def _blank(width: float, height: float) -> tuple[Figure, Axes]:
@@ -202,17 +189,18 @@ def _tidied(text: str, name: str, label: str) -> str:
     head, _, rest = text[text.index("<svg") :].partition(">")
     box = re.search(r'viewBox="[^"]+"', head)
     assert box is not None
-    body = re.sub(r"<(metadata|style)\b.*?</\1>", "", rest, flags=re.DOTALL)
-    body = re.sub(r"<!--.*?-->|<\?.*?\?>", "", body, flags=re.DOTALL)
-    body = body.replace("xlink:href", "href")
+    needless = r"<(metadata|style)\b.*?</\1>|<!--.*?-->|<\?.*?\?>"
+    body = re.sub(needless, "", rest, flags=re.DOTALL).replace("xlink:href", "href")
     for colour, variable in VARIABLES.items():
         body = body.replace(colour, f"var({variable})")
-    body = re.sub(r"\n\s*", "\n", _own_ids(_FAMILY.sub("", body), name))
+    body = re.sub(r"font-family: [^;\"]+; ?", "", body)
+    body = re.sub(r"\n\s*", "\n", _own_ids(body, name))
     return f'<svg {box.group()} role="img" aria-label="{escape(label)}">{body}'
 
 
 def _own_ids(body: str, name: str) -> str:
     """Ids that something refers to are of this figure alone; the others are left out."""
     used = set(re.findall(r'href="#([^"]+)"', body))
-    body = _IDS.sub(lambda m: f' id="{name}-{m[1]}"' if m[1] in used else "", body)
+    own_id = r' id="([^"]+)"'
+    body = re.sub(own_id, lambda m: f' id="{name}-{m[1]}"' if m[1] in used else "", body)
     return re.sub(r'href="#', f'href="#{name}-', body)

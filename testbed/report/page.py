@@ -55,10 +55,8 @@ def write_report(
     With `specs` records are to be those of these trials. Raises StoreError for one that is not.
     """
     run = load_run(folder, config, specs)
-    found, covered = (
-        results_of(run),
-        coverage_of(run.trials.select("scenario", "level").iter_rows(), config),
-    )
+    found = results_of(run)
+    covered = coverage_of(run.trials.select("scenario", "level").iter_rows(), config)
     summary = write_summary(run, covered.numbers(), [own.numbers for own in found])
     main, *_ = compared(config)
     rows = with_apart(measured(run.trials), main, eventful(config))

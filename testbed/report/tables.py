@@ -92,13 +92,12 @@ class Row:
         """How many, and how the others ended, in the order in which outcomes are declared."""
         lost, counts = [f"{self.lost} lost"] * (self.lost > 0), Counter(self.endings)
         others = [name for name in OUTCOMES if counts[name] and name != "achieved"]
-        if not self.trials:
-            return ", ".join(["-", *lost])
         if self.trials == 1:
-            share = "yes" if self.achieved else "no"
-            return ", ".join([share, *map(in_words, others), *lost])
-        told = (f"{counts[name]} {in_words(name)}" for name in others)
-        return ", ".join([f"{self.achieved}/{self.trials}", *told, *lost])
+            share, told = "yes" if self.achieved else "no", [in_words(name) for name in others]
+        else:
+            share = f"{self.achieved}/{self.trials}" if self.trials else "-"
+            told = [f"{counts[name]} {in_words(name)}" for name in others]
+        return ", ".join([share, *told, *lost])
 
     def _explained(self) -> str:
         counts = list(Counter(text for own in self.explanations for text in explained(own)).items())

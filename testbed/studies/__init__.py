@@ -1,19 +1,10 @@
 """Studies: what is counted of the runs of an experiment, beside what was published of it."""
 
 from testbed.studies.charts import Chart, Colour, Key, Point, Series, points
-from testbed.studies.study import (
-    STUDIES,
-    Results,
-    Section,
-    Study,
-    left_out,
-    results_of,
-    study_findings,
-)
+from testbed.studies.study import Results, Section, Study, left_out, results_of, study_findings
 from testbed.studies.tables import Cell, Line, Rounded, Sheet, Value, View, grid, rows_of
 
 __all__ = [
-    "STUDIES",
     "Cell",
     "Chart",
     "Colour",

@@ -77,15 +77,11 @@ class Study(Generic[Found]):
         return () if self.published is None else deviations(config, load_config(self.published))
 
 
-def _fault(found: object) -> str | None:
-    return None if isinstance(found, Study) else "is not a testbed.studies.Study"
-
-
 STUDIES: Registry[Study[Any]] = Registry(
     "study",
     "intention_testbed.studies",
     {name: f"testbed.studies.{name}:STUDY" for name in ("levels", "table1")},
-    _fault,
+    lambda found: None if isinstance(found, Study) else "is not a testbed.studies.Study",
 )
 
 
@@ -137,9 +133,6 @@ def _studies(config: ExperimentConfig) -> Iterator[tuple[Study[Any], bool]]:
 
 def left_out(config: ExperimentConfig) -> str | None:
     """Why published figures do not stand beside those of a run that names a study; None if so."""
-    if config.protocol is None:
-        return None
-    names = STUDIES.find(config.protocol).deviations(config)
-    if not names:
-        return None
-    return f"published figures are left out: {listed(names)} not as in the published experiment"
+    if config.protocol and (names := STUDIES.find(config.protocol).deviations(config)):
+        return f"published figures are left out: {listed(names)} not as in the published experiment"
+    return None

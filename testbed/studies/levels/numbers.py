@@ -18,32 +18,28 @@ def numbers(found: Levels) -> Numbers:
     These are `completed` by robot, `ratios` by part of the time, and `growth` by both: `published`
     and `inside`; `seconds` by both: `mean` and `sd`. What was not published is absent.
     """
-    beside = {name: _published(name, found) for name in found.levels}
     return {
         "levels": {
-            name: msgspec.to_builtins(level) | ({"published": beside[name]} if beside[name] else {})
+            name: msgspec.to_builtins(level) | _without_nothing({"published": _beside(name, found)})
             for name, level in found.levels.items()
         }
     }
 
 
-def _published(level: str, found: Levels) -> dict[str, Any]:
-    def own(rows: Iterable[Row]) -> dict[str, Row]:
-        return {row.robot: row for row in rows if row.level == level}
+def _beside(level: str, found: Levels) -> dict[str, Any]:
+    def own(rows: Iterable[Row]) -> dict[str, list[dict[str, Any]]]:
+        return {r.robot: list(map(_number, r.cells)) for r in rows if r.level == level}
+
+    def by_part(numbers: Iterable[dict[str, Any]]) -> dict[str, Any]:
+        return dict(zip(PARTS, numbers, strict=False))
 
     robots = found.levels[level].reasoning
-    return _without_nothing(
-        {
-            "completed": {r: _number(row.cells[0]) for r, row in own(shares(found)).items()},
-            "ratios": {p: n for row in own(ratios(found)).values() for p, n in _parts(row).items()},
-            "growth": {robot: _parts(row) for robot, row in own(growth(found)).items()},
-            "seconds": {robot: _seconds(level, robot, found.paper) for robot in robots},
-        }
-    )
-
-
-def _parts(row: Row) -> dict[str, Any]:
-    return {part: _number(cell) for part, cell in zip(PARTS, row.cells, strict=True)}
+    return {
+        "completed": {robot: number for robot, (number,) in own(shares(found)).items()},
+        "ratios": by_part(own(ratios(found)).get("", ())),
+        "growth": {robot: by_part(parts) for robot, parts in own(growth(found)).items()},
+        "seconds": {robot: _seconds(level, robot, found.paper) for robot in robots},
+    }
 
 
 def _number(cell: Cell) -> dict[str, Any]:

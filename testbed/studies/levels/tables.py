@@ -70,11 +70,12 @@ def shares(found: Levels) -> Iterator[Row]:
 def ratios(found: Levels) -> Iterator[Row]:
     """No zoom / zoom by part of the time, one row per level that has pairs."""
     for name, level in found.levels.items():
-        own = [level.compared.ratios[part] for part in PARTS]
-        theirs = [found.paper.ratio(name, part) for part in PARTS]
-        both = zip(own, theirs, strict=True)
-        if pairs := max(ratio.pairs for ratio in own):
-            cells = (Cell(ratio.mean, ratio.median, p, ratio.of_sums) for ratio, p in both)
+        own = level.compared.ratios
+        if pairs := max(ratio.pairs for ratio in own.values()):
+            cells = (
+                Cell(ratio.mean, ratio.median, found.paper.ratio(name, part), ratio.of_sums)
+                for part, ratio in own.items()
+            )
             yield Row(name, "", pairs, tuple(cells))
 
 
@@ -82,9 +83,10 @@ def growth(found: Levels) -> Iterator[Row]:
     """How many times a time is that at the first level, one row per level and condition."""
     for name, level in found.levels.items():
         for robot, own in level.compared.growth.items():
-            theirs = [found.paper.growth(name, robot, part) for part in PARTS]
-            both = zip((own[part] for part in PARTS), theirs, strict=True)
-            cells = (Cell(grown.mean, grown.median, paper) for grown, paper in both)
+            cells = (
+                Cell(grown.mean, grown.median, found.paper.growth(name, robot, part))
+                for part, grown in own.items()
+            )
             yield Row(name, robot, level.reasoning[robot].trials, tuple(cells))
 
 

@@ -1,13 +1,15 @@
 """Table 1 beside the published one, for the terminal and the report."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 from pathlib import Path
 
+from testbed.analysis.comparison import LEAST
 from testbed.analysis.pairs import Compared
 from testbed.experiment.timeline import in_words
 from testbed.studies.charts import Chart, Key, Series, points, published
 from testbed.studies.study import Section
-from testbed.studies.table1.measures import Analysis, Optimum, Row, Seconds, Table
+from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
 from testbed.studies.table1.pairs import MEETINGS
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
@@ -150,13 +152,10 @@ def _milliseconds(value: float | None) -> str:
 def optimum_rows(table: Table, robots: Compared) -> Iterator[Cells]:
     """Under OPTIMUM: for each row with pairs how far its robots are from the optimum."""
     for row in table.rows:
-        if row.pairs and set(robots) <= set(row.optimum):
+        if row.pairs and row.optimum:
             both = [row.optimum[robot] for robot in robots]
-            yield (row.name, *(text for own in both for text in _optimum(own)))
-
-
-def _optimum(own: Optimum) -> tuple[str, ...]:
-    return str(own["trials"]), number(own["execution_units"]), number(own["actions"])
+            told = ((str(own["trials"]), *(number(own[least]) for least in LEAST)) for own in both)
+            yield (row.name, *chain.from_iterable(told))
 
 
 def _notes(table: Table) -> Iterator[str]:
