@@ -38,6 +38,11 @@ class Estimate:
     high: float
     single: bool = False
 
+    @property
+    def ends(self) -> tuple[float, ...]:
+        """The ends of its interval, if it has one."""
+        return () if self.single else (self.low, self.high)
+
     def covers(self, other: float, half_digit: float) -> bool | None:
         """Whether a value, rounded to twice `half_digit`, may lie in the interval, if any."""
         if self.single:

@@ -17,8 +17,6 @@ from testbed.cli.common import BAD_INPUT, DONE, refuse
 from testbed.cli.importing import displaced
 from testbed.text import mute, tolerant, warn
 
-__all__ = ["app", "main"]
-
 COMMANDS = (run, check, robot, report, export, replay, repair, translate)
 """In the order of the help. Each has a function of its own name, and the end of its help."""
 

@@ -65,8 +65,7 @@ def _conclude(folder: Path, config: ExperimentConfig, run: RunStatus, say: Say) 
         for line in _told(tables):
             say(line)
     if run.interrupted:
-        kept = f"{run.done} of {counted(run.planned, 'trial')}"
-        say(f"interrupted: {kept} kept in {folder}")
+        say(f"interrupted: {run.done} of {counted(run.planned, 'trial')} kept in {folder}")
         say(_to_go_on(folder))
         if not tables.rows:
             return

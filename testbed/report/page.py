@@ -1,6 +1,6 @@
 """`report.html`: one file without network, made again from the stored records at any time."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -61,23 +61,18 @@ def write_report(
     main, *_ = compared(config)
     rows = with_apart(measured(run.trials), main, eventful(config))
     sections = [section for own in found for section in own.sections]
+    views = [(section, view) for section in sections for view in section.views if view.lines]
     tables = Tables(
         summary["digest"],
         summary["deadline"],
         covered.notice(),
         rows_of(run.trials.with_columns(rows["apart"])),
-        list(_grids(sections)),
+        [grid(view, f"{section.title}: {view.title}") for section, view in views],
         condition(config),
         left_out(config),
     )
     _write_page(run, tables, sections, _compared(rows, found, summary))
     return tables
-
-
-def _grids(sections: Sequence[Section]) -> Iterator[Grid]:
-    for section in sections:
-        for view in (own for own in section.views if own.lines):
-            yield grid(view, f"{section.title}: {view.title}")
 
 
 def _write_page(

@@ -1,28 +1,21 @@
 """Studies: what is counted of the runs of an experiment, beside what was published of it."""
 
-from testbed.studies.charts import Chart, Colour, Key, Point, Series, points
-from testbed.studies.study import Results, Section, Study, left_out, results_of, study_findings
-from testbed.studies.tables import Cell, Line, Rounded, Sheet, Value, View, grid, rows_of
-
-__all__ = [
-    "Cell",
-    "Chart",
-    "Colour",
-    "Key",
-    "Line",
-    "Point",
-    "Results",
-    "Rounded",
-    "Section",
-    "Series",
-    "Sheet",
-    "Study",
-    "Value",
-    "View",
-    "grid",
-    "left_out",
-    "points",
-    "results_of",
-    "rows_of",
-    "study_findings",
-]
+from testbed.studies.charts import Chart as Chart
+from testbed.studies.charts import Key as Key
+from testbed.studies.charts import Point as Point
+from testbed.studies.charts import Series as Series
+from testbed.studies.charts import points as points
+from testbed.studies.study import Results as Results
+from testbed.studies.study import Section as Section
+from testbed.studies.study import Study as Study
+from testbed.studies.study import left_out as left_out
+from testbed.studies.study import results_of as results_of
+from testbed.studies.study import study_findings as study_findings
+from testbed.studies.tables import Cell as Cell
+from testbed.studies.tables import Line as Line
+from testbed.studies.tables import Rounded as Rounded
+from testbed.studies.tables import Sheet as Sheet
+from testbed.studies.tables import Value as Value
+from testbed.studies.tables import View as View
+from testbed.studies.tables import grid as grid
+from testbed.studies.tables import rows_of as rows_of

@@ -51,11 +51,7 @@ class Chart:
 
 def points(estimates: Iterable[tuple[str, Estimate | None]]) -> tuple[Point, ...]:
     """A point for each estimate that there is; one that is single has no interval."""
-    return tuple(
-        Point(place, own.value) if own.single else Point(place, own.value, own.low, own.high)
-        for place, own in estimates
-        if own is not None
-    )
+    return tuple(Point(at, own.value, *own.ends) for at, own in estimates if own is not None)
 
 
 def published(values: Iterable[tuple[str, float]]) -> list[Series]:

@@ -95,12 +95,9 @@ def study_findings(config: ExperimentConfig) -> Iterator[Finding]:
         yield ("protocol",), str(error)
         return
     if study.fine != config.is_fine:
-        fitting = [name for name, own in STUDIES.usable() if own.fine == config.is_fine]
-        where = ("scenarios", "levels") if config.is_fine else ("levels", "scenarios")
-        yield (
-            ("protocol",),
-            f"{config.protocol} is about {where[0]}; for {where[1]} it is: {' or '.join(fitting)}",
-        )
+        fitting = " or ".join(n for n, own in STUDIES.usable() if own.fine == config.is_fine)
+        its, here = ("scenarios", "levels") if config.is_fine else ("levels", "scenarios")
+        yield ("protocol",), f"{config.protocol} is about {its}; for {here} it is: {fitting}"
 
 
 @dataclass(frozen=True)

@@ -87,10 +87,9 @@ def _text(own: Estimate | None, share: bool = False) -> tuple[str, Cells]:
     """A ratio, or a share in percent, and the ends of its interval."""
     if own is None:
         return "-", ()
-    ends = () if own.single else (own.low, own.high)
     if share:
-        return f"{own.value:.1%}", tuple(f"{100 * end:.1f}" for end in ends)
-    return f"{own.value:.2f}", tuple(f"{end:.2f}" for end in ends)
+        return f"{own.value:.1%}", tuple(f"{100 * end:.1f}" for end in own.ends)
+    return f"{own.value:.2f}", tuple(f"{end:.2f}" for end in own.ends)
 
 
 def effect(test: Test | None) -> str:

@@ -5,6 +5,4 @@ from testbed.studies.levels.numbers import numbers
 from testbed.studies.levels.tables import sections
 from testbed.studies.study import Study
 
-__all__ = ["STUDY"]
-
 STUDY: Study[Levels] = Study(measures, numbers, sections, fine=True, published="levels", every=True)

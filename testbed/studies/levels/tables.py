@@ -212,18 +212,15 @@ def _point(level: str, mean: float, deviation: float) -> Point:
     return Point(level, mean, max(mean - deviation, LEAST * mean), mean + deviation)
 
 
-def ratio_charts(found: Levels) -> list[Chart]:
+def ratio_charts(found: Levels) -> Iterator[Chart]:
     """A figure for each of the ratios that zooming is about; none where no pair was played."""
     rows = list(ratios(found))
-    return [
-        Chart(f"levels-ratio-{part}", f"{RATIO}, {title}", [row.level for row in rows], both)
-        for index, (part, title) in enumerate(zip(PARTS, TITLES, strict=True))
-        if rows and part in ("total", "refined_plan")
-        for both in [_beside([(row.level, row.cells[index]) for row in rows])]
-    ]
-
-
-def _beside(cells: list[tuple[str, Cell]]) -> list[Series]:
-    ours = points((level, cell.ours) for level, cell in cells)
-    theirs = ((level, cell.published.value) for level, cell in cells if cell.published)
-    return [Series(RATIO, "second", ours, "s"), *published(theirs)]
+    levels = [row.level for row in rows]
+    columns = zip(*(row.cells for row in rows), strict=True)
+    for part, title, cells in zip(PARTS, TITLES, columns, strict=False):
+        if part in ("total", "refined_plan"):
+            beside = list(zip(levels, cells, strict=True))
+            ours = points((level, cell.ours) for level, cell in beside)
+            theirs = ((level, own.published.value) for level, own in beside if own.published)
+            series = [Series(RATIO, "second", ours, "s"), *published(theirs)]
+            yield Chart(f"levels-ratio-{part}", f"{RATIO}, {title}", levels, series)

@@ -5,6 +5,4 @@ from testbed.studies.table1.measures import Analysis, measures
 from testbed.studies.table1.numbers import numbers
 from testbed.studies.table1.tables import sections
 
-__all__ = ["STUDY"]
-
 STUDY: Study[list[Analysis]] = Study(measures, numbers, sections, published="table1", compares=True)

@@ -1,6 +1,7 @@
 """Table 1 for other programs: what is added to `summary.json`."""
 
 from collections.abc import Iterable, Mapping
+from itertools import zip_longest
 from typing import Any
 
 from testbed.analysis.bootstrap import Estimate
@@ -69,9 +70,9 @@ def _ratio(own: Ratio) -> dict[str, Any]:
 
 def _interval(own: Estimate | None, name: str, prefix: str = "") -> dict[str, Any]:
     """A value under its name, and the ends of its interval."""
-    ends = (None, None) if own is None or own.single else (own.low, own.high)
-    value = None if own is None else own.value
-    return {name: value, f"{prefix}low": ends[0], f"{prefix}high": ends[1]}
+    values = () if own is None else (own.value, *own.ends)
+    names = (name, f"{prefix}low", f"{prefix}high")
+    return dict(zip_longest(names, values))
 
 
 def _test(test: Test | None) -> dict[str, Any]:
