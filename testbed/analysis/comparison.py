@@ -26,6 +26,8 @@ class Apart(StrEnum):
 COUNTS: Mapping[Apart, str] = {reason: reason.name.lower() for reason in Apart}
 """The keys under which pairs are counted apart."""
 ACCURACY = "accuracy"
+KEPT = ("trial", "pair", "scenario", "level", "robot", "achieved", "correct", "outcome")
+"""The columns of a table that its measured trials have as well."""
 
 MEASURES: Mapping[str, pl.Expr] = {
     "total_time": pl.col("planning_cpu_s") + pl.col("execution_units"),
@@ -67,14 +69,7 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
     still = (pl.col("activities").list.len() == 0) & (pl.col("actions").list.len() == 0)
     failed = failure & own
     return trials.select(
-        "trial",
-        "pair",
-        "scenario",
-        "level",
-        "robot",
-        "achieved",
-        "correct",
-        "outcome",
+        *KEPT,
         *LEAST.values(),
         lost=failure & ~own,
         late=pl.col("deadline"),

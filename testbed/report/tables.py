@@ -13,16 +13,8 @@ from testbed.experiment.timeline import exception, in_words, of_place, place
 from testbed.text import counted
 from testbed.text.grid import Grid
 
-COLUMNS = (
-    "scenario",
-    "robot",
-    "achieved",
-    "plans",
-    "actions",
-    "exec. units",
-    "planning",
-    "explained by",
-)
+NUMBERS = ("plans", "actions", "exec. units", "planning")
+COLUMNS = ("scenario", "robot", "achieved", *NUMBERS, "explained by")
 AT_LEVELS = {"scenario": "level", "planning": "coarse planning"}
 MEANS = ("plans", "action_count", "execution_units")
 MOST_COMMON = 3
@@ -65,15 +57,10 @@ class Row:
         """The row as text, in the order of `COLUMNS`."""
         form = ".0f" if self.trials == 1 else ".1f"
         means = (getattr(self, name) for name in MEANS)
+        numbers = ("-" if mean is None else format(mean, form) for mean in means)
         seconds = self.planning_cpu_s
-        return (
-            self.place,
-            self.robot,
-            self._achieved(),
-            *("-" if mean is None else format(mean, form) for mean in means),
-            "-" if seconds is None else f"{1000 * seconds:.0f} ms",
-            self._explained(),
-        )
+        planning = "-" if seconds is None else f"{1000 * seconds:.0f} ms"
+        return self.place, self.robot, self._achieved(), *numbers, planning, self._explained()
 
     def notes(self) -> tuple[str, ...]:
         """What is to be known of trials that were played to their end, one line each."""

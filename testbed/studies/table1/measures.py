@@ -134,12 +134,10 @@ def analyse(
     """Both tables of `pairs_in`, beside these published rows."""
     # Failures and goals that nothing achieves are told in the row of their scenario.
     apart = pl.col("apart").is_in([Apart.NOTHING_TO_DO, Apart.WITHOUT_EVENT])
-    ways = {
-        "triggered": pairs.filter(pl.col("scenario") != RANDOM).with_columns(
-            row=pl.when(apart).then("apart").otherwise("scenario")
-        ),
-        "random": pairs.filter(pl.col("scenario") == RANDOM).with_columns(row="happened"),
-    }
+    drawn = pl.col("scenario") == RANDOM
+    row = pl.when(drawn).then("happened").when(apart).then("apart").otherwise("scenario")
+    placed = pairs.with_columns(row=row)
+    ways = {"triggered": placed.filter(~drawn), "random": placed.filter(drawn)}
     became = {
         own["scenario"][0]: dict(sorted(Counter(own["happened"]).items()))
         for own in pairs.partition_by("scenario")
@@ -153,12 +151,9 @@ def analyse(
 def _table(pairs: pl.DataFrame, robots: Compared, published: Mapping[str, Published]) -> Table:
     groups = dict(sorted(Counter(pairs["row"]).items()))
     scenarios = [name for name in groups if name.isdigit()]
-    played = Counter(pairs["scenario"])
     # Weights in whole numbers: sums of them are exact, and what is alike stays alike.
-    weights = {name: lcm(*played.values()) / count for name, count in played.items()}
-    weighed = pairs.with_columns(
-        weight=pl.col("scenario").replace_strict(weights, return_dtype=pl.Float64)
-    )
+    whole = float(lcm(*Counter(pairs["scenario"]).values()))
+    weighed = pairs.with_columns(weight=whole / pl.len().over("scenario"))
     sample = Sample(weighed.sort("row", maintain_order=True), weight="weight")
     rows = [_row(name, sample.where(holds), robots) for name, holds in _rows(scenarios)]
     apart = {name: count for name, count in groups.items() if not name.isdigit()}

@@ -1,6 +1,6 @@
 """Table 1 beside the published one, for the terminal and the report."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from itertools import chain
 from pathlib import Path
 
@@ -179,29 +179,25 @@ def _notes(table: Table) -> Iterator[str]:
 def charts(own: Analysis) -> list[Chart]:
     """Accuracies and ratios with intervals by scenario, both tables and the published one."""
     beside = {
-        way: {row.name: cells(table, row) for row in table.rows if row.pairs}
+        way: {r.name: cells(table, r) for r in table.rows if r.pairs and r.name in PUBLISHED}
         for way, table in own.tables.items()
     }
     rows = [name for name in PUBLISHED if any(name in known for known in beside.values())]
     ratios = {name: f"{title}, TP / ATI" for name, title in zip(MEASURES, HEADINGS, strict=True)}
-    return [
-        Chart(
-            f"{own.robots.treatment}-{name}",
-            title,
-            rows,
-            _series({w: {r: c[r][name] for r in rows if r in c} for w, c in beside.items()}),
-            "ratios" if name in ratios else "shares",
-        )
-        for name, title in {**ROBOTS, **ratios}.items()
-    ]
+    robot = own.robots.treatment
 
+    def series(name: str) -> list[Series]:
+        """Ours in both ways of drawing, and the published values, by row."""
+        drawn = {w: {r: c[name] for r, c in beside.get(w, {}).items()} for w in WAYS}
+        ours = {w: points((r, c.ours) for r, c in own.items()) for w, own in drawn.items()}
+        both = [(r, c.published) for own in drawn.values() for r, c in own.items()]
+        return [
+            Series(WAYS["triggered"], "first", ours["triggered"]),
+            Series(WAYS["random"], "second", ours["random"], "s"),
+            *published({row: own.value for row, own in both if own}.items()),
+        ]
 
-def _series(ways: Mapping[str, Mapping[str, Cell]]) -> list[Series]:
-    """Ours in both ways of drawing, and the published values, by row."""
-    ours = {w: points((r, c.ours) for r, c in ways.get(w, {}).items()) for w in WAYS}
-    theirs = {r: c.published.value for own in ways.values() for r, c in own.items() if c.published}
     return [
-        Series(WAYS["triggered"], "first", ours["triggered"]),
-        Series(WAYS["random"], "second", ours["random"], "s"),
-        *published(theirs.items()),
+        *(Chart(f"{robot}-{n}", title, rows, series(n), "shares") for n, title in ROBOTS.items()),
+        *(Chart(f"{robot}-{n}", title, rows, series(n)) for n, title in ratios.items()),
     ]
