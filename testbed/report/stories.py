@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import polars as pl
 
@@ -22,19 +23,12 @@ WRONG = pl.col("correct").fill_null(True).not_() | pl.col("outcome").is_in(FAILU
 """Of the trials that are told as failures: all others are passed over."""
 
 
-@dataclass(frozen=True)
-class Chapter:
-    """The told trials of a scenario or level; `note` is what the domain says of it, or ""."""
-
-    title: str
-    note: str
-    records: list[TrialRecord]
-
-
-def chapters(trials: pl.DataFrame, notes: Mapping[str, str]) -> Iterator[Chapter]:
+def chapters(
+    trials: pl.DataFrame, notes: Mapping[str, str]
+) -> Iterator[tuple[str, str, list[TrialRecord]]]:
     """At most `SHOWN` trials in their order by scenario or level: what went wrong comes first.
 
-    `notes` are the domain's, by scenario.
+    `notes` are the domain's, by scenario. A chapter has its title, its note or "", its trials.
     """
     failed = pl.col("outcome").is_in(FAILURES) | ~pl.col("achieved")
     numbered = trials.with_row_index("number")
@@ -43,7 +37,7 @@ def chapters(trials: pl.DataFrame, notes: Mapping[str, str]) -> Iterator[Chapter
     for told in places:
         scenario, level = told.select("scenario", "level").row(0)
         note = notes.get(scenario, "") if level == COARSE else ""
-        yield Chapter(of_place(scenario, level), note, list(records_of(told)))
+        yield of_place(scenario, level), note, list(records_of(told))
 
 
 def command_of(folder: Path, trial: str) -> str:
@@ -57,24 +51,23 @@ def slowest(trials: pl.DataFrame) -> list[TrialRecord]:
     return list(records_of(ordered.head(SLOWEST)))
 
 
-@dataclass(frozen=True)
-class Failed:
-    """The trials of one robot that ended alike."""
+class Ending(NamedTuple):
+    """How trials of a robot ended that were not correct; `lost`: without it, or in an error."""
 
     place: str
     robot: str
     ending: str
     lost: bool
-    records: list[TrialRecord]
 
 
-def failures(trials: pl.DataFrame) -> list[Failed]:
+def failures(trials: pl.DataFrame) -> list[tuple[Ending, list[TrialRecord]]]:
     """Every trial that is not correct, by place, robot and ending; lost ones and errors first."""
-    groups: dict[tuple[str, str, str, bool], list[TrialRecord]] = {}
+    groups: dict[Ending, list[TrialRecord]] = {}
     for record in records_of(trials.filter(WRONG)):
         place, lost = of_place(record.scenario, record.level), record.outcome in FAILURES
-        groups.setdefault((place, record.robot, _ending(record), lost), []).append(record)
-    return sorted((Failed(*key, own) for key, own in groups.items()), key=lambda own: not own.lost)
+        ending = Ending(place, record.robot, _ending(record), lost)
+        groups.setdefault(ending, []).append(record)
+    return sorted(groups.items(), key=lambda group: not group[0].lost)
 
 
 def _ending(record: TrialRecord) -> str:

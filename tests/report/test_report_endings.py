@@ -26,24 +26,24 @@ def test_every_trial_that_is_not_correct_is_there_once_and_no_other() -> None:
         for n in range(200)
     ]
     good = [a_record(f"good{n}") for n in range(5)]
-    (group,) = failures(table_of([*good, *bad]))
-    assert [record.trial for record in group.records] == [f"bad{n}" for n in range(200)]
+    ((group, records),) = failures(table_of([*good, *bad]))
+    assert [record.trial for record in records] == [f"bad{n}" for n in range(200)]
     assert (group.place, group.robot, group.ending) == ("scenario 1", "intentional", "false finish")
 
 
 def test_lost_robots_come_first_with_their_reason() -> None:
     wrong = a_record("a", correct=False, achieved=False, outcome="gave_up", reason="no plan")
     lost = a_record("b", correct=False, achieved=False, outcome="robot_lost", reason="signal 9")
-    first, second = failures(table_of([wrong, lost]))
+    (first, _), (second, _) = failures(table_of([wrong, lost]))
     assert (first.ending, first.lost) == ("robot lost: signal 9", True)
     assert (second.ending, second.lost) == ("gave up", False)
 
 
 def test_more_actions_than_the_fewest_are_an_ending_of_their_own() -> None:
-    (group,) = failures(table_of([a_record(correct=False)]))
+    ((group, _),) = failures(table_of([a_record(correct=False)]))
     assert group.ending == "achieved, not with the fewest actions"
 
 
 def test_a_goal_out_of_reach_is_said_to_be() -> None:
     record = a_record(correct=False, achieved=False, outcome="gave_up", in_reach=False)
-    assert failures(table_of([record]))[0].ending == "gave up, out of reach"
+    assert failures(table_of([record]))[0][0].ending == "gave up, out of reach"
