@@ -26,7 +26,8 @@ class FineProblem:
     @cached_property
     def goal(self) -> tuple[Literal, ...]:
         """What the transition brings about."""
-        return fine_goal(self.refinement, self.transition, self.relevant).effects
+        effects, _ = fine_goal(self.refinement, self.transition, self.relevant)
+        return effects
 
     @cached_property
     def constants(self) -> frozenset[str]:

@@ -180,7 +180,15 @@ def load_refinement(name_or_path: str) -> Refinement:
     SourceError, and FileNotFoundError where there is no such file.
     """
     file, text = read_refinement(name_or_path)
-    coarse_file, coarse_text = _coarse(file, text)
+    named = next(parse_fine(text, file).each(Refines), None)
+    if named is None:
+        message = "it does not say which description it refines: begin with 'refines NAME.'"
+        raise SourceError(file, syntax.Place(1, 1), message)
+    beside = Path(file).parent / named.name
+    try:
+        coarse_file, coarse_text = read_domain(str(beside) if beside.is_file() else named.name)
+    except FileNotFoundError as error:
+        raise SourceError(file, named.place, str(error)) from None
     return load(coarse_text, coarse_file, text, file)
 
 
@@ -198,15 +206,3 @@ def refined_name(name_or_path: str) -> str | None:
     """
     file, text = read_refinement(name_or_path)
     return next((statement.name for statement in parse_fine(text, file).each(Refines)), None)
-
-
-def _coarse(file: str, text: str) -> tuple[str, str]:
-    named = next(parse_fine(text, file).each(Refines), None)
-    if named is None:
-        message = "it does not say which description it refines: begin with 'refines NAME.'"
-        raise SourceError(file, syntax.Place(1, 1), message)
-    beside = Path(file).parent / named.name
-    try:
-        return read_domain(str(beside) if beside.is_file() else named.name)
-    except FileNotFoundError as error:
-        raise SourceError(file, named.place, str(error)) from None

@@ -14,6 +14,7 @@ from asp.language import (
     Facts,
     Fluent,
     Literal,
+    Literals,
     Pattern,
     Problems,
     restrict,
@@ -74,18 +75,6 @@ def _conditions(refinement: Refinement) -> Mapping[str, Sequence[Pattern]]:
     return found
 
 
-@dataclass(frozen=True)
-class FineGoal:
-    """What a fine plan for a transition has to reach, as coarse literals.
-
-    `literals` is the state after the transition as far as it is about relevant constants,
-    `effects` what of it the transition brings about. Bridge axioms tie them to fine fluents.
-    """
-
-    literals: tuple[Literal, ...]
-    effects: tuple[Literal, ...]
-
-
 def zoom(
     source: syntax.Source, refinement: Refinement, constants: Collection[str]
 ) -> syntax.Source:
@@ -106,20 +95,18 @@ def fine_constants(refinement: Refinement, constants: Collection[str]) -> frozen
 
 def fine_goal(
     refinement: Refinement, transition: Transition, constants: Collection[str]
-) -> FineGoal:
-    """The fine goal of a transition: its second state, restricted to the relevant constants.
+) -> tuple[Literals, Literals]:
+    """The fine goal of a transition, as coarse literals: its effects, and what it leaves as it is.
 
-    Coarse fluents are defined in D_f, so that the counterpart of the state is the state itself;
+    Together they are its second state, restricted to the relevant constants. Bridge axioms define
+    coarse fluents in D_f, so that the counterpart of the state is the state itself;
     `Refinement.counterpart` gives the fine literals that make a literal of it true.
     """
-    about = frozenset(constants)
-    literals = tuple(
-        fluent if fluent in transition.after else fluent.complement
-        for fluent in refinement.description.inertial
-        if about.issuperset(fluent.arguments)
-    )
-    effects = (lit for lit in literals if lit.is_positive != (lit.atom in transition.before))
-    return FineGoal(literals, tuple(effects))
+    about, changed = frozenset(constants), transition.before ^ transition.after
+    fluents = (f for f in refinement.description.inertial if about.issuperset(f.arguments))
+    literals = [f if f in transition.after else f.complement for f in fluents]
+    effects = tuple(each for each in literals if each.atom in changed)
+    return effects, tuple(each for each in literals if each.atom not in changed)
 
 
 def _writable(source: syntax.Source) -> list[syntax.Statement]:

@@ -26,9 +26,7 @@ class ZoomedPlanner:
         self._inertial = transition.before.intersection(inertial)
         with fine.trace.timing("planning"):
             self.relevant = relevant(fine.refinement, transition, fine.goal)
-            goal = fine_goal(fine.refinement, transition, self.relevant)
-            self.effects = goal.effects
-            self._lasting = tuple(each for each in goal.literals if each not in goal.effects)
+            self.effects, self._lasting = fine_goal(fine.refinement, transition, self.relevant)
 
     def plan(self) -> tuple[Action, ...] | None:
         """A shortest plan for the effects; None if nothing in the zoomed domain leads to them.

@@ -37,7 +37,8 @@ class FineProblem:
 
     @property
     def goal(self) -> tuple[Literal, ...]:
-        return fine_goal(self.refinement, self.transition, self.relevant).effects
+        effects, _ = fine_goal(self.refinement, self.transition, self.relevant)
+        return effects
 
     @property
     def constants(self) -> frozenset[str]:
