@@ -21,15 +21,7 @@ from asp.refinement import Refinement
 from asp.translation import translate
 from testbed.config.levels import map_findings, refinements, settings_findings
 from testbed.config.models import GOAL, Drawing, ExperimentConfig, ScenarioSettings
-from testbed.config.places import (
-    ConfigError,
-    Diction,
-    Finding,
-    Key,
-    Places,
-    dotted,
-    literal_findings,
-)
+from testbed.config.places import ConfigError, Diction, Finding, Key, Places, dotted, unfit_literals
 from testbed.config.scenarios import scenario_findings, scenarios_of, script_findings
 from testbed.config.values import NONE
 from testbed.world import StateError, World, world_of
@@ -192,7 +184,7 @@ def _drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:
     """What is wrong with the goal that is drawn; in one line, where it is the one by default."""
     instead_of_constants = {sort: (sort, *signature.sorts) for sort in signature.sorts}
     patterns = Diction(replace(signature, sorts=instead_of_constants), lambda _: None)
-    findings = list(literal_findings(("draw", "goal"), draw.goal, patterns))
+    findings = list(unfit_literals(("draw", "goal"), draw.goal, patterns, ""))
     if findings and "goal" not in draw.model_fields_set:
         why, sorts = findings[0][1].partition(";")[0], ", ".join(signature.sorts)
         by_default = f"is by default {', '.join(draw.goal)}, which does not fit this domain: {why}"
@@ -204,8 +196,8 @@ def _said(
     key: Key, owner: ExperimentConfig | ScenarioSettings, goals: Diction, states: Diction
 ) -> Iterator[Finding]:
     """What is wrong with a goal, an initial state, and a script."""
-    yield from literal_findings((*key, "goal"), owner.goal or None, goals)
-    yield from literal_findings((*key, "initial"), owner.initial, states, "no such initial state")
+    yield from unfit_literals((*key, "goal"), owner.goal or None, goals, "no state has all of this")
+    yield from unfit_literals((*key, "initial"), owner.initial, states, "no such initial state")
     yield from script_findings((*key, "script"), owner.script or (), states.signature)
 
 

@@ -42,9 +42,7 @@ def parsed(text: str) -> Key:
 class Places:
     """Says where the value of a key came from; `elsewhere` names what gave the overridden ones."""
 
-    def __init__(
-        self, file: str | Path, text: str, overridden: Sequence[str], elsewhere: str
-    ) -> None:
+    def __init__(self, file: Path, text: str, overridden: Sequence[str], elsewhere: str) -> None:
         self.file = str(file)
         self.elsewhere = elsewhere
         self._text = text
@@ -128,11 +126,8 @@ class Diction:
     check: Callable[[Sequence[Literal]], object]
 
 
-def literal_findings(
-    key: Key,
-    given: Sequence[Literal] | None,
-    diction: Diction,
-    refusal: str = "no state has all of this",
+def unfit_literals(
+    key: Key, given: Sequence[Literal] | None, diction: Diction, refusal: str
 ) -> Iterator[Finding]:
     """Unknown literals and contradictory ones; where there are none, whether a state has all."""
     findings: list[Finding] = []

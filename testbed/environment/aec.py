@@ -18,17 +18,10 @@ from testbed.environment.rules import (
     rewards,
 )
 
-_TURN = (
-    "agents",
-    "agent_selection",
-    "rewards",
-    "_cumulative_rewards",
-    "terminations",
-    "truncations",
-    "infos",
-    "_chosen",
-)
-"""The attributes that belong to the turn: PettingZoo's, and the robot's answer."""
+_TOLD = ("rewards", "_cumulative_rewards", "terminations", "truncations", "infos")
+"""The attributes in which PettingZoo tells the agents of a step."""
+_TURN = ("agents", "agent_selection", "_chosen", *_TOLD)
+"""With these, the attributes that belong to the turn."""
 
 
 AECSnapshot: TypeAlias = tuple[Snapshot, dict[str, Any]]
