@@ -111,18 +111,13 @@ class AbstractTask:
 
     def percept(self, percept: Percept) -> Percept:
         """What is told of a step, as far as it is about what is left."""
-        attempted = percept.attempted
-        return structs.replace(
+        left = structs.replace(
             percept,
-            visible=self.seen(percept.visible),
-            doubtful=self.seen(percept.doubtful),
-            attempted=None if attempted is None else attempted.renamed(self._there),
-            events=[
-                retold(event, lambda action: action.renamed(self._there))
-                for event in percept.events
-                if self.is_about(event.action)
-            ],
+            visible=[*filter(self.is_about, percept.visible)],
+            doubtful=[*filter(self.is_about, percept.doubtful)],
+            events=[event for event in percept.events if self.is_about(event.action)],
         )
+        return retold(left, lambda literal: literal.renamed(self._there))
 
     def decision(self, decision: Decision) -> Decision:
         """A decision in the names of the whole task."""
