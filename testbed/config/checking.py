@@ -43,11 +43,7 @@ def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> 
 
     `checks` are further ones, which do not need the domain.
     """
-    findings = [
-        *_twice(config),
-        *_compared(config),
-        *(found for own in checks for found in own(config)),
-    ]
+    findings = [found for own in (_twice, _compared, *checks) for found in own(config)]
     if config.is_fine:
         lines = places.lines(findings) + _of_the_levels(config, places)
     else:

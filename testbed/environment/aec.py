@@ -7,16 +7,9 @@ from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from asp.language import Action
+from testbed.environment.core import Snapshot
 from testbed.environment.observation import Observation, View, infos, observe
-from testbed.environment.rules import (
-    ADVERSARY,
-    ROBOT,
-    IllegalActionError,
-    Snapshot,
-    listed,
-    name_of,
-    rewards,
-)
+from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, listed, name_of, rewards
 
 _TOLD = ("rewards", "_cumulative_rewards", "terminations", "truncations", "infos")
 """The attributes in which PettingZoo tells the agents of a step."""

@@ -5,24 +5,19 @@ nothing in the world, so that a game begins at step 1, at which the robot gives 
 """
 
 from collections.abc import Callable, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from asp.language import Action, Literal
 from testbed.environment.execution import Execution, Played
 from testbed.environment.legality import LegalEvents
-from testbed.environment.rules import (
-    Ending,
-    IllegalActionError,
-    NotResetError,
-    Rules,
-    Situation,
-    Snapshot,
-)
+from testbed.environment.rules import Ending, IllegalActionError, NotResetError, Rules, Situation
 from testbed.protocol import FINISH, NONE, WAIT, Percept
 from testbed.world import World
 
+Snapshot: TypeAlias = tuple[Situation, Any]
+"""A situation with the state of the random generator: all that a game's future depends on."""
 Draw: TypeAlias = Callable[[np.random.Generator], int]
 """Draws the state in which a game begins."""
 DrawGoal: TypeAlias = Callable[[int, np.random.Generator], tuple[Literal, ...]]

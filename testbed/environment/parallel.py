@@ -5,15 +5,9 @@ from typing import Any, TypeAlias
 
 from pettingzoo import ParallelEnv
 
+from testbed.environment.core import Snapshot
 from testbed.environment.observation import Observation, View, infos, observe
-from testbed.environment.rules import (
-    ADVERSARY,
-    ROBOT,
-    IllegalActionError,
-    Snapshot,
-    name_of,
-    rewards,
-)
+from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, name_of, rewards
 from testbed.protocol import NONE
 
 Shown: TypeAlias = tuple[dict[str, Observation], dict[str, dict[str, Any]]]

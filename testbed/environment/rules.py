@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from operator import index
-from typing import Any, TypeAlias
+from typing import Any
 from typing import Literal as Choice
 
 from asp.language import Action, Literal
@@ -99,10 +99,6 @@ class Situation:
     pending: tuple[tuple[int, Event], ...] = ()
     goal_holds: bool | None = None
     ending: Ending | None = None
-
-
-Snapshot: TypeAlias = tuple[Situation, Any]
-"""A situation with the state of the random generator: all that a game's future depends on."""
 
 
 def name_of(agent: str, answer: Any, actions: Sequence[Action]) -> Action:
