@@ -1,6 +1,6 @@
 """Check a configuration against its domain: every fluent, action, state and scenario in it."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -137,8 +137,11 @@ def _domain_findings(
         yield ("goal",), f"should not be empty; for example {GOAL}"
     goals = Diction(signature, partial(_check_goal, world))
     states = Diction(signature, world.state)
-    for key, owner in _owners(config, scenarios_of(config, known)):
-        yield from _said(key, owner, goals, states)
+    yield from _said((), config, goals, states)
+    played = scenarios_of(config, known)
+    for scenario, own in config.scenario_settings.items():
+        if scenario in played:  # what is said of others is left alone
+            yield from _said(("scenario_settings", scenario), own, goals, states)
 
 
 def _check_goal(world: World, literals: Sequence[Literal]) -> None:
@@ -149,16 +152,6 @@ def _check_goal(world: World, literals: Sequence[Literal]) -> None:
     found = never_together(program, literals)
     if found is not None:
         raise StateError(cannot_hold(found))
-
-
-def _owners(
-    config: ExperimentConfig, scenarios: Collection[str]
-) -> Iterator[tuple[Key, ExperimentConfig | ScenarioSettings]]:
-    """Whose goals, states and scripts are played: settings of other scenarios are left alone."""
-    yield (), config
-    for scenario, own in config.scenario_settings.items():
-        if scenario in scenarios:
-            yield ("scenario_settings", scenario), own
 
 
 def _level_findings(config: ExperimentConfig, refinement: Refinement) -> Iterator[Finding]:

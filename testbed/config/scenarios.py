@@ -110,9 +110,6 @@ def early_script_findings(
     for key, entries in scripts.items():
         for index, entry in enumerate(entries):
             if entry.step is not None and entry.step < first:
-                yield (
-                    (*key, index, "step"),
-                    f"at step {entry.step} the robot '{robot}' does not act on the world yet, when "
-                    "nothing exogenous happens; give a later step, or "
-                    "exogenous_while_thinking: true",
-                )
+                why = f"at step {entry.step} the robot '{robot}' does not act on the world yet"
+                right = "give a later step, or exogenous_while_thinking: true"
+                yield (*key, index, "step"), f"{why}, when nothing exogenous happens; {right}"

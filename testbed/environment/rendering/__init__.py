@@ -1,7 +1,93 @@
-"""A game as text, as a picture, and in a notebook."""
+"""A game as text, as a picture, on the terminal, and in a notebook."""
 
-from testbed.environment.rendering.modes import MODES, draw_text, html_of, render
+from base64 import b64encode
+from collections.abc import Iterator
+from io import BytesIO
+from itertools import pairwise, zip_longest
+
+from markupsafe import Markup
+from PIL import Image as Pillow
+
+from testbed.environment.core import Core
 from testbed.environment.rendering.picture import Image, draw_picture
-from testbed.environment.rendering.scene import Scene, scene
+from testbed.environment.rendering.scene import Place, Scene, scene
+from testbed.environment.rules import NotResetError
 
 __all__ = ["MODES", "Image", "Scene", "draw_picture", "draw_text", "html_of", "render", "scene"]
+
+FIGURE = Markup(
+    '<figure style="margin:0"><img style="max-width:100%" alt="{alt}"'
+    ' src="data:image/png;base64,{png}"><figcaption>{caption}</figcaption></figure>'
+)
+MODES = ("human", "ansi", "rgb_array")
+SMALLEST = 18
+"""Characters of the width of a place."""
+
+
+def render(core: Core, mode: str | None) -> str | Image | None:
+    """The situation in a mode; None for `human`, which prints, and where there is no mode."""
+    if mode is None:
+        return None
+    shown = scene(core.world, core.situation, core.robot)
+    if mode == "rgb_array":
+        return draw_picture(shown)
+    text = draw_text(shown)
+    if mode == "human":
+        print(text)
+        return None
+    return text
+
+
+def html_of(core: Core) -> str:
+    """The situation as HTML that stands by itself; text where no game has begun."""
+    domain = core.world.description.name
+    try:
+        now = core.situation
+    except NotResetError:
+        return str(Markup("<p>{}</p>").format(f"{domain}: no game has begun"))
+    shown = scene(core.world, now, core.robot)
+    picture = BytesIO()
+    Pillow.fromarray(draw_picture(shown)).save(picture, "PNG")
+    stands = now.ending or f"step {now.step} of {core.rules.steps}"
+    caption = f"{domain}, {stands}; goal: {', '.join(now.goal)}"
+    png = b64encode(picture.getvalue()).decode()
+    return str(FIGURE.format(alt=draw_text(shown), png=png, caption=caption))
+
+
+def draw_text(scene: Scene) -> str:
+    """The places side by side, an open wall (`=`) between neighbours, and a caption."""
+    return "\n".join([*_rooms(scene), *_caption(scene)])
+
+
+def _rooms(scene: Scene) -> Iterator[str]:
+    if not scene.places:
+        return
+    columns = [list(_lines(place)) for place in scene.places]
+    width = max([SMALLEST, *(len(line) for column in columns for line in column)])
+    doors = ["=" if b.name in a.next_to else "|" for a, b in pairwise(scene.places)]
+    rule = "+" + "+".join(["-" * (width + 2)] * len(columns)) + "+"
+    yield rule
+    for number, row in enumerate(zip_longest(*columns, fillvalue="")):
+        walls = [*(doors if number == 0 else "|" * len(doors)), "|"]
+        yield "| " + " ".join(f"{c:{width}} {w}" for c, w in zip(row, walls, strict=True))
+    yield rule
+
+
+def _lines(place: Place) -> Iterator[str]:
+    marks = [name if true else f"not {name}" for name, true in place.marks.items()]
+    yield place.name + (f" ({', '.join(marks)})" if marks else "")
+    for robot, held in place.robots.items():
+        yield f"[{robot}]{_spot(place, robot)}" + (f" holds {', '.join(held)}" if held else "")
+    yield from (thing + _spot(place, thing) for thing in place.things)
+
+
+def _spot(place: Place, thing: str) -> str:
+    return f" in {place.spots[thing]}" if thing in place.spots else ""
+
+
+def _caption(scene: Scene) -> Iterator[str]:
+    done = f"  before it: {scene.robot}" if scene.robot else ""
+    beside = f" beside {scene.adversary}" if scene.adversary not in ("", "none") else ""
+    yield f"step {scene.step}{done}{beside}" + (f"  [{scene.outcome}]" if scene.outcome else "")
+    if scene.rest:
+        yield f"also true: {', '.join(scene.rest)}"
