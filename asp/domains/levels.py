@@ -50,8 +50,6 @@ LEVELS: Mapping[str, LevelSize] = {
 }
 """The published levels L1 to L8."""
 
-Pairs = Iterator[tuple[str, str]]
-
 
 @lru_cache(maxsize=MOST_TEXTS)
 def level_text(
@@ -65,14 +63,10 @@ def level_text(
     things = {f"object{n}": _numbered(f"object{n}", p) for n, p in enumerate(counts, start=1)}
     coarse = _with_sort(_with_sort(_packaged("level.al"), "room", names), "object", [*things])
     wholes = (f"{whole} = {{{', '.join(parts)}}}." for whole, parts in (cells | things).items())
-    ways = [
-        *_doorways(size, cells),
-        *(way for room in cells.values() for way in _steps(size, room)),
-    ]
     fine = _with_section(_packaged("level.fine"), "components", wholes)
     return (
         _with_section(coarse, "facts", (f"next_to({a}, {b})." for a, b in pairwise(names))),
-        _with_section(fine, "facts", (f"fine_next_to({a}, {b})." for a, b in ways)),
+        _with_section(fine, "facts", (f"fine_next_to({a}, {b})." for a, b in _ways(size, cells))),
     )
 
 
@@ -80,19 +74,19 @@ def _numbered(whole: str, count: int) -> list[str]:
     return [f"{whole}_{number}" for number in range(1, count + 1)]
 
 
-def _steps(size: LevelSize, room: Sequence[str]) -> Pairs:
-    """The neighbouring cells of a room, row by row."""
-    for number, cell in enumerate(room):
-        if (number + 1) % size.columns:
-            yield cell, room[number + 1]
-        if number + size.columns < len(room):
-            yield cell, room[number + size.columns]
+def _ways(size: LevelSize, cells: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, str]]:
+    """The doorways, and the neighbouring cells of each room, row by row.
 
-
-def _doorways(size: LevelSize, cells: Mapping[str, Sequence[str]]) -> Pairs:
-    """From the last cell of a room's last row to the first cell of the next room's last row."""
+    A doorway leads from the last cell of a room's last row to the first of the next room's.
+    """
     for one, other in pairwise(cells.values()):
         yield one[-1], other[-size.columns]
+    for room in cells.values():
+        for number, cell in enumerate(room):
+            if (number + 1) % size.columns:
+                yield cell, room[number + 1]
+            if number + size.columns < len(room):
+                yield cell, room[number + size.columns]
 
 
 def _with_sort(text: str, name: str, members: Sequence[str]) -> str:

@@ -82,10 +82,9 @@ def _of_use(use: roles.Use, signature: Signature, failed: Iterable[syntax.Declar
     if kind is None:
         if any(d.kind in use.kinds and len(d.sorts) == len(atom.args) for d in failed):
             return  # a declaration that failed may have been of this atom
-        known = suggestion(
-            atom.name, [n for n, d in signature.symbols.items() if d.kind in use.kinds]
-        )
-        yield atom.place, f"unknown {roles.noun(use.kinds)} '{atom.name}'; {known}"
+        alike = [name for name, symbol in signature.symbols.items() if symbol.kind in use.kinds]
+        meant = suggestion(atom.name, alike)
+        yield atom.place, f"unknown {roles.noun(use.kinds)} '{atom.name}'; {meant}"
     elif kind not in use.kinds:
         yield atom.place, f"'{atom.name}' is {_NOUNS[kind]}; this place needs {use.wanted}"
     else:
@@ -170,22 +169,18 @@ def check_cycles(source: syntax.Source, signature: Signature, problems: Problems
     statics, open_statics = static_truth(source, signature)
     undecided = {static.name for static in open_statics}
     for law in laws:
-        if law.head.atom.name in undecided:
-            problems.report(
-                law.place, f"'{law.head.atom.name}' is defined through its own negation"
-            )
+        if (name := law.head.atom.name) in undecided:
+            problems.report(law.place, f"'{name}' is defined through its own negation")
     ground = [
         (law, instance(law.head, binding), left["body"])
         for law in laws
         for binding, left in Instances(source, signature, statics).of(law)
     ]
-    told: dict[syntax.StateConstraint, str] = {}
+    told: dict[syntax.Place, str] = {}
     for law, head, condition in _closing(ground, signature):
-        told.setdefault(
-            law, f"'{head}' is defined through its own negation by way of '{condition}'"
-        )
-    for law, message in told.items():
-        problems.report(law.place, message)
+        message = f"'{head}' is defined through its own negation by way of '{condition}'"
+        told.setdefault(law.place, message)
+    problems.report_all(told.items())
 
 
 def _named(literal: syntax.Literal) -> Literal:

@@ -112,10 +112,8 @@ def syntax_error(error: UnexpectedInput, text: str, file: str, grammar: Lark) ->
 def check_section_words(tree: ParseTree, text: str, file: str) -> None:
     """Raises SourceError for a section word behind something else on its line."""
     for section in tree.children:
-        assert isinstance(section, Tree)
-        word = section.children[0]
-        assert isinstance(word, Token)
-        if not _is_first_in_line(word, text):
+        word = section.children[0] if isinstance(section, Tree) else section
+        if isinstance(word, Token) and not _is_first_in_line(word, text):
             raise SourceError(file, place_of(word), _ALONE.format(word))
 
 

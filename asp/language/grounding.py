@@ -36,6 +36,10 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
     constraints = source.each(syntax.StateConstraint)
     on_fluents = (law for law in constraints if signature.kind(law.head.atom.name) != "static")
     agent_actions = signature.atoms("agent")
+    costs: dict[str, int] = dict.fromkeys(agent_actions, 0)
+    for statement in source.each(syntax.CostStatement):
+        for binding, _ in instances.of(statement):
+            costs[instance(statement.action, binding)] = statement.units
     return Description(
         name=name,
         source=source.text,
@@ -50,7 +54,7 @@ def ground_description(source: syntax.Source, signature: Signature, name: str) -
         executability=instances.ground(source.each(syntax.ExecutabilityCondition), Executability),
         sees=instances.ground(source.each(syntax.SeesStatement), Sees),
         shows=instances.ground(source.each(syntax.ShowsStatement), Shows),
-        costs=dict.fromkeys(agent_actions, 0) | _costs(instances),
+        costs=costs,
         initially=_initially(instances),
         defaults=_defaults(instances),
         triggers=instances.ground(source.each(syntax.TriggerStatement), Trigger),
@@ -84,16 +88,11 @@ class Instances:
         for values in product(*domains.values()):
             binding = dict(zip(domains, values, strict=True))
             if all(self._holds(condition, binding) for condition in known):
-                yield (
-                    binding,
-                    {n: tuple(dict.fromkeys(instance(c, binding))) for n, c in left.items()},
-                )
+                rest = {n: dict.fromkeys(instance(body, binding)) for n, body in left.items()}
+                yield binding, {name: tuple(body) for name, body in rest.items()}
 
-    def _is_fluent(self, condition: syntax.Condition) -> bool:
-        return (
-            isinstance(condition, syntax.Literal)
-            and self.signature.kind(condition.atom.name) in FLUENTS
-        )
+    def _is_fluent(self, part: syntax.Condition) -> bool:
+        return isinstance(part, syntax.Literal) and self.signature.kind(part.atom.name) in FLUENTS
 
     def _holds(self, condition: syntax.Condition, binding: Binding) -> bool:
         """Whether a comparison or a static holds; a sort does, for its variable ranges over it."""
@@ -183,14 +182,6 @@ def instance(part: Any, binding: Binding) -> Any:
     if isinstance(part, list | tuple):
         return tuple([instance(each, binding) for each in part])
     return part
-
-
-def _costs(instances: Instances) -> dict[str, int]:
-    return {
-        instance(statement.action, binding): statement.units
-        for statement in instances.source.each(syntax.CostStatement)
-        for binding, _ in instances.of(statement)
-    }
 
 
 def _initially(instances: Instances) -> tuple[tuple[Fluent, ...], ...]:

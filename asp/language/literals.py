@@ -23,12 +23,11 @@ class Literal(str):
     `is_positive`.
     """
 
-    __slots__ = ("_complement", "arguments", "is_positive", "name")
+    __slots__ = ("arguments", "is_positive", "name")
 
     name: str
     arguments: tuple[str, ...]
     is_positive: bool
-    _complement: Literal | None
 
     def __new__(
         cls, name: str, arguments: tuple[str, ...] = (), is_positive: bool = True
@@ -39,7 +38,6 @@ class Literal(str):
         set_part(literal, "name", name)
         set_part(literal, "arguments", arguments)
         set_part(literal, "is_positive", is_positive)
-        set_part(literal, "_complement", None)
         return literal
 
     @staticmethod
@@ -60,11 +58,7 @@ class Literal(str):
     @property
     def complement(self) -> Literal:
         """The same atom with the other sign."""
-        if self._complement is None:
-            other = _made(self.name, self.arguments, not self.is_positive)
-            object.__setattr__(self, "_complement", other)
-            return other
-        return self._complement
+        return _made(self.name, self.arguments, not self.is_positive)
 
     def renamed(self, names: Mapping[str, str]) -> Literal:
         """The literal with other names for its constants; one without keeps its own."""
@@ -74,6 +68,9 @@ class Literal(str):
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a literal does not change: {name!r} cannot be set")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a literal does not change: {name!r} cannot be deleted")
 
     def __reduce__(self) -> tuple[object, ...]:
         return Literal.of, (self.name, self.arguments, self.is_positive)

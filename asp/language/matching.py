@@ -153,9 +153,8 @@ class Pattern:
                 cheapest = min(positive, key=lambda literal: self._cost(literal.atom, bound))
                 left = [c for c in left if c is not cheapest]
                 source, terms = self._source(cheapest.atom, bound), cheapest.terms
-            elif missing := _variables(self._terms.values()) - bound:
-                order = list(self._domains)
-                name = min(missing, key=lambda v: (len(self._domains[v]), order.index(v)))
+            elif missing := [v for v in self._domains if v in self._terms and v not in bound]:
+                name = min(missing, key=lambda variable: len(self._domains[variable]))
                 source, terms = self._members(name), [self._terms[name]]
             else:
                 source = None
@@ -165,13 +164,12 @@ class Pattern:
 
     def _fitting(self, terms: Sequence[syntax.Term], bound: frozenset[str]) -> Fits:
         """Whether a row fits the terms, given the bound variables; binds the others."""
-        binds: list[tuple[int, str, frozenset[str]]] = []
-        same: list[tuple[int, str]] = []
+        first: dict[str, int] = {}  # where a variable stands that is bound here
         for place, term in enumerate(terms):
-            if not term.is_variable or term.name in bound.union(name for _, name, _ in binds):
-                same.append((place, term.name))
-            else:
-                binds.append((place, term.name, self._domains[term.name]))
+            if term.is_variable and term.name not in bound:
+                first.setdefault(term.name, place)
+        binds = [(place, name, self._domains[name]) for name, place in first.items()]
+        same = [(n, term.name) for n, term in enumerate(terms) if first.get(term.name) != n]
 
         def fits(row: Row, values: Values) -> bool:
             for place, variable, domain in binds:

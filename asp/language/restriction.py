@@ -17,7 +17,7 @@ def restrict(source: syntax.Source, dropped: Collection[str]) -> syntax.Source:
     statements = tuple(
         _without(statement, gone) if isinstance(statement, syntax.SortDefinition) else statement
         for statement in source.statements
-        if isinstance(statement, syntax.SortDefinition) or gone.isdisjoint(named(statement))
+        if gone.isdisjoint(named(statement))
     )
     return replace(source, statements=statements)
 

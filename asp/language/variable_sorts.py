@@ -1,7 +1,6 @@
 """Which symbols may stand where in a statement, and what a variable there ranges over."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 
 from asp.language import syntax
 from asp.language.signature import Signature
@@ -20,8 +19,7 @@ Domains = Mapping[str, tuple[str, ...]]
 """What each variable of one statement ranges over."""
 
 
-@dataclass(frozen=True)
-class Use:
+class Use(syntax.Node):
     """An atom of a statement with the kinds of symbols that may stand there."""
 
     atom: syntax.Atom

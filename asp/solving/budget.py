@@ -221,11 +221,10 @@ def reasoning_clock() -> Reading:
 @contextmanager
 def preparation() -> Iterator[None]:
     """What is spent inside is preparation, which others can reuse; it may be nested."""
-    wall, cpu = time.perf_counter(), time.process_time()
-    before = _prepared.wall, _prepared.cpu
+    began = reasoning_clock()
     try:
         yield
     finally:
         # What was spent inside another one is part of it.
-        _prepared.wall = before[0] + time.perf_counter() - wall
-        _prepared.cpu = before[1] + time.process_time() - cpu
+        _prepared.wall = time.perf_counter() - began.wall
+        _prepared.cpu = time.process_time() - began.cpu
