@@ -72,7 +72,7 @@ class Instances:
 
     def ground(self, statements: Iterable[syntax.Statement], kind: type[G]) -> tuple[G, ...]:
         """The ground statements of a kind, whose fields are named as those of the statements."""
-        names = [field.name for field in fields(kind)]
+        names = [field.name for field in fields(kind) if field.name not in BODIES]
         return tuple(
             kind(**{n: instance(getattr(own, n), binding) for n in names} | bodies)
             for own in statements
@@ -97,8 +97,8 @@ class Instances:
     def _holds(self, condition: syntax.Condition, binding: Binding) -> bool:
         """Whether a comparison or a static holds; a sort does, for its variable ranges over it."""
         if isinstance(condition, syntax.Comparison):
-            left, right = instance(condition.terms, binding)
-            return bool(left == right) == condition.positive
+            left, right = (binding.get(term.name, term.name) for term in condition.terms)
+            return (left == right) == condition.positive
         is_sort = condition.atom.name in self.signature.sorts
         return is_sort or (instance(condition.atom, binding) in self.statics) == condition.positive
 
@@ -173,8 +173,8 @@ def pattern_of(
 def instance(part: Any, binding: Binding) -> Any:
     """A part of a statement with constants for its variables: ground, or a tuple of such parts."""
     if isinstance(part, syntax.Literal):
-        atom = instance(part.atom, binding)
-        return atom if part.positive else atom.complement
+        names = [binding.get(term.name, term.name) for term in part.atom.args]
+        return Literal.of(part.atom.name, names, part.positive)
     if isinstance(part, syntax.Atom):
         return Literal.of(part.name, [binding.get(term.name, term.name) for term in part.args])
     if isinstance(part, syntax.Term):
