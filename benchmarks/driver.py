@@ -22,7 +22,7 @@ PAIRS = {"small": 2, "full": 100}  # of each scenario of the published compariso
 
 
 def main(size: str) -> list[Sheet]:
-    """Sheets `driver` (memory after so many trials) and `workers` (trials a second)."""
+    """Sheets `driver` (memory after so many trials) and `workers` (trials per second)."""
     compared = load("table1", [f"limit={PAIRS[size]}"])
     return [
         Sheet(
@@ -33,7 +33,7 @@ def main(size: str) -> list[Sheet]:
         ),
         Sheet(
             "workers",
-            "Trials of Table 1 a second, and processors busy with them",
+            "Trials of Table 1 per second, and processors busy with them",
             gathered(throughput(compared, workers) for workers in WORKERS),
             (f"processors: {os.cpu_count()}; starting the workers is included",),
         ),
