@@ -16,13 +16,10 @@ from asp.solving.signals import Deliver, undisturbed
 
 Assumptions: TypeAlias = Sequence[tuple[Symbol, bool]] | Sequence[int]
 """Atoms with their truth, or literals of the solver."""
-Statement = Symbol | str
-"""A fact, as a term or as its text."""
 
 # A call of the solver that blocks answers in microseconds where one in the background takes a
 # millisecond, but it keeps signals from Python: it may only take some milliseconds.
 _BURST_CONFLICTS = 2000
-_NO_LIMIT = "umax"
 # Nothing that was learned is kept from one call to the next: how many conflicts a call takes, and
 # whether a budget suffices, hardly depends on what a session was asked before.
 _OPTIONS = (
@@ -69,7 +66,7 @@ def _term(value: Symbol | int | str) -> Symbol:
 def ground(
     texts: Iterable[str],
     constants: Mapping[str, int],
-    facts: Iterable[Statement],
+    facts: Iterable[Symbol | str],
     parts: Iterable[str] = (),
 ) -> clingo.Control:
     """A control with the ground program of the texts and facts, and of these parts of the texts.
@@ -167,7 +164,7 @@ def _in_background(
     budget.take_conflicts(_BURST_CONFLICTS)
     budget.check_conflicts()
     left = budget.conflicts
-    settings.solve_limit = _NO_LIMIT if left is None else str(left)
+    settings.solve_limit = "umax" if left is None else str(left)  # umax: no limit
     try:
         with control.solve(assumptions=assumptions, yield_=True, async_=True) as handle:
             _wait(handle, deliver)

@@ -14,6 +14,7 @@ import yaml
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
+from asp.language import Literal
 from testbed.config.models import FINE_STEPS, ExperimentConfig, Limits
 from testbed.config.places import ConfigError, Places, parsed
 
@@ -34,6 +35,10 @@ SCALARS = {
     "merge": ("<<", "<"),
 }
 """By the type of a plain scalar its form, and the characters that it may begin with."""
+
+
+# To PyYAML a literal, which is text with parts, is text: here, and where a user writes records.
+yaml.SafeDumper.add_representer(Literal, yaml.SafeDumper.represent_str)
 
 
 class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]

@@ -4,7 +4,9 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+import yaml
 
+from asp.language import Literal
 from testbed.config import ConfigError, ExperimentConfig, Limits, load_config
 from testbed.experiment.run_folder import read_config, write_config
 from tests.config.tiny import LAMP
@@ -181,3 +183,8 @@ def test_a_document_that_no_configuration_can_be_is_refused_with_its_line(
     (line,) = caught.value.lines
     assert line.startswith(f"{path}:")
     assert len(line) < 200 + len(str(path))
+
+
+def test_a_literal_is_text_in_documents_of_users() -> None:
+    literals = [Literal.parse("-at(left)"), Literal.parse("lit")]
+    assert yaml.safe_load(yaml.safe_dump({"goal": literals})) == {"goal": ["-at(left)", "lit"]}

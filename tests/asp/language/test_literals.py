@@ -122,6 +122,8 @@ def test_a_literal_does_not_change() -> None:
     literal = Literal.of("f", ["a"])
     with pytest.raises(AttributeError):
         literal.name = "g"  # type: ignore[misc]
+    with pytest.raises(AttributeError):
+        del literal.name
     assert literal.name == "f"
 
 
