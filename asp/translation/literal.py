@@ -140,8 +140,6 @@ def _narrowest_sorts(statement: syntax.Statement, signature: Signature) -> list[
 
 def _signature_rules(signature: Signature) -> str:
     """Closed world for statics; predicates that nothing declares are defined all the same."""
-    lines = ["% Closed world for statics."]
-    for declaration in signature.of_kind("static"):
-        atom, _, sorts = schema(declaration)
-        lines.append(rule(f"-{atom}", [*sorts, f"not {atom}"]))
-    return "\n".join([*lines, "", _DEFINED])
+    statics = map(schema, signature.of_kind("static"))
+    lines = [rule(f"-{atom}", [*sorts, f"not {atom}"]) for atom, _, sorts in statics]
+    return "\n".join(["% Closed world for statics.", *lines, "", _DEFINED])
