@@ -13,6 +13,7 @@ from importlib import import_module
 from importlib.metadata import entry_points
 from inspect import signature
 from pathlib import Path
+from threading import RLock
 from typing import Any, Generic, TypeVar
 
 from asp.language import suggestion
@@ -22,6 +23,8 @@ T = TypeVar("T")
 PATH_VARIABLE = "TESTBED_PATH"
 OURS = "intention-testbed"
 """The distribution that a built-in name belongs to."""
+_importing = RLock()
+"""Two threads, one that imports a module and one its package, which imports it, too, deadlock."""
 
 
 class RegistryError(ValueError):
@@ -118,7 +121,8 @@ def _attribute(place: str) -> Any:
     if not all(part.isidentifier() for part in (*module.split("."), *parts)):
         raise RegistryError(f"'{place}' should be module:Class, as in my_package.my_module:MyClass")
     try:
-        found: Any = import_module(module)
+        with _importing:
+            found: Any = import_module(module)
     except (Exception, SystemExit) as error:  # whatever a module of a user's does
         if isinstance(error, ModuleNotFoundError) and f"{module}.".startswith(f"{error.name}."):
             where = "it can lie beside the configuration, or be installed"
