@@ -1,16 +1,10 @@
 """Adversaries: who casts the exogenous actions. One file a strategy, one interface."""
 
-from agents.adversary.base import Adversary, AdversaryView, Game, Sight
-from agents.adversary.random import RANDOM_RATE, Random
-from agents.adversary.scripted import Script, Triggered
-
-__all__ = [
-    "RANDOM_RATE",
-    "Adversary",
-    "AdversaryView",
-    "Game",
-    "Random",
-    "Script",
-    "Sight",
-    "Triggered",
-]
+from agents.adversary.base import Adversary as Adversary
+from agents.adversary.base import AdversaryView as AdversaryView
+from agents.adversary.base import Game as Game
+from agents.adversary.base import Sight as Sight
+from agents.adversary.random import RANDOM_RATE as RANDOM_RATE
+from agents.adversary.random import Random as Random
+from agents.adversary.scripted import Script as Script
+from agents.adversary.scripted import Triggered as Triggered

@@ -1,5 +1,3 @@
 """The intentional robot: the adapted theory of intentions in the loop AIA (P 3.2)."""
 
-from agents.intentional.controller import IntentionalRobot
-
-__all__ = ["IntentionalRobot"]
+from agents.intentional.controller import IntentionalRobot as IntentionalRobot

@@ -1,21 +1,14 @@
 """What robots have in common: the turn of a step, reasoning, what is told of it."""
 
-from agents.shared.narration import Narration, Step, listed, retold
-from agents.shared.reasoning import Intention, Reasoner, limits_of, sessions_of
-from agents.shared.reasons import Reasons
-from agents.shared.robot import MakeReasoner, ReasoningRobot, Thought
-
-__all__ = [
-    "Intention",
-    "MakeReasoner",
-    "Narration",
-    "Reasoner",
-    "ReasoningRobot",
-    "Reasons",
-    "Step",
-    "Thought",
-    "limits_of",
-    "listed",
-    "retold",
-    "sessions_of",
-]
+from agents.shared.narration import Narration as Narration
+from agents.shared.narration import Step as Step
+from agents.shared.narration import listed as listed
+from agents.shared.narration import retold as retold
+from agents.shared.reasoning import Intention as Intention
+from agents.shared.reasoning import Reasoner as Reasoner
+from agents.shared.reasoning import limits_of as limits_of
+from agents.shared.reasoning import sessions_of as sessions_of
+from agents.shared.reasons import Reasons as Reasons
+from agents.shared.robot import MakeReasoner as MakeReasoner
+from agents.shared.robot import ReasoningRobot as ReasoningRobot
+from agents.shared.robot import Thought as Thought

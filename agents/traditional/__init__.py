@@ -1,5 +1,3 @@
 """The traditional planning baseline TP (P 4)."""
 
-from agents.traditional.robot import TraditionalRobot
-
-__all__ = ["TraditionalRobot"]
+from agents.traditional.robot import TraditionalRobot as TraditionalRobot

@@ -1,46 +1,23 @@
 """Configurations: YAML with dotted overrides in, a validated `ExperimentConfig` out."""
 
-from testbed.config.composing import write_yaml
-from testbed.config.levels import (
-    SCENARIO_KEYS,
-    level_size,
-    refinement_of_files,
-    refinement_of_size,
-    refinements,
-)
-from testbed.config.loading import config_names, find_config, lists_keys, load_config
-from testbed.config.models import (
-    TRIGGERS,
-    AdversarySettings,
-    ExperimentConfig,
-    Limits,
-    Observability,
-    ScenarioSettings,
-    ScriptEntry,
-)
-from testbed.config.places import ConfigError, Finding, dotted
-from testbed.config.scenarios import early_script_findings
-
-__all__ = [
-    "SCENARIO_KEYS",
-    "TRIGGERS",
-    "AdversarySettings",
-    "ConfigError",
-    "ExperimentConfig",
-    "Finding",
-    "Limits",
-    "Observability",
-    "ScenarioSettings",
-    "ScriptEntry",
-    "config_names",
-    "dotted",
-    "early_script_findings",
-    "find_config",
-    "level_size",
-    "lists_keys",
-    "load_config",
-    "refinement_of_files",
-    "refinement_of_size",
-    "refinements",
-    "write_yaml",
-]
+from testbed.config.composing import write_yaml as write_yaml
+from testbed.config.levels import SCENARIO_KEYS as SCENARIO_KEYS
+from testbed.config.levels import level_size as level_size
+from testbed.config.levels import refinement_of_files as refinement_of_files
+from testbed.config.levels import refinement_of_size as refinement_of_size
+from testbed.config.levels import refinements as refinements
+from testbed.config.loading import config_names as config_names
+from testbed.config.loading import find_config as find_config
+from testbed.config.loading import lists_keys as lists_keys
+from testbed.config.loading import load_config as load_config
+from testbed.config.models import TRIGGERS as TRIGGERS
+from testbed.config.models import AdversarySettings as AdversarySettings
+from testbed.config.models import ExperimentConfig as ExperimentConfig
+from testbed.config.models import Limits as Limits
+from testbed.config.models import Observability as Observability
+from testbed.config.models import ScenarioSettings as ScenarioSettings
+from testbed.config.models import ScriptEntry as ScriptEntry
+from testbed.config.places import ConfigError as ConfigError
+from testbed.config.places import Finding as Finding
+from testbed.config.places import dotted as dotted
+from testbed.config.scenarios import early_script_findings as early_script_findings

@@ -4,39 +4,20 @@ Import `AECView` and `ParallelView` from the modules `aec` and `parallel`: Petti
 to import than all the rest.
 """
 
-from testbed.environment.core import Core
-from testbed.environment.execution import Execution
-from testbed.environment.fine import Pace, RandomGoal, RandomStart, fine_core
-from testbed.environment.rules import (
-    ADVERSARY,
-    ROBOT,
-    Ending,
-    IllegalActionError,
-    Mode,
-    NotResetError,
-    Observability,
-    Rules,
-    UnknownAgentError,
-    UnknownOptionError,
-    rewards,
-)
-
-__all__ = [
-    "ADVERSARY",
-    "ROBOT",
-    "Core",
-    "Ending",
-    "Execution",
-    "IllegalActionError",
-    "Mode",
-    "NotResetError",
-    "Observability",
-    "Pace",
-    "RandomGoal",
-    "RandomStart",
-    "Rules",
-    "UnknownAgentError",
-    "UnknownOptionError",
-    "fine_core",
-    "rewards",
-]
+from testbed.environment.core import Core as Core
+from testbed.environment.execution import Execution as Execution
+from testbed.environment.fine import Pace as Pace
+from testbed.environment.fine import RandomGoal as RandomGoal
+from testbed.environment.fine import RandomStart as RandomStart
+from testbed.environment.fine import fine_core as fine_core
+from testbed.environment.rules import ADVERSARY as ADVERSARY
+from testbed.environment.rules import ROBOT as ROBOT
+from testbed.environment.rules import Ending as Ending
+from testbed.environment.rules import IllegalActionError as IllegalActionError
+from testbed.environment.rules import Mode as Mode
+from testbed.environment.rules import NotResetError as NotResetError
+from testbed.environment.rules import Observability as Observability
+from testbed.environment.rules import Rules as Rules
+from testbed.environment.rules import UnknownAgentError as UnknownAgentError
+from testbed.environment.rules import UnknownOptionError as UnknownOptionError
+from testbed.environment.rules import rewards as rewards

@@ -2,12 +2,12 @@
 
 from typing import TYPE_CHECKING, Any
 
-from testbed.experiment.errors import StoreError, WorkerError
+from testbed.experiment.errors import StoreError as StoreError
+from testbed.experiment.errors import WorkerError as WorkerError
 
 if TYPE_CHECKING:
-    from testbed.experiment.runner import RunStatus, run
-
-__all__ = ["RunStatus", "StoreError", "WorkerError", "run"]
+    from testbed.experiment.runner import RunStatus as RunStatus
+    from testbed.experiment.runner import run as run
 
 
 def __getattr__(name: str) -> Any:

@@ -1,70 +1,36 @@
 """The messages between a driver and a robot, and the interface of a robot."""
 
-from testbed.protocol.bounds import MOST_BYTES, Count, literal_within_bounds, shortened
-from testbed.protocol.errors import (
-    NOT_UNDERSTOOD,
-    LinkError,
-    RobotGone,
-    RobotLost,
-    RobotStopped,
-    RobotStops,
-    in_one_line,
-)
-from testbed.protocol.messages import (
-    FINISH,
-    NONE,
-    PROTOCOL_VERSION,
-    WAIT,
-    Contradiction,
-    Decision,
-    Event,
-    Explanation,
-    FineTrace,
-    Minimality,
-    NoPlan,
-    Percept,
-    Question,
-    Task,
-    Trace,
-    decode,
-    encode,
-    is_mental,
-)
-from testbed.protocol.robot import Capabilities, Knowledge, Robot, RobotClient, RobotFactory
-
-__all__ = [
-    "FINISH",
-    "MOST_BYTES",
-    "NONE",
-    "NOT_UNDERSTOOD",
-    "PROTOCOL_VERSION",
-    "WAIT",
-    "Capabilities",
-    "Contradiction",
-    "Count",
-    "Decision",
-    "Event",
-    "Explanation",
-    "FineTrace",
-    "Knowledge",
-    "LinkError",
-    "Minimality",
-    "NoPlan",
-    "Percept",
-    "Question",
-    "Robot",
-    "RobotClient",
-    "RobotFactory",
-    "RobotGone",
-    "RobotLost",
-    "RobotStopped",
-    "RobotStops",
-    "Task",
-    "Trace",
-    "decode",
-    "encode",
-    "in_one_line",
-    "is_mental",
-    "literal_within_bounds",
-    "shortened",
-]
+from testbed.protocol.bounds import MOST_BYTES as MOST_BYTES
+from testbed.protocol.bounds import Count as Count
+from testbed.protocol.bounds import literal_within_bounds as literal_within_bounds
+from testbed.protocol.bounds import shortened as shortened
+from testbed.protocol.errors import NOT_UNDERSTOOD as NOT_UNDERSTOOD
+from testbed.protocol.errors import LinkError as LinkError
+from testbed.protocol.errors import RobotGone as RobotGone
+from testbed.protocol.errors import RobotLost as RobotLost
+from testbed.protocol.errors import RobotStopped as RobotStopped
+from testbed.protocol.errors import RobotStops as RobotStops
+from testbed.protocol.errors import in_one_line as in_one_line
+from testbed.protocol.messages import FINISH as FINISH
+from testbed.protocol.messages import NONE as NONE
+from testbed.protocol.messages import PROTOCOL_VERSION as PROTOCOL_VERSION
+from testbed.protocol.messages import WAIT as WAIT
+from testbed.protocol.messages import Contradiction as Contradiction
+from testbed.protocol.messages import Decision as Decision
+from testbed.protocol.messages import Event as Event
+from testbed.protocol.messages import Explanation as Explanation
+from testbed.protocol.messages import FineTrace as FineTrace
+from testbed.protocol.messages import Minimality as Minimality
+from testbed.protocol.messages import NoPlan as NoPlan
+from testbed.protocol.messages import Percept as Percept
+from testbed.protocol.messages import Question as Question
+from testbed.protocol.messages import Task as Task
+from testbed.protocol.messages import Trace as Trace
+from testbed.protocol.messages import decode as decode
+from testbed.protocol.messages import encode as encode
+from testbed.protocol.messages import is_mental as is_mental
+from testbed.protocol.robot import Capabilities as Capabilities
+from testbed.protocol.robot import Knowledge as Knowledge
+from testbed.protocol.robot import Robot as Robot
+from testbed.protocol.robot import RobotClient as RobotClient
+from testbed.protocol.robot import RobotFactory as RobotFactory

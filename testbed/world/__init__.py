@@ -4,27 +4,14 @@ from functools import cache, lru_cache
 
 from asp.language import Description, Problems, load_description, signature_of, syntax
 from asp.refinement import Refinement
-from testbed.world.closure import bits
+from testbed.world.closure import bits as bits
 from testbed.world.compiled import CompiledWorld
 from testbed.world.matched.world import MatchedWorld
-from testbed.world.world import (
-    NotExecutableError,
-    StateError,
-    UnknownActionError,
-    UnknownFluentError,
-    World,
-)
-
-__all__ = [
-    "NotExecutableError",
-    "StateError",
-    "UnknownActionError",
-    "UnknownFluentError",
-    "World",
-    "bits",
-    "load_world",
-    "world_of",
-]
+from testbed.world.world import NotExecutableError as NotExecutableError
+from testbed.world.world import StateError as StateError
+from testbed.world.world import UnknownActionError as UnknownActionError
+from testbed.world.world import UnknownFluentError as UnknownFluentError
+from testbed.world.world import World as World
 
 
 def world_of(description: Description | Refinement | syntax.Source) -> World:

@@ -1,6 +1,8 @@
 """What a robot knows at the fine resolution, and what follows from it."""
 
-from asp.reasoning.fine_knowledge.incremental import IncrementalFineKnowledge
-from asp.reasoning.fine_knowledge.reference import FineKnowledge, Known, ReferenceFineKnowledge
-
-__all__ = ["FineKnowledge", "IncrementalFineKnowledge", "Known", "ReferenceFineKnowledge"]
+from asp.reasoning.fine_knowledge.incremental import (
+    IncrementalFineKnowledge as IncrementalFineKnowledge,
+)
+from asp.reasoning.fine_knowledge.reference import FineKnowledge as FineKnowledge
+from asp.reasoning.fine_knowledge.reference import Known as Known
+from asp.reasoning.fine_knowledge.reference import ReferenceFineKnowledge as ReferenceFineKnowledge

@@ -9,11 +9,12 @@ from markupsafe import Markup
 from PIL import Image as Pillow
 
 from testbed.environment.core import Core
-from testbed.environment.rendering.picture import Image, draw_picture
-from testbed.environment.rendering.scene import Place, Scene, scene
+from testbed.environment.rendering.picture import Image as Image
+from testbed.environment.rendering.picture import draw_picture as draw_picture
+from testbed.environment.rendering.scene import Place
+from testbed.environment.rendering.scene import Scene as Scene
+from testbed.environment.rendering.scene import scene as scene
 from testbed.environment.rules import NotResetError
-
-__all__ = ["MODES", "Image", "Scene", "draw_picture", "draw_text", "html_of", "render", "scene"]
 
 FIGURE = Markup(
     '<figure style="margin:0"><img style="max-width:100%" alt="{alt}"'
