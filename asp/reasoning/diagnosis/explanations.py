@@ -35,6 +35,11 @@ class Explanation:
         """How many events, and false reports and attempts, it assumes (27)."""
         return len(self.unobserved) + len(self.distrusted)
 
+    @property
+    def price(self) -> tuple[int, int]:
+        """How much it assumes: its size, and then its exceptions."""
+        return self.size, len(self.exceptions)
+
     def facts(self, predicate: str) -> Iterator[Symbol]:
         """predicate(PEA,I) for each event, and predicate_distrusted(A,I) for what is distrusted.
 
@@ -123,7 +128,7 @@ class Diagnoser(Protocol[H_contra]):
     """Explains one history after another step of it: the reference, or its incremental twin."""
 
     def diagnose(self, history: H_contra, adopted: Explanation, /) -> Diagnosis:
-        """The adopted explanation if it still explains the history, else the first smallest one.
+        """The adopted explanation if it is still as small as any, else the first smallest one.
 
         The order is that of `order.lp`. Raises InconsistentHistoryError and LimitError.
         """

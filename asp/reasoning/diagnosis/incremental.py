@@ -89,14 +89,17 @@ class IncrementalDiagnoser(Generic[H_contra]):
         return self._tracker.holds(state)
 
     def diagnose(self, history: H_contra, adopted: Explanation, /) -> Diagnosis:
-        """The adopted explanation if it still explains the history, else the first smallest one.
+        """The adopted explanation if it is still as small as any, else the first smallest one.
 
         Raises InconsistentHistoryError and LimitError.
         """
-        self._hear(history)
+        is_late = self._hear(history)
         # Where the time ran out after late news, the caller holds what it held before the news.
         adopted = adopted.left(history)
         self._compress(history)
+        reported = self._knowledge.actions[1] & history.at(history.step - 1).happened.keys()
+        if is_late or (reported and not adopted.proved):
+            adopted = self._revised(history, adopted)
         belief = self._belief or self._first(history, adopted)
         carried = self._tracker.carried(belief, history, adopted)
         if carried is None:
@@ -105,14 +108,22 @@ class IncrementalDiagnoser(Generic[H_contra]):
             self._belief = carried
         return Diagnosis(adopted, alternatives=partial(self._alternatives, history, adopted))
 
-    def _hear(self, history: History) -> None:
-        """Takes back what late news of the past may change."""
+    def _hear(self, history: History) -> bool:
+        """Takes back what late news of the past may change. Returns whether there is any."""
         news = history.late_news[self._heard :]
         if news:
             self._heard += len(news)
             self._belief, self._fewest = None, (0, 0)
             if self._frontier is not None and min(news) <= self._frontier.step:
                 self._frontier = None
+        return bool(news)
+
+    def _revised(self, history: History, adopted: Explanation) -> Explanation:
+        """What news leaves of the adopted explanation: nothing where another one is smaller."""
+        found = self._smallest(self._problem(history))
+        if found is None:
+            return replace(adopted, proved=False)
+        return adopted if adopted.price <= found.explanation.price else Explanation()
 
     def _compress(self, history: History) -> None:
         """Compresses a little more of the history, where its start is known.

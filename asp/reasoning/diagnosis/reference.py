@@ -50,11 +50,11 @@ class ReferenceDiagnoser(Generic[H_contra]):
         self._given = (*knowledge.ranks, *knowledge.start, *goal_facts(goal))
 
     def diagnose(self, history: H_contra, adopted: Explanation, /) -> Diagnosis:
-        """The adopted explanation if it still explains the history, else the first smallest one.
+        """The adopted explanation if it is still as small as any, else the first smallest one.
 
-        It is kept if its events and exceptions are at least. Where the budget of the decision does
-        not suffice for the smallest one it is the best one found, which is not `proved`. Raises
-        InconsistentHistoryError and LimitError.
+        Of the adopted one its events and exceptions are kept, what it says of step 0 if that can
+        be. Where the budget of the decision does not suffice for the smallest one it is the best
+        one found, which is not `proved`. Raises InconsistentHistoryError and LimitError.
         """
         return self._diagnose(history, adopted, keeps=True)
 
@@ -78,7 +78,9 @@ class ReferenceDiagnoser(Generic[H_contra]):
 
         def smallest(most: int) -> Diagnosis | None:
             control = counting(most)
-            return (_kept(control) if keeps else None) or _smallest(control)
+            found, kept = _smallest(control), _kept(control) if keeps else None
+            is_smallest = found and kept and kept.explanation.price <= found.explanation.price
+            return kept if is_smallest else found
 
         try:
             with up_to(SEARCH):

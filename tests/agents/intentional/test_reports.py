@@ -237,6 +237,47 @@ def test_a_report_is_believed_again_where_later_news_needs_it(reasoner: Make) ->
     assert explained.explanation == Explanation()
 
 
+GUEST = """
+sorts
+  host  = {anna}.
+  place = {hall, terrace, cellar}.
+fluents
+  inertial in(place).
+actions
+  agent     call(host, place).
+  exogenous stroll(place).
+laws
+  call(H, P) causes in(P).
+  stroll(P)  causes in(P).
+  -in(P1) if in(P2), P1 != P2.
+  impossible stroll(P) if in(P).
+"""
+
+
+@both
+@pytest.mark.parametrize("unknown", [False, True])
+def test_an_invention_is_given_up_where_late_news_explains_everything(
+    unknown: bool, reasoner: Make
+) -> None:
+    """The guest left the hall for another place than was supposed: nothing needs be supposed."""
+    text = (
+        GUEST.replace("(place).\nactions", "(place).\n  inertial lit.\nactions")
+        if unknown
+        else GUEST
+    )
+    mind = reasoner(knowledge("guest", text), parsed(["in(hall)"]), 3)
+    history = History(step=3)
+    history.observe(parsed(["in(hall)", "-in(terrace)", "-in(cellar)"]), 0)
+    history.happened(SELECT, True, 0)
+    history.observe(parsed(["-in(hall)"]), 3)
+    invented = mind.diagnose(history, Explanation()).explanation
+    assert [(e.step, e.action) for e in invented.unobserved] == [(2, "stroll(terrace)")]
+    history.happened(Literal.parse("stroll(cellar)"), True, 1)
+    diagnosis = mind.diagnose(history, invented)
+    assert (diagnosis.explanation.unobserved, diagnosis.explanation.distrusted) == ((), ())
+    assert "in(cellar)" in mind.intend(history, diagnosis).believed
+
+
 @both
 @pytest.mark.parametrize(
     ("goal", "then"), [parsed(["at(right)", "go(right)"]), ("safe", "switch_on")]
