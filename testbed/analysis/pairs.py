@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, NamedTuple, TypeVar
 
 import polars as pl
@@ -65,7 +64,7 @@ class Sample:
 
     def where(self, *holds: str | pl.Expr) -> Sample:
         """The pairs for which this holds."""
-        return dataclasses.replace(self, pairs=self.pairs.filter(*holds))
+        return replace(self, pairs=self.pairs.filter(*holds))
 
     @property
     def ended(self) -> Sample:
@@ -124,7 +123,7 @@ def corrected(found: Found) -> Found:
     tests: list[Test] = []
     _each_test(found, lambda test: tests.append(test) or test)  # type: ignore[func-returns-value]
     values = iter(holm([test.p for test in tests]))
-    return _each_test(found, lambda test: dataclasses.replace(test, holm=next(values)))
+    return _each_test(found, lambda test: replace(test, holm=next(values)))
 
 
 def _each_test(found: Found, new: Callable[[Test], Test]) -> Found:
@@ -136,8 +135,8 @@ def _each_test(found: Found, new: Callable[[Test], Test]) -> Found:
             return {key: _each_test(value, new) for key, value in found.items()}  # type: ignore[return-value]
         case list():
             return [_each_test(value, new) for value in found]  # type: ignore[return-value]
-        case _ if dataclasses.is_dataclass(found) and not isinstance(found, type):
-            names = (own.name for own in dataclasses.fields(found))
+        case _ if is_dataclass(found) and not isinstance(found, type):
+            names = (own.name for own in fields(found))
             parts = {name: _each_test(getattr(found, name), new) for name in names}
-            return dataclasses.replace(found, **parts)
+            return replace(found, **parts)
     return found

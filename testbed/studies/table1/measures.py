@@ -1,11 +1,9 @@
 """From pairs to Table 1: one row per scenario, all of them, and those in which nobody failed."""
 
-import dataclasses
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import lcm
-from typing import TypeAlias
 
 import polars as pl
 
@@ -36,8 +34,6 @@ LEFT_OUT = {
     "unsolvable": Apart.UNSOLVABLE,
 }
 """Why pairs of a scenario do not count, by the keys of a summary."""
-Optimum: TypeAlias = Mapping[str, float | None]
-"""What a robot needed over the least that achieves the goal, by measure; of how many `trials`."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +53,8 @@ class Row:
     correct.
     The test of the accuracies has its effect above 0 where the treatment was right more often;
     `advantage` is that difference of the proportions with its interval. `out_of_reach` are goals
-    that could not be achieved any more where a trial ended. `optimum` is by robot, `times` by the
+    that could not be achieved any more where a trial ended. `optimum` is, by robot, what it needed
+    over the least that achieves the goal, by measure, and of how many `trials`; `times` are by the
     name of the measure: planning, diagnosis, and both.
     """
 
@@ -69,7 +66,7 @@ class Row:
     ratios: Mapping[str, Ratio]
     meetings: Mapping[Meeting, int] = field(default_factory=dict)
     advantage: Estimate | None = None
-    optimum: Mapping[str, Optimum] = field(default_factory=dict)
+    optimum: Mapping[str, Mapping[str, float | None]] = field(default_factory=dict)
     times: Mapping[str, Seconds] = field(default_factory=dict)
     left_out: Mapping[str, int] = field(default_factory=lambda: dict.fromkeys(LEFT_OUT, 0))
     undecided: int = 0
@@ -203,4 +200,4 @@ def _seconds(sample: Sample, name: str) -> Seconds:
     weight = pl.col("weight")
     means = {who: (weight * pl.col(name + who)).sum() / weight.sum() for who in ("", OTHER)}
     base, own = sample.pairs.select(**means).fill_nan(None).row(0)
-    return Seconds(base, own, dataclasses.replace(sample.ratio(name), test=None))
+    return Seconds(base, own, replace(sample.ratio(name), test=None))

@@ -9,9 +9,9 @@ from testbed.analysis.pairs import Compared
 from testbed.experiment.timeline import in_words
 from testbed.studies.charts import Chart, Key, Series, points, published
 from testbed.studies.study import Section
-from testbed.studies.table1.measures import Analysis, Row, Seconds, Table
+from testbed.studies.table1.measures import Analysis, Row, Table
 from testbed.studies.table1.pairs import MEETINGS
-from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED, Published
+from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
 from testbed.text import counted, number
 
@@ -58,7 +58,7 @@ def _section(own: Analysis) -> Section:
 
 def _view(own: Analysis, name: str, table: Table) -> View:
     tests = ("scenario", *HEADINGS, "correct")
-    distances = optimum_rows(table, own.robots)
+    times, distances = list(times_rows(table)), list(optimum_rows(table, own.robots))
     return View(
         name=f"table1-{own.robots.treatment}-{name}",
         title=f"Scenarios {WAYS[name]}",
@@ -67,8 +67,8 @@ def _view(own: Analysis, name: str, table: Table) -> View:
         notes=tuple(_notes(table)),
         sheets=(
             Sheet("Effect sizes and tests", tests, list(test_rows(table))),
-            _without_empty(Sheet("Planning, diagnosis and both", TIMES, times_rows(table), 2)),
-            Sheet("How far from the optimum", OPTIMUM, list(distances)),
+            _without_empty(Sheet("Planning, diagnosis and both", TIMES, times, 2)),
+            Sheet("How far from the optimum", OPTIMUM, distances),
         ),
     )
 
@@ -128,25 +128,17 @@ def _right(row: Row) -> str:
     return effect(test).replace(" (", f"{interval} (")
 
 
-def times_rows(table: Table) -> list[Cells]:
+def times_rows(table: Table) -> Iterator[Cells]:
     """Under TIMES: for each row with pairs a line per time."""
-    return [
-        _times(row, name, own, table.published.get(row.name))
-        for row in table.rows
-        if row.pairs
-        for name, own in row.times.items()
-    ]
-
-
-def _times(row: Row, name: str, own: Seconds, paper: Published | None) -> Cells:
-    theirs = Rounded(paper.ratios[PLANNING]) if paper is not None and name in READINGS else None
-    value = Cell(own.ratio.mean, published=theirs, of_sums=own.ratio.of_sums).value
-    seconds = map(_milliseconds, (own.baseline, own.treatment))
-    return (row.name, in_words(name), *seconds, value.whole, value.of_sums or "-", value.marked)
-
-
-def _milliseconds(value: float | None) -> str:
-    return "-" if value is None else f"{1000 * value:.1f} ms"
+    for row in (own for own in table.rows if own.pairs):
+        paper = table.published.get(row.name)
+        for name, own in row.times.items():
+            theirs = Rounded(paper.ratios[PLANNING]) if paper and name in READINGS else None
+            value = Cell(own.ratio.mean, published=theirs, of_sums=own.ratio.of_sums).value
+            both = (own.baseline, own.treatment)
+            told = ("-" if mean is None else f"{1000 * mean:.1f} ms" for mean in both)
+            ratios = (value.whole, value.of_sums or "-", value.marked)
+            yield (row.name, in_words(name), *told, *ratios)
 
 
 def optimum_rows(table: Table, robots: Compared) -> Iterator[Cells]:
