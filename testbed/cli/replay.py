@@ -28,12 +28,11 @@ def command(
     with input_errors():
         read_config(folder)
         from testbed.cli.loading import search_beside
-        from testbed.experiment.replay import list_trials
-        from testbed.experiment.replay import replay as tell
+        from testbed.experiment.replay import list_trials, replay
 
         if trial is None:
             list_trials(folder, say)
             return
         search_beside(folder / "config.yaml")
-        as_recorded = tell(folder, trial, say)
+        as_recorded = replay(folder, trial, say)
     raise typer.Exit(DONE if as_recorded else FAILED)

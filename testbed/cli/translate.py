@@ -26,18 +26,17 @@ def command(
 
     Of a refinement it is the program of the refined description with its theory of observation.
     """
+    from asp import translation
     from asp.language import read_domain
     from asp.refinement import load_refinement
-    from asp.translation import translate as translated
-    from asp.translation import translate_source
     from testbed.experiment.run_folder import naming
 
     with input_errors():
         if source.endswith(".fine"):
             refinement = load_refinement(source)
-            program = translate_source(refinement.strong, refinement.strong_signature)
+            program = translation.translate_source(refinement.strong, refinement.strong_signature)
         else:
-            program = translated(*reversed(read_domain(source)))
+            program = translation.translate(*reversed(read_domain(source)))
         if output is None:
             emit(program)
         else:

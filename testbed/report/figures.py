@@ -10,7 +10,7 @@ import matplotlib as mpl
 from markupsafe import Markup, escape
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from testbed.studies import Chart, Series
 from testbed.text import plain
@@ -37,15 +37,10 @@ SETTINGS: Any = {  # matplotlib names every setting that there is in its type
     "svg.fonttype": "none",
     "text.parse_math": False,  # a name with $ in it is no formula
     "font.size": 8.5,
-    "axes.edgecolor": LINE,
-    "axes.labelcolor": SOFT,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "xtick.color": SOFT,
-    "ytick.color": SOFT,
-    "xtick.labelcolor": SOFT,
+    **dict.fromkeys(("axes.edgecolor", "grid.color"), LINE),
+    **dict.fromkeys(("axes.labelcolor", "xtick.color", "ytick.color", "xtick.labelcolor"), SOFT),
+    **dict.fromkeys(("axes.spines.top", "axes.spines.right"), False),
     "ytick.labelcolor": INK,
-    "grid.color": LINE,
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.4,
     "lines.markersize": 4.5,
@@ -91,10 +86,9 @@ def _curves(chart: Chart) -> Figure:
     """Seconds on a log scale; published curves are dashed."""
     levels, series = chart.places, chart.series
     figure, axes = _blank(WIDTH, LEVELS_HEIGHT)
-    places = {level: index for index, level in enumerate(levels)}
     for own in series:
         shift = -ASIDE if own.colour == series[0].colour else ASIDE
-        _curve(axes, own, {level: place + shift for level, place in places.items()})
+        _curve(axes, own, {level: index + shift for index, level in enumerate(levels)})
     axes.set_xticks(range(len(levels)), list(map(plain, levels)))
     axes.set_xlim(-0.4, len(levels) - 0.6)
     axes.set_yscale("log")
@@ -132,7 +126,6 @@ def _look(series: Series) -> dict[str, Any]:
         "marker": series.marker,
         "color": colour,
         "markerfacecolor": CARD if series.published else colour,
-        "markeredgecolor": colour,
         "linestyle": "none",
     }
 
@@ -152,7 +145,6 @@ def _ratios(axes: Axes, series: Sequence[Series]) -> None:
     axes.xaxis.set_major_locator(FixedLocator(TICKS))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.grid(axis="x")
     axes.axvline(1.0, color=SOFT, linewidth=1.0, zorder=1)
 

@@ -101,7 +101,9 @@ def classify(record: TrialRecord, world: World) -> str:
     if not record.activities:
         return UNCLASSIFIED
     first = record.activities[0]
-    whole = _executed(record, first) == len(first.plan)
+    until = record.steps + 1 if first.stop is None else first.stop
+    executed = sum(first.start <= attempt.step < until for attempt in record.actions)
+    whole = executed == len(first.plan)
     if first.stop is not None and whole:
         return "5"
     if len(record.activities) == 1 and first.stop is None:
@@ -111,28 +113,18 @@ def classify(record: TrialRecord, world: World) -> str:
     return _replanned(record, first, world)
 
 
-def _executed(record: TrialRecord, activity: Activity) -> int:
-    """How many actions of an activity were attempted before it was stopped."""
-    until = record.steps + 1 if activity.stop is None else activity.stop
-    return sum(activity.start <= attempt.step < until for attempt in record.actions)
-
-
 def _replanned(record: TrialRecord, first: Activity, world: World) -> str:
     """Stopped before its end: after a lock, or a move, seen (4) or not where the thing went (3)."""
     if not record.exogenous or first.stop is None:
         return UNCLASSIFIED
     event = record.exogenous[0].action
-    if event.name in _locking(world):
+    # Exogenous actions that make the robot's own fail, by the domain's scenario of that.
+    locking = (t.event.name for t in world.description.triggers if t.scenario == FAILURE_TO_EXECUTE)
+    if event.name in locking:
         return FAILURE_TO_EXECUTE
     effects = {law.head for law in world.description.causal if law.action == event}
     seen = world.visible(state_at(record, world, first.stop), world.description.robots[0])
     return "4" if effects.intersection(seen) else "3"
-
-
-def _locking(world: World) -> set[str]:
-    """The exogenous actions that make the robot's own fail, by the domain's scenario of that."""
-    triggers = world.description.triggers
-    return {t.event.name for t in triggers if t.scenario == FAILURE_TO_EXECUTE}
 
 
 def state_at(record: TrialRecord, world: World, step: int) -> int:
