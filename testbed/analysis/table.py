@@ -115,14 +115,13 @@ def export(folder: Path) -> tuple[Path, Path]:
     trials = load_run(folder).trials
     if not len(trials):
         raise StoreError(f"{folder}: has no trials to export yet")
-    paths = folder / PARQUET, folder / CSV
     columnar = BytesIO()
     trials.write_parquet(columnar)
-    with naming(paths[0]):
-        paths[0].write_bytes(columnar.getbuffer())
-    with naming(paths[1]):
-        paths[1].write_text(flat(trials).write_csv(), encoding="utf-8", newline="")
-    return paths
+    texts = {PARQUET: columnar.getvalue(), CSV: flat(trials).write_csv().encode()}
+    for name, text in texts.items():
+        with naming(folder / name):
+            (folder / name).write_bytes(text)
+    return folder / PARQUET, folder / CSV
 
 
 def flat(trials: pl.DataFrame) -> pl.DataFrame:

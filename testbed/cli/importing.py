@@ -8,8 +8,6 @@ from importlib.util import find_spec
 from pathlib import Path
 
 DISTRIBUTION = "intention-testbed"
-PACKAGES = ("asp", "agents")
-_ROOT = Path(__file__).resolve().parents[2]
 
 
 def displaced() -> str | None:
@@ -17,7 +15,7 @@ def displaced() -> str | None:
 
     That the file lies beside ours is not enough: another distribution may have overwritten it.
     """
-    for name in PACKAGES:
+    for name in ("asp", "agents"):
         found = find_spec(name)
         file = Path(found.origin) if found and found.origin else None
         if file is None or not _is_ours(file, name):
@@ -27,7 +25,7 @@ def displaced() -> str | None:
 
 
 def _is_ours(file: Path, name: str) -> bool:
-    where_it_should_be = _ROOT / name / "__init__.py"
+    where_it_should_be = Path(__file__).resolve().parents[2] / name / "__init__.py"
     return file.resolve() == where_it_should_be and f'"{DISTRIBUTION}"' in file.read_text("utf-8")
 
 

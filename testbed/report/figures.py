@@ -3,8 +3,7 @@
 import io
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib as mpl
 from markupsafe import Markup, escape
@@ -47,8 +46,7 @@ SETTINGS: Any = {  # matplotlib names every setting that there is in its type
 }
 
 
-@dataclass(frozen=True)
-class Panel:
+class Panel(NamedTuple):
     """A figure of its own, with what it shows in words."""
 
     name: str

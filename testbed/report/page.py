@@ -85,7 +85,6 @@ def _write_page(
         "domain": Path(run.config.domain).stem,
         "tables": tables,
         "columns": headings(tables.rows),
-        "rows": tables.rows,
         "sections": [(section, rendered(section)) for section in sections],
         **compared,
         "trials": len(run.trials),

@@ -130,16 +130,13 @@ class View:
 def rows_of(lines: Iterable[Line]) -> Iterator[Cells]:
     """Each line as rows of text: ours with intervals, medians, ratios of sums, published values."""
     for line in lines:
+        above = line.labels[:-2]
         yield (*line.labels, *(value.whole for value in line.values))
         for name, part in ((MEDIAN, "median"), (OF_SUMS, "of_sums")):
             if any(getattr(value, part) for value in line.values):
-                yield (*_below(line, name), *(getattr(value, part) for value in line.values))
+                yield (*above, name, "", *(getattr(value, part) for value in line.values))
         if any(value.published for value in line.values):
-            yield (*_below(line, PUBLISHED), *(value.marked or "-" for value in line.values))
-
-
-def _below(line: Line, name: str) -> Cells:
-    return (*line.labels[:-2], name, "")
+            yield (*above, PUBLISHED, "", *(value.marked or "-" for value in line.values))
 
 
 def grid(view: View, title: str) -> Grid:

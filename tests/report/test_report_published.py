@@ -152,7 +152,7 @@ def test_one_condition_has_no_ratio_and_one_level_no_growth() -> None:
 
 def _ratio_colours(paper: Paper, *robots: str) -> list[set[str]]:
     records = [a_level_record("p", robot) for robot in robots]
-    drawn = ratio_charts(found(records, paper))
+    drawn = list(ratio_charts(found(records, paper)))
     assert len({chart.name for chart in drawn}) == len(drawn)
     return [{own.colour for own in chart.series} for chart in drawn]
 
