@@ -18,6 +18,10 @@ _REASONS = "tests/agents/intentional/test_reasons.py"
 
 EXERCISED: Mapping[str, tuple[str, ...]] = {
     "awareness": ("tests/asp/translation/test_translation.py",),
+    "belief": (
+        "tests/agents/traditional/test_told.py",
+        "tests/agents/traditional/test_incremental.py",
+    ),
     "conflict": (
         "tests/agents/intentional/test_inconsistent.py",
         "tests/agents/intentional/test_inconsistent_lives.py",
@@ -58,10 +62,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
         f"{_REASONS}::test_what_holds_by_definition_may_cease_to",
         f"{_REASONS}::test_out_of_reach_is_what_no_search_finds",
     ),
-    "traditional": (
-        "tests/agents/traditional/test_told.py",
-        "tests/agents/traditional/test_incremental.py",
-    ),
+    "shortest_plan": ("tests/asp/reasoning/planning/test_reference_plans.py",),
     "transitions": ("tests/asp/translation/test_translation.py",),
     "undivided": (f"{_JOINT}::{_GOES_ON}", _JOINT_LIVES),
 }
