@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 HEAVY = {
-    *("gymnasium", "jinja2", "matplotlib", "pettingzoo", "polars", "rich.console", "scipy", "zenoh")
+    *("gymnasium", "jinja2", "matplotlib", "pettingzoo"),
+    *("polars", "rich.console", "scipy.stats", "zenoh"),
 }
 LOADED = """
 import atexit, json, sys
