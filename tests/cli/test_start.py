@@ -9,8 +9,14 @@ from pathlib import Path
 import pytest
 
 HEAVY = {
-    *("gymnasium", "jinja2", "matplotlib", "pettingzoo"),
-    *("polars", "rich.console", "scipy.stats", "zenoh"),
+    "gymnasium",
+    "jinja2",
+    "matplotlib",
+    "pettingzoo",
+    "polars",
+    "rich.console",
+    "scipy.stats",
+    "zenoh",
 }
 LOADED = """
 import atexit, json, sys

@@ -111,3 +111,16 @@ def _plan(
 ) -> Intention:
     reasoner = make(knowledge("cart", source), parsed(goal), 3)
     return reasoner.intend(history, reasoner.diagnose(history, Explanation()))
+
+
+@pytest.mark.parametrize("reasoner", [IncrementalReasoner, ReferenceReasoner])
+@pytest.mark.parametrize("true", ["", "shut", "lit", "shut lit"])
+def test_what_is_assumed_of_the_start_is_believed(
+    true: str, reasoner: type[IncrementalReasoner] | type[ReferenceReasoner]
+) -> None:
+    history = History(step=1)
+    history.observe(parsed(["at(left)", "-at(right)"]), 0)
+    defaults = "".join(f"  {name}: {name}.\n" for name in true.split())
+    source = f"{cart.SOURCE}\ndefaults\n{defaults}" if defaults else cart.SOURCE
+    believed = _plan(reasoner, source, ("at(right)",), history).believed
+    assert believed - {"safe"} == {"at(left)", *true.split()}
