@@ -11,7 +11,7 @@ from functools import partial
 from itertools import product
 from unittest.mock import patch
 
-from asp.domains.levels import LevelSize
+from asp.domains import LevelSize
 from asp.reasoning.fine_planning import IncrementalFinePlanner
 from asp.reasoning.planning import IncrementalPlanner
 from asp.refinement import Refinement

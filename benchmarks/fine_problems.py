@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from asp.domains.levels import LevelSize, level_text
+from asp.domains import LevelSize, level_text
 from asp.language import Action, Fluent, Literal
 from asp.reasoning.fine_planning import FineStart
 from asp.refinement import Refinement, Transition, fine_constants, fine_goal, load, relevant

@@ -7,8 +7,8 @@ from math import inf
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared import Intention, Reasoner
 from asp.language import Action, Fluent, Literal
+from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import SELECT, Explanation
-from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.measuring import forget, median, no_collection, timed, within
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.problems import Problem, delivered, drawn, placed

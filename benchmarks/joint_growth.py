@@ -16,8 +16,8 @@ from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
+from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import reference as diagnosis
-from asp.reasoning.knowledge import Knowledge
 from asp.solving import ground
 from benchmarks import one_call
 from benchmarks.measuring import forget, no_collection, timed, within

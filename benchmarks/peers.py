@@ -6,7 +6,7 @@ from math import inf
 
 from agents.shared import sessions_of
 from asp.language import Fluent, analyse, parse_description
-from asp.reasoning.knowledge import knowledge
+from asp.reasoning import knowledge
 from asp.reasoning.planning import Encoding
 from benchmarks.measuring import forget, median, timed, within
 from benchmarks.offices import book_names, office, room_names

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from asp.language import Action, Description, Literal
-from asp.reasoning.knowledge import Knowledge, knowledge
+from asp.reasoning import Knowledge, knowledge
 from asp.solving import State
 from benchmarks.offices import book_names, office, room_names
 

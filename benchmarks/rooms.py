@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from asp.domains.levels import LevelSize
+from asp.domains import LevelSize
 from asp.reasoning.fine_planning import IncrementalFinePlanner
 from benchmarks.fine_problems import FineProblem, drawn, refined
 from benchmarks.measuring import median, no_collection, within

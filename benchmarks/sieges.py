@@ -4,7 +4,7 @@ import copy
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner
 from agents.shared import Intention, Reasoner
 from asp.language import Action, Literal, parse_description

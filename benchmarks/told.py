@@ -23,8 +23,8 @@ from asp.language import Description
 from asp.reasoning.diagnosis import GOAL
 from papers.table1.runs import told_name
 from testbed.config import ConfigError, ExperimentConfig
+from testbed.experiment import StoreError
 from testbed.experiment.digest import digest
-from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import choose_folder, read_config, write_config

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.reasoners import ReferenceReasoner
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from agents.intentional.reasoners import History
 from agents.shared import Reasoner
 from asp.language import Action, Fluent, Literal
+from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import SELECT, Explanation
-from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office, room_names
 from benchmarks.problems import delivered, placed
 from benchmarks.sheets import DisagreementError

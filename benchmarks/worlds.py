@@ -6,7 +6,7 @@ from itertools import islice
 import numpy as np
 
 from agents.adversary import AdversaryView, Game, Random
-from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.domains import LEVELS, LevelSize, level_text
 from asp.language import Action
 from asp.refinement import Refinement, load
 from benchmarks.measuring import median, no_collection, quantile, timed

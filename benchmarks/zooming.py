@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from asp.domains.levels import LEVELS, LevelSize
+from asp.domains import LEVELS, LevelSize
 from asp.language import Problems, signature_of
 from asp.reasoning.fine_planning import FinePlan, IncrementalFinePlanner, LiteralProblem, NoPlan
 from asp.refinement import zoom as zoomed_of

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from papers.picture import picture
 from testbed.config import ConfigError
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 
 BAD_INPUT = 2
 

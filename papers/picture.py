@@ -8,7 +8,7 @@ from pathlib import Path
 from markupsafe import Markup
 
 from testbed.analysis import load_run
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 from testbed.report.figures import Panel, drawn
 from testbed.report.page import environment
 from testbed.studies import Key, Section, results_of

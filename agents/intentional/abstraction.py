@@ -25,8 +25,7 @@ from asp.language import (
     text_of,
 )
 from asp.language import variable_sorts as roles
-from asp.reasoning.knowledge import knowledge
-from asp.reasoning.relevance import Relevance, interchangeable
+from asp.reasoning import Relevance, interchangeable, knowledge
 from asp.solving import State, preparation
 from testbed.protocol import Decision, Percept, Task
 

@@ -15,7 +15,7 @@ from msgspec import structs
 from agents.intentional.controller import IntentionalRobot
 from agents.shared import Thought
 from asp.language import Description, Fluent, Literal, Literals
-from asp.reasoning.knowledge import knowledge
+from asp.reasoning import knowledge
 from asp.solving import deciding
 from testbed.protocol import Task, Trace
 

@@ -11,7 +11,7 @@ from clingo import Symbol
 
 from agents.shared import Intention, sessions_of
 from asp.language import Action, Literal
-from asp.reasoning import diagnosis
+from asp.reasoning import Knowledge, diagnosis
 from asp.reasoning.diagnosis import (
     GOAL,
     Diagnosis,
@@ -19,7 +19,6 @@ from asp.reasoning.diagnosis import (
     IncrementalDiagnoser,
     ReferenceDiagnoser,
 )
-from asp.reasoning.knowledge import Knowledge
 from asp.solving import fact, first_model, ground, literal_of, select, theory
 from testbed.protocol import FINISH
 

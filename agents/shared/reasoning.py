@@ -4,10 +4,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from asp.language import Action, Fluent
+from asp.reasoning import Knowledge, Transitions
 from asp.reasoning.diagnosis import Diagnoser, Diagnosis, DiagnosisSessions, H_contra
-from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.planning import IncrementalPlanner, Reachability
-from asp.reasoning.successors import Transitions
 from asp.solving import Limits, Recent
 from testbed.protocol import Task
 

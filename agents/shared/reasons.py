@@ -5,8 +5,8 @@ from collections.abc import Collection
 from agents.shared.narration import Narration
 from agents.shared.reasoning import limits_of, sessions_of
 from asp.language import Action, Fluent
+from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
-from asp.reasoning.knowledge import Knowledge
 from asp.solving import LimitError, State, deciding
 from testbed import protocol
 from testbed.protocol import Contradiction, Event, NoPlan, Task

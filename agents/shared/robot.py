@@ -10,6 +10,7 @@ from msgspec import structs
 from agents.shared.reasoning import Intention, Reasoner, limits_of
 from agents.shared.reasons import Reasons
 from asp.language import Literal
+from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import (
     GOAL,
     Diagnosis,
@@ -19,7 +20,6 @@ from asp.reasoning.diagnosis import (
     InconsistentHistoryError,
     distrust_tests,
 )
-from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import LimitError, Reading, State, deciding, preparation, reasoning_clock
 from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task, Trace, is_mental
 

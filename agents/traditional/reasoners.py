@@ -2,6 +2,7 @@
 
 from agents.shared import Intention, sessions_of
 from asp.language import Action, Fluent, Literal
+from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import (
     GOAL,
     Diagnosis,
@@ -9,7 +10,6 @@ from asp.reasoning.diagnosis import (
     IncrementalDiagnoser,
     ReferenceDiagnoser,
 )
-from asp.reasoning.knowledge import Knowledge
 from asp.reasoning.planning import ReferencePlanner
 from asp.solving import first_model, ground, literal_of, select, theory
 from testbed.protocol import FINISH

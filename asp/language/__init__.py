@@ -1,5 +1,7 @@
 """The action language AL_d: text in, a checked and ground description out."""
 
+from asp.language import syntax as syntax
+from asp.language import variable_sorts as variable_sorts
 from asp.language.checker import check as check
 from asp.language.checker import check_cycles as check_cycles
 from asp.language.checker import reachable as reachable

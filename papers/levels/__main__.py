@@ -8,7 +8,7 @@ from pathlib import Path
 from papers.levels.document import document
 from papers.levels.runs import read_run
 from testbed.config import ConfigError
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 
 BAD_INPUT = 2
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from papers.levels.pairing import Pair, pairs_in
 from testbed.analysis import load_run
 from testbed.config import ExperimentConfig
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 from testbed.experiment.run_folder import read_config
 from testbed.studies.levels.measures import Level, Levels, analyse
 from testbed.studies.levels.published import NO_ZOOM, PAPER, ZOOM

@@ -8,7 +8,7 @@ from pathlib import Path
 from papers.table1.document import Sources, document
 from papers.table1.runs import Run, read_run
 from testbed.config import ConfigError
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 
 BAD_INPUT = 2
 

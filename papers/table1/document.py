@@ -13,8 +13,8 @@ from papers.table1.released import released
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run, released_weights, told_order
 from papers.text import render
+from testbed.experiment import StoreError
 from testbed.experiment.digest import digest
-from testbed.experiment.errors import StoreError
 from testbed.experiment.plan import coverage_of, places_of
 from testbed.experiment.store import read_records
 from testbed.studies import rows_of

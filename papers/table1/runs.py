@@ -11,7 +11,7 @@ from papers.table1.redrawing import as_stated, passed_on, weight
 from testbed.analysis import load_run
 from testbed.analysis.comparison import eventful
 from testbed.config import ExperimentConfig
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 from testbed.experiment.run_folder import read_config
 from testbed.studies.table1.measures import RANDOM, Analysis, analyse, comparisons_of
 from testbed.studies.table1.pairs import pairs_in

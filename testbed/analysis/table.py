@@ -12,7 +12,7 @@ import polars as pl
 from msgspec import inspect
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import PROVENANCE, naming, read_config
 from testbed.experiment.specs import TrialSpec

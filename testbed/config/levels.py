@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.domains import LEVELS, LevelSize, level_text
 from asp.language import read_domain, suggestion
 from asp.refinement import Refinement, load, read_refinement, refined_name
 from testbed.config.models import TRIGGERS, ExperimentConfig

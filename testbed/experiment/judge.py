@@ -20,7 +20,7 @@ from asp.language import (
     syntax,
     without_exogenous,
 )
-from asp.reasoning.relevance import Relevance
+from asp.reasoning import Relevance
 from testbed.experiment.heuristic import Heuristic, Potentials, blind
 from testbed.experiment.record import Minimal
 from testbed.world import World, world_of

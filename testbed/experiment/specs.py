@@ -9,7 +9,7 @@ from typing import Any
 
 import msgspec
 
-from asp.domains.levels import LevelSize
+from asp.domains import LevelSize
 from asp.language import Action, Literal
 from testbed.config import TRIGGERS, ExperimentConfig, Limits, ScriptEntry
 from testbed.environment import Observability, Pace

@@ -13,7 +13,7 @@ import testbed
 from testbed.analysis import table
 from testbed.analysis.table import export
 from testbed.config import ConfigError
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import read_config, write_config
 from testbed.experiment.runner import play_missing

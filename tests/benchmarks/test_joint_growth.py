@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.reasoning.knowledge import goal_facts
+from asp.reasoning import goal_facts
 from asp.solving import answer_sets, fact, ground, theory
 from benchmarks import joint_growth
 from benchmarks.joint_growth import SIDES, draw, measure

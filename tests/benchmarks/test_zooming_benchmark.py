@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.domains.levels import LevelSize
+from asp.domains import LevelSize
 from benchmarks import zooming
 from benchmarks.fine_problems import drawn, refined
 from tests.benchmarks.late import takes_too_long

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.domains import LEVELS, LevelSize, level_text
 from testbed.cli.loading import load
 from testbed.config import ConfigError, level_size, load_config, refinements
 

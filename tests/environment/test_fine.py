@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.language import Literal, read_domain
 from asp.refinement import Refinement, load
 from testbed.environment import (

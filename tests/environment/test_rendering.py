@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from asp import load_description, parse_description
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.language import Literal, read_domain
 from asp.refinement import load
 from testbed.environment import Core, Rules, fine_core

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.domains.levels import LEVELS, level_text
+from asp.domains import LEVELS, level_text
 from asp.language import Literal
 from benchmarks.own import Own
 from testbed.experiment.trial import Moment

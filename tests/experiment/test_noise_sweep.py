@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.domains.levels import LEVELS, level_text
+from asp.domains import LEVELS, level_text
 from asp.refinement import load
 from benchmarks.own import Own
 from testbed.experiment.record import TrialRecord

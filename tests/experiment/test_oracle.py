@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.language import analyse, ground_description
 from testbed.environment import RandomGoal
 from testbed.experiment.judge import Narrowing, cheapest_plan

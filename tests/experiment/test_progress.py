@@ -2,8 +2,8 @@
 
 import pytest
 
+from testbed.experiment import RunStatus
 from testbed.experiment.progress import EVERY_S, Lines, progress
-from testbed.experiment.runner import RunStatus
 
 
 def _told(*moments: tuple[float, int, int], planned: int = 8000) -> list[str]:

@@ -9,7 +9,7 @@ import yaml
 
 import asp
 from testbed.config import AdversarySettings, ExperimentConfig, Limits, load_config
-from testbed.experiment.errors import StoreError
+from testbed.experiment import StoreError
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.run_folder import (
     check_unchanged,

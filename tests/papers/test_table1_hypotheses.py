@@ -12,8 +12,8 @@ from papers.table1.pairs import Pair, Side
 from papers.table1.released import released
 from papers.table1.runs import read_run, told_name, told_order
 from testbed.config import load_config
+from testbed.experiment import StoreError
 from testbed.experiment.digest import digest
-from testbed.experiment.errors import StoreError
 from testbed.experiment.record import Activity, Attempt, TrialRecord
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import encode, read_records

@@ -7,7 +7,7 @@ import pytest
 
 from agents.adversary import AdversaryView, Game, Random
 from asp import parse_description
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.refinement import load
 from testbed.environment import Rules, fine_core
 from testbed.protocol import FINISH, NONE

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from agents.intentional import IntentionalRobot
 from agents.intentional.checking import CheckingRobot, to_be_sure
-from agents.intentional.controller import IntentionalRobot
 from agents.shared import reasoning, sessions_of
 from agents.shared.reasoning import Sessions
 from asp.language import parse_description
-from asp.reasoning.knowledge import knowledge
+from asp.reasoning import knowledge
 from asp.solving import Recent
 from testbed.protocol import Robot, Task
 from tests.agents.intentional.lives import (

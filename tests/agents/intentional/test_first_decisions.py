@@ -2,7 +2,7 @@
 
 import pytest
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from tests.agents.intentional.lives import WORLD, live
 

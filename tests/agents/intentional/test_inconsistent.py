@@ -4,8 +4,8 @@ import pytest
 
 from agents.intentional.reasoners import History
 from asp.language import Literal
+from asp.reasoning import goal_facts
 from asp.reasoning.diagnosis import InconsistentHistoryError, cannot_hold, conflict
-from asp.reasoning.knowledge import goal_facts
 from asp.solving import fact
 from tests.agents.intentional.test_reports import CART, Make, Mind, both
 from tests.literals import parsed

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from asp.language import Action, Literal
+from asp.reasoning import goal_facts, knowledge
 from asp.reasoning.diagnosis import (
     GOAL,
     SELECT,
@@ -21,7 +22,6 @@ from asp.reasoning.diagnosis import (
     cannot_hold,
     conflict,
 )
-from asp.reasoning.knowledge import goal_facts, knowledge
 from tests.agents.intentional.test_joint_lives import ONE_BOOK, WORLD
 from tests.literals import parsed
 

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared import Intention
+from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import SELECT, Compression, Diagnosis, Explanation, incremental
-from asp.reasoning.knowledge import Knowledge, knowledge
 from benchmarks.offices import book_names, office
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, GOAL_LITERALS, STATES, Wish, live
 from tests.literals import parsed

@@ -4,13 +4,13 @@ from pathlib import Path
 
 import pytest
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import Activity, History, ReferenceReasoner
 from agents.shared import Intention
 from asp.language import Literal
+from asp.reasoning import knowledge
 from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation, Happening
-from asp.reasoning.knowledge import knowledge
 from testbed.config import load_config
 from testbed.experiment.runner import play_missing
 from testbed.experiment.store import read_records

@@ -3,13 +3,13 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.joint import JointReasoner, JointReferenceReasoner
 from agents.intentional.reasoners import History, ReferenceReasoner
 from agents.shared import Intention
 from asp.language import parse_description
+from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import Diagnosis, Explanation
-from asp.reasoning.knowledge import Knowledge
 from benchmarks.offices import office
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place

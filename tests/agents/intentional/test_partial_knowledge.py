@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from agents.intentional import IntentionalRobot
 from agents.intentional.checking import CheckingRobot
-from agents.intentional.controller import IntentionalRobot
 from agents.intentional.reasoners import ReferenceReasoner
 from asp.language import parse_description
 from testbed.protocol import Decision

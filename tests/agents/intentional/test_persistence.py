@@ -4,12 +4,12 @@ import random
 
 import pytest
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.reasoners import Activity, History, IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
+from asp.reasoning import knowledge
 from asp.reasoning.diagnosis import GOAL, SELECT, Explanation
-from asp.reasoning.knowledge import knowledge
 from tests.agents.intentional.lives import DOMAIN, SOURCE, WORLD, Wish, live
 from tests.literals import parsed
 from tests.oracle import minimal_actions

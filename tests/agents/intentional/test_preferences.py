@@ -7,8 +7,8 @@ import pytest
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
+from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation
-from asp.reasoning.knowledge import Knowledge, knowledge
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.literals import parsed
 

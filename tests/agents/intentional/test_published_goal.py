@@ -2,7 +2,7 @@
 
 import pytest
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, Wish, live
 from tests.oracle import minimal_actions
 

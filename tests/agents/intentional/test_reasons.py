@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared import sessions_of
 from asp.language import Literal
+from asp.reasoning import knowledge
 from asp.reasoning.diagnosis import SELECT, Diagnosis, Explanation, Happening
-from asp.reasoning.knowledge import knowledge
 from asp.reasoning.planning import IncrementalPlanner, Reachability
 from asp.solving import Limits, ground, select, theory
 from testbed.protocol import Decision, Event, Percept, Task

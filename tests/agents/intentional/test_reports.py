@@ -8,8 +8,8 @@ import pytest
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
+from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import SELECT, Explanation
-from asp.reasoning.knowledge import Knowledge, knowledge
 from asp.solving import LimitError, Limits, deciding
 from tests.literals import parsed
 

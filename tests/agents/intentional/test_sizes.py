@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from asp.language import parse_description
 from benchmarks.offices import book_names, office
 from testbed.world import world_of

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec import structs
 
+from agents.intentional import IntentionalRobot
 from agents.intentional.abstraction import AbstractTask
-from agents.intentional.controller import IntentionalRobot
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.language import Literal, parse_description
 from testbed.protocol import Decision, Event, Percept, Task
 from testbed.world import world_of

@@ -10,7 +10,7 @@ from agents.intentional.checking import CheckingRobot, to_be_sure
 from agents.shared import reasoning, sessions_of
 from agents.shared.reasoning import Sessions
 from asp.language import MOST_TEXTS, Description, parse_description
-from asp.reasoning.knowledge import knowledge
+from asp.reasoning import knowledge
 from asp.solving import Recent, Session
 from testbed.protocol import Task
 from tests.agents.intentional.lives import OFFICE, live

@@ -10,8 +10,8 @@ from agents.shared import Intention
 from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner
 from asp.language import Literal
+from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History, InconsistentHistoryError
-from asp.reasoning.knowledge import Knowledge, knowledge
 from tests.agents.intentional import test_reports as cart
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,

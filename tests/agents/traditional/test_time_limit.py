@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from agents.shared import Intention
 from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner
+from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History
-from asp.reasoning.knowledge import Knowledge
 from asp.solving import LimitError
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.domains import LEVELS, LevelSize, level_text
 from asp.refinement import Refinement, load
 
 TABLE = {  # objects by their parts, rooms, cells a room

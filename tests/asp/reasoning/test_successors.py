@@ -7,11 +7,10 @@ from pathlib import Path
 import pytest
 
 from asp.language import parse_description
+from asp.reasoning import Transitions, knowledge
 from asp.reasoning.diagnosis import Happening
 from asp.reasoning.diagnosis.history import Problem, Record
 from asp.reasoning.diagnosis.smallest_explanations import Question, SmallestExplanations
-from asp.reasoning.knowledge import knowledge
-from asp.reasoning.successors import Transitions
 from asp.translation import translate
 from testbed.world import world_of
 

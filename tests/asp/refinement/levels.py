@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from functools import cache
 
-from asp.domains.levels import LEVELS, LevelSize, level_text
+from asp.domains import LEVELS, LevelSize, level_text
 from asp.refinement import Refinement, Transition, load
 from testbed.world import World, world_of
 

@@ -6,7 +6,7 @@ from functools import cache
 import pytest
 
 from asp import parse_description
-from asp.domains.levels import LevelSize, level_text
+from asp.domains import LevelSize, level_text
 from asp.refinement import load
 from asp.translation import translate
 from testbed.world import world_of

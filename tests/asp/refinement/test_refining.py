@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from asp import parse_description
-from asp.domains.levels import LevelSize, level_text
+from asp.domains import LevelSize, level_text
 from asp.language import analyse
 from asp.refinement import Refinement, load, load_refinement, parse_fine, shared_places
 from asp.translation import translate_source

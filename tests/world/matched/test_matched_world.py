@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from asp import parse_description
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.language import analyse, ground_description, read_domain
 from asp.refinement import load
 from testbed.world import (

@@ -1,1 +1,1 @@
-"""Plans in large fine descriptions: relaxed reachability, landmarks, value pruning."""
+"""Programs per problem, landmarks and value pruning: they pay from rooms of 64 cells on."""

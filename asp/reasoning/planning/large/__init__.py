@@ -1,1 +1,1 @@
-"""Plans of large problems: search over sets of states, and programs per problem."""
+"""Search over sets of states: it pays from the office of Table 1 on (`STATE_SET_SEARCH`)."""

@@ -11,7 +11,7 @@ from agents.intentional import IntentionalRobot
 from agents.intentional.executor import zoomed_planning
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.refined import RefinedRobot
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.language import read_domain
 from asp.refinement import Refinement, load
 from asp.solving import LimitError

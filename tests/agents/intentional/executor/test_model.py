@@ -9,7 +9,7 @@ from agents.intentional import IntentionalRobot
 from agents.intentional.executor import model
 from agents.intentional.executor.model import FineModel, fine_model
 from agents.intentional.refined import RefinedRobot
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.reasoning.fine_planning import Horizons, incremental
 from asp.reasoning.fine_planning.compact_session import Horizon
 from asp.refinement import Refinement, load

@@ -3,7 +3,7 @@
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.intentional.controller import IntentionalRobot
+from agents.intentional import IntentionalRobot
 from agents.intentional.refined import RefinedRobot
 from asp.refinement import Refinement, load
 from tests.agents.intentional.executor.stage import TEXTS, Faults, play

@@ -5,7 +5,7 @@ import pytest
 
 from agents.adversary import AdversaryView, Game, Random
 from agents.intentional.refined import EitherRobot, WithoutZooming
-from asp.domains.levels import LEVELS, level_text
+from asp.domains import LEVELS, level_text
 from asp.language import read_domain
 from asp.refinement import load, read_refinement
 from testbed.environment import Ending, Observability, RandomStart, Rules, fine_core

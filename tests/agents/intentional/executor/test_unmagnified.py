@@ -8,7 +8,7 @@ import pytest
 
 from agents.intentional import IntentionalRobot
 from agents.intentional.refined import RefinedRobot
-from asp.domains.levels import level_text
+from asp.domains import level_text
 from asp.language import read_domain
 from asp.reasoning.fine_planning import IncrementalFinePlanner
 from asp.refinement import Refinement, load

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from agents.shared import sessions_of
 from asp.language import Literal
+from asp.reasoning import knowledge
 from asp.reasoning.diagnosis import (
     SELECT,
     Compression,
@@ -23,7 +24,6 @@ from asp.reasoning.diagnosis.history import Problem
 from asp.reasoning.diagnosis.long_histories import frontier
 from asp.reasoning.diagnosis.long_histories.frontier import Frontier
 from asp.reasoning.diagnosis.smallest_explanations import Interpretation
-from asp.reasoning.knowledge import knowledge
 from tests.agents.intentional.lives import OFFICE, Place, place
 from tests.asp.reasoning.diagnosis.wandering import Habits, wander
 from tests.literals import parsed

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from random import Random
 
 from asp.language import Action, Literal
-from asp.reasoning.diagnosis import GOAL, History
-from asp.reasoning.diagnosis.history import SELECT
+from asp.reasoning.diagnosis import GOAL, SELECT, History
 from testbed.world import World
 from tests.agents.intentional.lives import Place
 

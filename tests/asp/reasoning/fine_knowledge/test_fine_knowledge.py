@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp.domains.levels import LevelSize, level_text
+from asp.domains import LevelSize, level_text
 from asp.language import Literal
 from asp.reasoning.fine_knowledge import IncrementalFineKnowledge, Known, ReferenceFineKnowledge
 from asp.reasoning.fine_knowledge.reference import Inferred

@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from asp.domains.levels import LevelSize
+from asp.domains import LevelSize
 from asp.reasoning.fine_planning import (
     FinePlan,
     IncrementalFinePlanner,

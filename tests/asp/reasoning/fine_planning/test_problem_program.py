@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.domains.levels import LevelSize
+from asp.domains import LevelSize
 from asp.reasoning.fine_planning import IncrementalFinePlanner, NoPlan
 from asp.refinement import Refinement, load, load_refinement
 from tests.asp.reasoning.fine_planning.fine_problems import (

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.domains.levels import LevelSize
+from asp.domains import LevelSize
 from asp.language import Action, Literal, analyse, functions
 from asp.reasoning.fine_planning import FineStart, IncrementalFinePlanner
 from asp.reasoning.fine_planning.compact_session import CompactDescription

@@ -8,10 +8,10 @@ import pytest
 from clingo import Control
 
 from asp.language import Action, Description, Literal, analyse, parse_description, read_domain
+from asp.reasoning import Relevance
 from asp.reasoning.planning import Encoding, IncrementalPlanner, incremental
 from asp.reasoning.planning.large.outcomes import NotEncodableError
 from asp.reasoning.planning.large.search import StateSpace
-from asp.reasoning.relevance import Relevance
 from asp.solving import LimitError, Limits, deciding
 from benchmarks.offices import office
 from testbed.world import World, world_of

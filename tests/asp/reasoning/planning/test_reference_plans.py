@@ -5,7 +5,7 @@ import random
 import pytest
 
 from asp.language import read_domain
-from asp.reasoning.knowledge import knowledge
+from asp.reasoning import knowledge
 from asp.reasoning.planning import IncrementalPlanner, ReferencePlanner
 from testbed.world import world_of
 from tests.greenhouse import GREENHOUSE
