@@ -1,4 +1,4 @@
-"""What an adversary is, what it is told of a game, and what it sees at a step."""
+"""The interface of an adversary, its view of a game, and its observation at a step."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What robots have in common: the turn of a step, reasoning, what is told of it."""
+"""Code that robots share: the turn of a step, reasoning, and its narration."""
 
 from agents.shared.narration import Narration as Narration
 from agents.shared.narration import Step as Step

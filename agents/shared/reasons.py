@@ -1,4 +1,4 @@
-"""What robots tell of their decisions: for people, with no part in a decision."""
+"""Reasons of decisions in words: for people, with no part in a decision."""
 
 from collections.abc import Collection
 

@@ -1,4 +1,4 @@
-"""The mistakes in an action description: where each is, and what would be right."""
+"""Mistakes in an action description, each with its place and a correction."""
 
 from collections.abc import Iterable, Sequence, Set
 from difflib import get_close_matches

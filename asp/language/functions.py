@@ -1,4 +1,4 @@
-"""What the laws say of a fluent as a whole: that it is a function of its other arguments."""
+"""Functions: fluents of which the laws allow one value per tuple of the other arguments."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The abstract syntax of AL_d: what the parser makes of a text, before any sort is known."""
+"""The abstract syntax of AL_d: the result of parsing a text, before any sort is known."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Which symbols may stand where in a statement, and what a variable there ranges over."""
+"""Kinds of symbols by their place in a statement, and the domains of variables."""
 
 from collections.abc import Iterable, Iterator, Mapping
 
@@ -16,7 +16,7 @@ BODIES = "pool", "body"
 """The fields of statements that are conjunctions of conditions."""
 
 Domains = Mapping[str, tuple[str, ...]]
-"""What each variable of one statement ranges over."""
+"""The domain of each variable of one statement."""
 
 
 class Use(syntax.Node):

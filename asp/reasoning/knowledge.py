@@ -1,4 +1,4 @@
-"""What a reasoner is given of a domain: the description, its program, the order of its actions."""
+"""The input of a reasoner: a description, its program, the order of its actions."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What an action leads to."""
+"""Successor states: the outcomes of an action, by clingo."""
 
 from collections.abc import Iterable, Sequence
 

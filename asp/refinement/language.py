@@ -1,4 +1,4 @@
-"""The text of a refinement, what the designer adds to a coarse description: parser and names."""
+"""The text of a refinement, which the designer adds to a description: parser and names."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

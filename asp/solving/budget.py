@@ -1,4 +1,4 @@
-"""What a decision may take: conflicts, sizes and expansions, which are the same everywhere.
+"""The budget of a decision: conflicts, sizes and expansions, which are the same everywhere.
 
 Beside them the clock is a guard. Whatever is solved, ground or searched inside `deciding` keeps to
 the limits; one decision is made at a time in a process, for robots share controls, and a control

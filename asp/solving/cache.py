@@ -1,4 +1,4 @@
-"""What was used last, and no more of it than so much."""
+"""Caches that drop the least recently used values, bounded by weight."""
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable

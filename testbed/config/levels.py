@@ -46,7 +46,7 @@ def refinement_of_files(domain: str, refinement: str) -> Refinement:
 MOST_CELLS = 20_000
 """Of a level, and parts of its objects."""
 SCENARIO_KEYS = ("scenarios", "scenario_settings")
-"""What goes with no levels."""
+"""Keys that levels exclude."""
 
 
 def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:

@@ -32,13 +32,13 @@ FORMS = {
 """How the values of a type are written, by the error that they are not of it."""
 
 LIKE_A_VALUE = re.compile(r"^[-+.]*\d|^\.(inf|nan)$|^(y|n|yes|no|on|off)$", re.IGNORECASE)
-"""What YAML 1.1 takes for a number or a truth value."""
+"""Texts that YAML 1.1 reads as a number or a truth value."""
 
 SECTION = re.compile(rf"{re.escape(models.__name__)}\.(\w+)")
 """A section, as types are written."""
 
 FINE_KEYS = ("levels", "level_sizes", "refinement", "draw", "statistics")
-"""What a configuration of the fine resolution may have given."""
+"""Keys that only configurations of the fine resolution have."""
 
 
 def load_config(

@@ -1,4 +1,4 @@
-"""What a configuration may say: every key with its type and default.
+"""The keys of a configuration, each with its type and default.
 
 Literals and actions are ASP text without spaces, `f(a,b)` or `-f(a,b)`. Whether a domain knows
 them is checked in `testbed.config.checking`.

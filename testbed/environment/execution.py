@@ -1,4 +1,4 @@
-"""How a robot's attempts come out, what it perceives of the world, and what it is told."""
+"""Outcomes of a robot's attempts, and its percepts of the world and of events."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""What the adversary may do beside the robot's action, asked for one event or for all."""
+"""Legal exogenous actions beside the robot's action, asked for one event or for all."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What each agent sees of a game: vectors for learners, literals for reasoners, and pictures."""
+"""Observations of a game: vectors for learners, literals for reasoners, and pictures."""
 
 from collections.abc import Sequence
 from typing import Any, ClassVar, TypeAlias

@@ -1,4 +1,4 @@
-"""What is wrong with a configuration that calls robots and an adversary by their names."""
+"""Checks of the robots and the adversary that a configuration names."""
 
 from collections.abc import Iterator
 

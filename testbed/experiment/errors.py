@@ -1,4 +1,4 @@
-"""What a user can get wrong about an experiment, apart from its configuration."""
+"""Errors of a user about an experiment, apart from its configuration."""
 
 
 class StoreError(ValueError):

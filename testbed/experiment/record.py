@@ -1,4 +1,4 @@
-"""What is kept of a trial: one line of `trials.jsonl`, every key of it stated here.
+"""The record of a trial: one line of `trials.jsonl`, every key of it stated here.
 
 Steps are the environment's: 0 is the selection of the goal, the robot's first answer is step 1.
 """

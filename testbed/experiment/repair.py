@@ -1,4 +1,4 @@
-"""Keep what is whole of a damaged run folder."""
+"""Keep the intact records of a damaged run folder."""
 
 import shutil
 from collections import defaultdict

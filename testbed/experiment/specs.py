@@ -1,4 +1,4 @@
-"""What a trial is: its setting, and the id that follows from it.
+"""The specification of a trial: its setting, and the id that follows from it.
 
 What a trial's result may depend on is hashed into its id; the link, the number of workers and
 the time allowed for an answer are not (one trial is the same trial wherever its robot runs).

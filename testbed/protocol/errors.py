@@ -1,4 +1,4 @@
-"""What can go wrong between a driver and its robot."""
+"""Errors between a driver and its robot."""
 
 from testbed.protocol.bounds import shortened
 

@@ -1,4 +1,4 @@
-"""The two sides of the link: what a robot is and can do, and how a driver holds one."""
+"""The two sides of the link: a robot with its capabilities, and its client at the driver."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

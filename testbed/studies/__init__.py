@@ -1,4 +1,4 @@
-"""Studies: what is counted of the runs of an experiment, beside what was published of it."""
+"""Studies: measures of the runs of an experiment, beside its published figures."""
 
 from testbed.studies.charts import Chart as Chart
 from testbed.studies.charts import Key as Key

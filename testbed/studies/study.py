@@ -1,4 +1,4 @@
-"""What a study is: an experiment that configurations name, and what is made of its runs.
+"""The interface of a study: an experiment that configurations name, and its analysis.
 
 A study is three functions. `measures` counts what it is about in the trials of a run, `numbers`
 tells that to other programs, in `summary.json`, and `sections` shows it to people, at the terminal

@@ -1,4 +1,4 @@
-"""Sets of literals as bit masks, and what state constraints make of them.
+"""Sets of literals as bit masks, and their closure under state constraints.
 
 With n fluents, bit i is the literal `f_i` and bit n + i is `-f_i`. A set of literals is a Python
 integer, so that a rule fires or not in one comparison.

@@ -1,4 +1,4 @@
-"""The transition diagram of a domain (P 3.1.1), and what a robot sees of a state.
+"""The transition diagram of a domain (P 3.1.1), and the observations of a state.
 
 `World` is the interface, with all that does not depend on how the laws are kept: the reading of
 literals, and the lines that say what is wrong. A backend finds states and transitions.

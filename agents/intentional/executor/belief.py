@@ -1,4 +1,4 @@
-"""What the robot knows and believes of both resolutions in the course of a trial."""
+"""The belief tracker of both resolutions in the course of a trial."""
 
 from collections.abc import Collection, Iterable, Iterator
 

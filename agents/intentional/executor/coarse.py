@@ -1,4 +1,4 @@
-"""What the coarse robot is told of the fine resolution, and in which of its steps."""
+"""Percepts of the coarse robot from the fine resolution, each at its coarse step."""
 
 from bisect import bisect_right
 

@@ -1,4 +1,4 @@
-"""What is made once of a refinement, and what is known by it: the history H_f and what follows.
+"""The model of a refinement, made once, and the belief by it: the history H_f and its results.
 
 Laws of D_f are read instance by instance, when asked for.
 """

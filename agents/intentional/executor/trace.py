@@ -1,4 +1,4 @@
-"""What is told of an abstract action at the fine resolution, step by step."""
+"""The trace of an abstract action at the fine resolution, step by step."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

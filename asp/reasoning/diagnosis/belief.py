@@ -1,4 +1,4 @@
-"""The belief tracker: what an explanation of a history says of each step, state after state."""
+"""The belief tracker: the states of a history by its explanation, step by step."""
 
 from dataclasses import dataclass
 

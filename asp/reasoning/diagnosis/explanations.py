@@ -1,4 +1,4 @@
-"""Explanations of histories (D 2.4): what they assume, and how a diagnoser gives them."""
+"""Explanations of histories (D 2.4): their assumptions, and the interface of a diagnoser."""
 
 from __future__ import annotations
 

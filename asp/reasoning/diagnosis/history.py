@@ -1,4 +1,4 @@
-"""Histories (D 2.3), and what of them there is to explain."""
+"""Histories (D 2.3), and the contradictions in them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a robot knows at the fine resolution, and what follows from it."""
+"""Knowledge at the fine resolution, and the inferences from it."""
 
 from asp.reasoning.fine_knowledge.incremental import (
     IncrementalFineKnowledge as IncrementalFineKnowledge,

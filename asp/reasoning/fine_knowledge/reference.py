@@ -1,4 +1,4 @@
-"""What a robot knows at the fine resolution, and what follows from it at the coarse one."""
+"""Knowledge at the fine resolution, and the inferences from it at the coarse one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What there is to draw of a situation, read off the description's signature alone.
+"""The scene to draw of a situation, read off the description's signature alone.
 
 A fluent of a thing and a place says where things are; one of a robot and a thing what it holds; one
 of a place alone is a mark of that place, such as a lock. At the fine resolution a fluent of a

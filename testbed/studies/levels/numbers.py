@@ -1,4 +1,4 @@
-"""Tables 2 and 3 for other programs: what is added to `summary.json`."""
+"""Tables 2 and 3 for other programs: an addition to `summary.json`."""
 
 from collections.abc import Iterable
 from typing import Any

@@ -13,7 +13,7 @@ from testbed.studies.tables import Cell, Cells, Line, Sheet, Value, View, effect
 CONDITIONS = {ZOOM: "zoom", NO_ZOOM: "no zoom"}
 RATIO = "no zoom / zoom"
 HEADINGS = ("all", "fine", "coarse", "a refined plan")
-"""What PARTS are called."""
+"""Names of PARTS."""
 REASONING = ("level", "reasoning", "trials", "achieved", *HEADINGS)
 RATIOS = ("level", "reasoning", "pairs", *HEADINGS)
 GROWTH = ("level", "reasoning", "trials", *HEADINGS)

@@ -1,4 +1,4 @@
-"""What a set of literals makes of a state: the small problem of the atoms that may change.
+"""The change of a state by a set of literals: a small problem of the atoms that may change.
 
 Of a state that is closed under the constraints nothing changes but what the new literals reach.
 `touched` is a superset of that: it is closed under every constraint that fires when the new

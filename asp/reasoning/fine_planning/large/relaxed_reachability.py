@@ -1,4 +1,4 @@
-"""What a compact program can reach if nothing that was ever true became false again.
+"""Literals that a compact program reaches if no atom that was ever true becomes false again.
 
 No plan is shorter than it takes to reach every literal of its goal by itself in this way; and where
 one is not reached, no plan does. The nodes are the atoms of one step of the ground program, its

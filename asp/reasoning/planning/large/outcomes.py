@@ -1,4 +1,4 @@
-"""What an action leads to, case by case, in terms of variables and values.
+"""Outcomes of actions, case by case, in terms of variables and values.
 
 A successor state is closed under the state constraints and has, beside the direct effects and what
 follows, only what was true before. All that may change is the closure K of the direct effects

@@ -4,7 +4,7 @@ import pytest
 
 from agents.intentional import IntentionalRobot
 from agents.intentional.refined import RefinedRobot
-from tests.agents.intentional.executor.stage import Faults, Play, play
+from tests.agents.intentional.executor.faulty_world import Faults, Play, play
 from tests.agents.intentional.executor.test_execution import GOAL, ROW, look
 from tests.literals import parsed
 

@@ -16,7 +16,7 @@ from asp.language import read_domain
 from asp.refinement import Refinement, load
 from asp.solving import LimitError
 from testbed.protocol import Task
-from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
+from tests.agents.intentional.executor.faulty_world import NO_FAULTS, TEXTS, Faults, Play, play
 from tests.literals import parsed
 
 LATE = "the time ran out"

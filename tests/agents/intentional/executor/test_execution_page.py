@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from tests.agents.intentional.executor.stage import Faults
+from tests.agents.intentional.executor.faulty_world import Faults
 from tests.agents.intentional.executor.test_execution import carried_out, look
 
 PAGE = Path(__file__).parents[4] / "docs" / "execution.md"

@@ -14,7 +14,7 @@ from asp.reasoning.fine_planning import Horizons, incremental
 from asp.reasoning.fine_planning.compact_session import Horizon
 from asp.refinement import Refinement, load
 from asp.solving import Recent
-from tests.agents.intentional.executor.stage import TEXTS, play
+from tests.agents.intentional.executor.faulty_world import TEXTS, play
 from tests.literals import parsed
 
 GOAL = parsed(["loc(object1,room2)"])

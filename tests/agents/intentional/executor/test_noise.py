@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from agents.intentional import IntentionalRobot
 from agents.intentional.refined import RefinedRobot
 from asp.refinement import Refinement, load
-from tests.agents.intentional.executor.stage import TEXTS, Faults, play
+from tests.agents.intentional.executor.faulty_world import TEXTS, Faults, play
 from tests.agents.intentional.test_incremental import Both
 from tests.experiment.gardens import GARDEN, PIECES
 from tests.literals import parsed

@@ -13,7 +13,7 @@ from asp.language import read_domain
 from asp.reasoning.fine_planning import IncrementalFinePlanner
 from asp.refinement import Refinement, load
 from asp.translation import NotCompactError
-from tests.agents.intentional.executor.stage import NO_FAULTS, TEXTS, Faults, Play, play
+from tests.agents.intentional.executor.faulty_world import NO_FAULTS, TEXTS, Faults, Play, play
 from tests.literals import parsed
 
 

@@ -71,26 +71,26 @@ def play(
 ) -> Play:
     """Plays a trial that begins in the fine state with these true fluents."""
     world, goal = world_of(refinement), parsed(goal)
-    stage = _Stage(refinement, faults, world.state(parsed(start)))
-    robot.begin(_task(refinement, stage.state, goal))
-    percept, percepts, decisions = stage.percept(1, ()), list[Percept](), list[Decision]()
+    faulty = _FaultyWorld(refinement, faults, world.state(parsed(start)))
+    robot.begin(_task(refinement, faulty.state, goal))
+    percept, percepts, decisions = faulty.percept(1, ()), list[Percept](), list[Decision]()
     wrong = False
     while percept.step < steps:
         percepts.append(percept)
         decision = robot.act(percept)
         decisions.append(decision)
         if decision.action == "finish":
-            achieved = world.satisfies(stage.state, goal)
+            achieved = world.satisfies(faulty.state, goal)
             if achieved or wrong:
                 return Play(percepts, decisions, achieved, True)
-            percept = stage.percept(percept.step + 1, (), goal_holds=False)
+            percept = faulty.percept(percept.step + 1, (), goal_holds=False)
         else:
-            percept = stage.advance(percept.step, decision.action)
+            percept = faulty.advance(percept.step, decision.action)
         wrong = decision.action == "finish"
-    return Play(percepts, decisions, world.satisfies(stage.state, goal), False)
+    return Play(percepts, decisions, world.satisfies(faulty.state, goal), False)
 
 
-class _Stage:
+class _FaultyWorld:
     def __init__(self, refinement: Refinement, faults: Faults, state: int) -> None:
         self._world = world_of(refinement)
         self._sensing = sensing_of(refinement)
@@ -151,7 +151,7 @@ def _task(refinement: Refinement, state: int, goal: Sequence[str]) -> Task:
     return Task(
         trial="play",
         robot="intentional",
-        domain="stage",
+        domain="faulty",
         source=refinement.coarse.text,
         goal=list(goal),
         initial=[f if f in true else f.complement for f in fluents],
