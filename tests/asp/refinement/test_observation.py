@@ -1,7 +1,7 @@
 """What a robot knows by testing, and what each family of generated axioms contributes."""
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 
 import pytest
 
@@ -14,7 +14,7 @@ from tests.asp.reasoning.diagrams import after
 from tests.asp.refinement.levels import of_size
 from tests.asp.refinement.locked import locked_texts
 
-STRONG = of_size(LevelSize(2, 1, 2, ((1, 2),))).strong.text
+SMALL = partial(of_size, LevelSize(2, 1, 2, ((1, 2),)))
 AT_HOME = (
     *("fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_1)", "fine_loc(object1_2,room1_1)"),
 )
@@ -153,7 +153,7 @@ CLAIMS: list[Callable[[str], bool]] = [
 
 @pytest.mark.parametrize("claim", CLAIMS)
 def test_it_holds(claim: Callable[[str], bool]) -> None:
-    assert claim(STRONG)
+    assert claim(SMALL().strong.text)
 
 
 @pytest.mark.parametrize(
@@ -178,7 +178,7 @@ def test_it_holds(claim: Callable[[str], bool]) -> None:
     ],
 )
 def test_without_one_of_the_axioms_a_claim_fails(head: str, broken: int) -> None:
-    lines = STRONG.split("\n")
+    lines = SMALL().strong.text.split("\n")
     (removed,) = [line for line in lines if line.strip().startswith(head)]
     assert not CLAIMS[broken]("\n".join(line for line in lines if line != removed))
 
@@ -190,7 +190,7 @@ def test_one_fluent_may_be_testable_for_several_reasons() -> None:
         coarse, "c.al", f"{fine}  R tests fine_loc(R, C) if robot(R).\n", "x.fine"
     ).strong.text
     own = "test_fine_loc(rob1,rob1,room2_1)"
-    assert outcome(STRONG, AT_HOME, own) is None
+    assert outcome(SMALL().strong.text, AT_HOME, own) is None
     assert "observed_fine_loc(rob1,rob1,room2_1,false)" in knows(text, AT_HOME, own)
     assert all(claim(text) for claim in CLAIMS)
 

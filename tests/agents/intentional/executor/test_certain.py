@@ -21,7 +21,7 @@ MOVE = "fine_move(rob1,room2_1)"
 
 
 def carried(faults: Faults, zooms: bool = True) -> Play:
-    return play(RefinedRobot(IntentionalRobot(), zooms), ROW, HELD, GOAL, faults)
+    return play(RefinedRobot(IntentionalRobot(), zooms), ROW(), HELD, GOAL, faults)
 
 
 @pytest.mark.parametrize("zooms", [True, False])
@@ -63,7 +63,7 @@ def test_one_event_is_preferred_to_two_attempts_that_were_not_executed() -> None
     start = parsed(
         ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_3)", "fine_loc(object2_1,room3_4)"]
     )
-    went = play(RefinedRobot(IntentionalRobot()), ROW, start, GOAL, Faults(events=gone))
+    went = play(RefinedRobot(IntentionalRobot()), ROW(), start, GOAL, Faults(events=gone))
     assert went.achieved
     explained = [d.trace.explanation for d in went.decisions if d.trace.explanation is not None]
     assert explained

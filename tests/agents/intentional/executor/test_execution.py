@@ -1,5 +1,6 @@
 """Abstract actions carried out in a world with injected faults."""
 
+from functools import cache, partial
 from importlib.resources import files
 from typing import Any
 
@@ -24,29 +25,31 @@ LATE = "the time ran out"
 GOAL = parsed(["loc(object1,room2)", "-in_hand(rob1,object1)"])
 
 
+@cache
 def _level(rooms: int, cells: int, objects: tuple[tuple[int, int], ...]) -> Refinement:
     coarse, fine = level_text(rooms, 1, cells, objects)
-    refinement = load(coarse, "stage.al", fine, "stage.fine")
+    refinement = load(coarse, "faulty.al", fine, "faulty.fine")
     TEXTS[refinement] = fine
     return refinement
 
 
-ROW = _level(3, 4, ((2, 2),))
+ROW = partial(_level, 3, 4, ((2, 2),))
 ONE_ROOM_AWAY = parsed(
     ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_3)", "fine_loc(object2_1,room3_4)"]
 )
 
 
+@cache
 def _office() -> Refinement:
     coarse = read_domain("office")[1]
     fine = files("asp").joinpath("domains", "office.fine").read_text(encoding="utf-8")
-    refinement = load(coarse, "stage.al", fine, "stage.fine")
+    refinement = load(coarse, "faulty.al", fine, "faulty.fine")
     TEXTS[refinement] = fine
     return refinement
 
 
 def carried_out(faults: Faults = NO_FAULTS, zooms: bool = True) -> Play:
-    return play(RefinedRobot(IntentionalRobot(), zooms), ROW, ONE_ROOM_AWAY, GOAL, faults)
+    return play(RefinedRobot(IntentionalRobot(), zooms), ROW(), ONE_ROOM_AWAY, GOAL, faults)
 
 
 def look(cell: str, thing: str = "object1_1") -> str:
@@ -175,7 +178,7 @@ def test_what_is_seen_on_the_way_changes_the_plan() -> None:
     )
     goal = parsed(["loc(object1,room1)"])
     brought = {("fine_move(rob1,room1_3)", 1): "fine_exo_move(object1_1,room2_1)"}
-    went = play(RefinedRobot(IntentionalRobot()), ROW, start, goal, Faults(events=brought))
+    went = play(RefinedRobot(IntentionalRobot()), ROW(), start, goal, Faults(events=brought))
     assert went.achieved
     assert "fine_pickup(rob1,object1_1)" in went.actions
     assert not [a for a in went.actions if "room3" in a]
@@ -188,7 +191,6 @@ def test_a_goal_that_was_undone_is_explained() -> None:
     assert [p.goal_holds for p in went.percepts].count(False) == 1
 
 
-OFFICE = _office()
 IN_OFFICE = parsed(["fine_loc(book1_cover,office1_1)", "fine_loc(book2_cover,office1_2)"])
 
 
@@ -198,7 +200,7 @@ def test_a_room_that_is_locked_with_the_robot_inside(zooms: bool) -> None:
     locked = {("fine_move(rob1,library_3)", 1): "exo_lock(library)"}
     went = play(
         RefinedRobot(IntentionalRobot(), zooms),
-        OFFICE,
+        _office(),
         start,
         parsed(["loc(rob1,office2)"]),
         Faults(events=locked),
@@ -213,13 +215,13 @@ def test_a_room_that_is_locked_before_the_robot_is_in(reported: bool) -> None:
     locked = {("fine_move(rob1,kitchen_2)", 1): "exo_lock(library)"}
     faults = Faults(events=locked, reported=reported)
     went = play(
-        RefinedRobot(IntentionalRobot()), OFFICE, start, parsed(["loc(rob1,library)"]), faults
+        RefinedRobot(IntentionalRobot()), _office(), start, parsed(["loc(rob1,library)"]), faults
     )
     assert went.achieved
     assert "unlock(rob1,library)" in went.actions
 
 
-CELLS = [cell for room in ("room1", "room2", "room3") for cell in ROW.components[room]]
+CELLS = [f"room{room}_{cell}" for room in (1, 2, 3) for cell in (1, 2, 3, 4)]
 STARTS = st.tuples(*(st.sampled_from(CELLS) for _ in range(3)))
 LIES = st.sets(
     st.tuples(st.sampled_from([look(cell) for cell in CELLS]), st.integers(1, 4)), max_size=6
@@ -235,7 +237,7 @@ def test_no_cell_is_searched_twice_unless_something_changed(
     start = parsed(
         [f"fine_loc({thing},{cell})" for thing, cell in zip(things, places, strict=True)]
     )
-    went = play(RefinedRobot(IntentionalRobot()), ROW, start, GOAL, Faults(lies=lies))
+    went = play(RefinedRobot(IntentionalRobot()), ROW(), start, GOAL, Faults(lies=lies))
     assert went.achieved
     searched: set[str] = set()
     for decision in went.decisions:
@@ -253,7 +255,11 @@ def test_what_is_put_down_may_be_taken_away_at_once(reported: bool) -> None:
     start += parsed(["fine_in_hand(rob1,object1_2)", "fine_loc(object2_1,room3_4)"])
     taken = {("test_fine_in_hand(rob1,object1_2)", 1): "fine_exo_move(object1_1,room3_2)"}
     went = play(
-        RefinedRobot(IntentionalRobot()), ROW, start, GOAL, Faults(events=taken, reported=reported)
+        RefinedRobot(IntentionalRobot()),
+        ROW(),
+        start,
+        GOAL,
+        Faults(events=taken, reported=reported),
     )
     assert went.achieved
     assert "fine_pickup(rob1,object1_1)" in went.actions
@@ -265,9 +271,9 @@ def _fine() -> FineTracker:
     task = Task(
         trial="play",
         robot="rob1",
-        domain="stage",
-        source=ROW.coarse.text,
-        refinement=TEXTS[ROW],
+        domain="faulty",
+        source=ROW().coarse.text,
+        refinement=TEXTS[ROW()],
         goal=GOAL,
         initial=parsed(["loc(rob1,room1)"]),
         initial_fine=parsed(["fine_loc(rob1,room1_1)"]),

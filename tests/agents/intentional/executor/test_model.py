@@ -24,7 +24,7 @@ CELLS = range(2, 6)
 def _row(cells: int) -> Refinement:
     """Two rooms of so many cells in a row, and one object."""
     coarse, fine = level_text(2, 1, cells, ((1, 1),))
-    refinement = load(coarse, "stage.al", fine, "stage.fine")
+    refinement = load(coarse, "faulty.al", fine, "faulty.fine")
     TEXTS[refinement] = fine
     return refinement
 

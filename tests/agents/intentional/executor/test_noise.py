@@ -1,5 +1,7 @@
 """Tests that are wrong and actions that fail, as often as they like, are no errors of the robot."""
 
+from functools import cache
+
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,6 +18,7 @@ STILL = "\n".join(line for line in GARDEN.splitlines() if "stray" not in line)
 PIECES_ONLY = PIECES.replace(" stray.", "")
 
 
+@cache
 def _garden() -> Refinement:
     coarse, fine = (text.replace("OTHER", "rake") for text in (STILL, PIECES_ONLY))
     refinement = load(coarse, "own.al", fine, "own.fine")
@@ -23,7 +26,6 @@ def _garden() -> Refinement:
     return refinement
 
 
-QUIET = _garden()
 START = parsed(
     [
         "fine_stands(tom,north_1)",
@@ -39,7 +41,7 @@ def test_a_thing_that_is_not_found_where_it_has_to_be_was_overlooked() -> None:
     overlooked += [("test_fine_stands(tom,other_head,north_1)", n) for n in (1, 2)]
     went = play(
         RefinedRobot(IntentionalRobot()),
-        QUIET,
+        _garden(),
         START,
         parsed(["stands(rake,south)"]),
         Faults(lies=overlooked),
@@ -68,5 +70,5 @@ def test_both_ways_of_reasoning_bear_wrong_tests_alike(
     robot = RefinedRobot(IntentionalRobot(Both))
     slips = [("fine_lift(tom,other_head)", number + 1) for number in range(failing)]
     goal = parsed(["stands(rake,south)", "-carries(tom,rake)"])
-    went = play(robot, QUIET, START, goal, Faults(lies=lies, slips=slips), steps=150)
+    went = play(robot, _garden(), START, goal, Faults(lies=lies, slips=slips), steps=150)
     assert went.achieved or not went.finished

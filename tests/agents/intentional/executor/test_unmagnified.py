@@ -1,6 +1,7 @@
 """Attributes that are not magnified, where the robot cannot see what becomes of them."""
 
 import re
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
@@ -17,23 +18,23 @@ from tests.agents.intentional.executor.faulty_world import NO_FAULTS, TEXTS, Fau
 from tests.literals import parsed
 
 
-def _staged(coarse: str, fine: str) -> Refinement:
-    refinement = load(coarse, "stage.al", fine, "stage.fine")
+def _refinement(coarse: str, fine: str) -> Refinement:
+    refinement = load(coarse, "faulty.al", fine, "faulty.fine")
     TEXTS[refinement] = fine
     return refinement
 
 
+@cache
 def _blind_office() -> Refinement:
     """The packaged office, in which no robot sees whether a room is locked."""
     shown = re.compile(r"^  .*\b(?:sees|shows) +locked\(.*\n", re.MULTILINE)
     coarse, count = shown.subn("", read_domain("office")[1])
     assert count == 5
-    return _staged(
+    return _refinement(
         coarse, files("asp").joinpath("domains", "office.fine").read_text(encoding="utf-8")
     )
 
 
-OFFICE = _blind_office()
 START = parsed(["fine_loc(rob1,kitchen_1)", "fine_loc(book1_cover,office1_1)"])
 START += parsed(["fine_loc(book2_cover,office1_2)"])
 
@@ -41,7 +42,7 @@ START += parsed(["fine_loc(book2_cover,office1_2)"])
 def entered(start: list[str], faults: Faults = NO_FAULTS, zooms: bool = True) -> Play:
     return play(
         RefinedRobot(IntentionalRobot(), zooms),
-        OFFICE,
+        _blind_office(),
         start,
         parsed(["loc(rob1,library)"]),
         faults,
@@ -68,6 +69,7 @@ def test_what_others_do_unseen_is_told_or_explained(reported: bool) -> None:
     assert events == ([] if reported else ["exo_lock(library)"])
 
 
+@cache
 def _with_free_hands() -> Refinement:
     """A level in which a hand is busy once it has held something, and free until then."""
     coarse, fine = level_text(2, 1, 2, ((1, 2),))
@@ -75,31 +77,28 @@ def _with_free_hands() -> Refinement:
     assert coarse.count(said) == 1
     coarse = coarse.replace(said, f"{said}  inertial free(robot).\n  inertial busy(robot).\n")
     coarse += "\nlaws\n  free(R) if -busy(R).\n  -free(R) if busy(R).\n"
-    return _staged(coarse + "  busy(R) if in_hand(R, O).\n", fine)
-
-
-HANDS = _with_free_hands()
+    return _refinement(coarse + "  busy(R) if in_hand(R, O).\n", fine)
 
 
 def test_an_indirect_effect_that_nobody_sees_follows() -> None:
     """By a law about what is false, so that its plans are those of the literal translation."""
     with pytest.raises(NotCompactError):
-        IncrementalFinePlanner(HANDS.weak, HANDS.weak_signature)
+        IncrementalFinePlanner(_with_free_hands().weak, _with_free_hands().weak_signature)
     start = parsed(["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_2)", "free(rob1)"])
-    went = play(RefinedRobot(IntentionalRobot()), HANDS, start, parsed(["loc(object1,room2)"]))
+    went = play(
+        RefinedRobot(IntentionalRobot()), _with_free_hands(), start, parsed(["loc(object1,room2)"])
+    )
     assert went.achieved
     assert went.abstract == [("pickup(rob1,object1)", True), ("move(rob1,room2)", True)]
 
 
+@cache
 def _table() -> Refinement:
     texts = Path(__file__).parents[3] / "asp" / "refinement"
-    return _staged(
+    return _refinement(
         texts.joinpath("tabletop.al").read_text(encoding="utf-8"),
         texts.joinpath("tabletop.fine").read_text(encoding="utf-8"),
     )
-
-
-TABLE = _table()
 
 
 @pytest.mark.parametrize("zooms", [True, False])
@@ -107,7 +106,9 @@ def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: 
     start = parsed(
         ["fine_over(left_arm,green_3)", "fine_held(left_arm,base2)", "fine_lies(base1,yellow_1)"]
     )
-    went = play(RefinedRobot(IntentionalRobot(), zooms), TABLE, start, parsed(["lies(block1,red)"]))
+    went = play(
+        RefinedRobot(IntentionalRobot(), zooms), _table(), start, parsed(["lies(block1,red)"])
+    )
     assert went.achieved
     assert [action for action, _ in went.abstract] == [
         "swing(left_arm,yellow)",
@@ -122,7 +123,7 @@ def test_what_is_defined_without_a_counterpart_does_not_stand_in_the_way(zooms: 
 def test_what_is_tested_where_a_coarse_fluent_holds_is_tested_there() -> None:
     """`A tests covered(Z) if over(A, Z)`: `over` is defined at the fine resolution."""
     start = ["fine_over(left_arm,green_3)", "fine_lies(base1,yellow_1)", "fine_lies(base2,red_1)"]
-    went = play(RefinedRobot(IntentionalRobot()), TABLE, start, ["held(left_arm,block1)"])
+    went = play(RefinedRobot(IntentionalRobot()), _table(), start, ["held(left_arm,block1)"])
     tested = {d.action for d in went.decisions if d.action.startswith("test_covered(")}
     assert went.achieved
     assert tested == {"test_covered(left_arm,green)", "test_covered(left_arm,yellow)"}

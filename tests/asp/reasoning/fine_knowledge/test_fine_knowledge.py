@@ -1,6 +1,7 @@
 """What is known at the fine resolution: by the theory, and by the quick way, which are equal."""
 
 from collections.abc import Sequence
+from functools import cache, partial
 from itertools import product
 from pathlib import Path
 
@@ -18,15 +19,15 @@ from tests.asp.refinement.locked import locked_texts
 from tests.literals import parsed
 
 TABLETOP = str(Path(__file__).parents[2] / "refinement" / "tabletop.fine")
-SMALL = of_size(LevelSize(2, 1, 2, ((2, 2),)), "small")
-THEORY, QUICK = ReferenceFineKnowledge(SMALL), IncrementalFineKnowledge(SMALL)
-CELLS = [cell for room in ("room1", "room2") for cell in SMALL.components[room]]
-PARTS = [part for thing in ("object1", "object2") for part in SMALL.components[thing]]
+SMALL = partial(of_size, LevelSize(2, 1, 2, ((2, 2),)), "small")
+THEORY = cache(lambda: ReferenceFineKnowledge(SMALL()))
+QUICK = cache(lambda: IncrementalFineKnowledge(SMALL()))
+CELLS = [f"room{room}_{cell}" for room in (1, 2) for cell in (1, 2)]
+PARTS = [f"object{thing}_{part}" for thing in (1, 2) for part in (1, 2)]
 LOCATIONS = parsed([f"fine_loc({part},{cell})" for part, cell in product(PARTS, CELLS)])
 OWN = parsed([f"fine_loc(rob1,{cell})" for cell in CELLS])
 HELD = parsed([f"fine_in_hand(rob1,{part})" for part in PARTS])
 FINE = [*LOCATIONS, *OWN, *HELD]
-COARSE = SMALL.description.fluents
 ABOUT = frozenset({"rob1", "object1", "object2", "room1", "room2"})
 
 LITERALS = st.sampled_from([*FINE, *OWN, *HELD, *(fluent.complement for fluent in FINE)])
@@ -34,7 +35,7 @@ HISTORIES = st.lists(st.lists(LITERALS, min_size=1, max_size=2), max_size=5)
 
 
 def infer(*seen: Sequence[Literal], known: Known | None = None) -> Inferred:
-    return THEORY.infer(known or Known(), seen, ABOUT)
+    return THEORY().infer(known or Known(), seen, ABOUT)
 
 
 @given(HISTORIES)
@@ -42,14 +43,14 @@ def infer(*seen: Sequence[Literal], known: Known | None = None) -> Inferred:
 def test_the_quick_way_says_what_the_theory_says(history: list[list[Literal]]) -> None:
     known = Known()
     for seen in history:
-        after = QUICK.following(known, seen)
+        after = QUICK().following(known, seen)
         if after is None:  # a contradiction, which the theory has to resolve
             return
-        inferred = THEORY.infer(known, [seen], ABOUT)
+        inferred = THEORY().infer(known, [seen], ABOUT)
         assert after == inferred.known
-        unknown = {f for f in FINE if f not in after.true and not QUICK.is_false(after, f)}
+        unknown = {f for f in FINE if f not in after.true and not QUICK().is_false(after, f)}
         assert unknown == inferred.possible
-        assert QUICK.coarse(after, COARSE) == inferred.coarse
+        assert QUICK().coarse(after, SMALL().description.fluents) == inferred.coarse
         known = after
 
 
@@ -58,9 +59,9 @@ def test_the_quick_way_says_what_the_theory_says(history: list[list[Literal]]) -
 def test_step_by_step_or_all_at_once(history: list[list[Literal]]) -> None:
     known: Known | None = Known()
     for seen in history:
-        known = None if known is None else QUICK.following(known, seen)
+        known = None if known is None else QUICK().following(known, seen)
     if known is not None:
-        assert THEORY.infer(Known(), history, ABOUT).known == known
+        assert THEORY().infer(Known(), history, ABOUT).known == known
 
 
 @pytest.mark.parametrize("name", ["level.fine", "office.fine", TABLETOP])
@@ -120,7 +121,7 @@ def test_of_a_wrong_commitment_nothing_is_left() -> None:
 def test_of_what_contradicts_by_way_of_laws_the_least_is_forgotten() -> None:
     grasped = infer(parsed(["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_1)"])).known
     seen = parsed(["fine_loc(object1_1,room2_2)"])
-    assert QUICK.following(grasped, seen) is None
+    assert QUICK().following(grasped, seen) is None
     after = infer(seen, known=grasped).known
     assert "fine_loc(object1_1,room2_2)" in after.true
     assert len(after.true & grasped.true) == 1
@@ -129,7 +130,7 @@ def test_of_what_contradicts_by_way_of_laws_the_least_is_forgotten() -> None:
 def test_where_laws_are_not_simple_and_where_there_is_a_choice_the_theory_is_asked() -> None:
     grasped = infer(parsed(["fine_loc(rob1,room1_1)", "fine_in_hand(rob1,object1_1)"])).known
     seen = parsed(["fine_loc(object1_1,room2_2)"])
-    assert QUICK.after(grasped, seen) == THEORY.after(grasped, seen)
+    assert QUICK().after(grasped, seen) == THEORY().after(grasped, seen)
 
 
 def test_one_moment_cannot_contradict_itself() -> None:

@@ -2,6 +2,7 @@
 a search through states."""
 
 import random
+from functools import partial
 
 import pytest
 
@@ -22,10 +23,10 @@ from tests.asp.reasoning.fine_planning.fine_problems import (
 from tests.asp.refinement.levels import level, of_size
 
 SMALL = {
-    "L1": level("L1"),
-    "L2": level("L2"),
-    "one room": of_size(LevelSize(1, 2, 2, ((1, 2),))),
-    "long rooms": of_size(LevelSize(3, 1, 3, ((1, 2), (1, 1)))),
+    "L1": partial(level, "L1"),
+    "L2": partial(level, "L2"),
+    "one room": partial(of_size, LevelSize(1, 2, 2, ((1, 2),))),
+    "long rooms": partial(of_size, LevelSize(3, 1, 3, ((1, 2), (1, 1)))),
 }
 LIMIT = 12
 TESTS = 2 * LIMIT + 2
@@ -50,18 +51,18 @@ def _plain(problem: FineProblem) -> tuple[str, ...] | NoPlan:
 
 @pytest.mark.parametrize("name", SMALL)
 def test_the_plan_is_the_first_shortest_that_a_search_finds(name: str) -> None:
-    draw, planner = random.Random(11), _planner(SMALL[name])
+    draw, planner = random.Random(11), _planner(SMALL[name]())
     for _ in range(40):
-        problem = drawn_problem(SMALL[name], draw)
+        problem = drawn_problem(SMALL[name](), draw)
         found = planner.plan(problem.start, problem.goal, LIMIT)
-        assert found == first_shortest(SMALL[name], problem.start, problem.goal, LIMIT), problem
+        assert found == first_shortest(SMALL[name](), problem.start, problem.goal, LIMIT), problem
 
 
 @pytest.mark.parametrize("name", SMALL)
 def test_whole_and_zoomed_the_literal_translation_plans_the_same_actions(name: str) -> None:
-    draw, planner = random.Random(12), _planner(SMALL[name])
+    draw, planner = random.Random(12), _planner(SMALL[name]())
     for _ in range(10):
-        problem = drawn_problem(SMALL[name], draw)
+        problem = drawn_problem(SMALL[name](), draw)
         refinement = problem.refinement
         reference = ReferenceFinePlanner(refinement.strong, refinement.strong_signature)
         plain = reference.plan(problem.start, problem.goal, TESTS)

@@ -1,6 +1,7 @@
 """The fine planner in domains of all sorts, what it refuses, and what it keeps."""
 
 import random
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -22,10 +23,10 @@ from tests.literals import parsed
 
 HERE = Path(__file__).parents[2] / "refinement"
 DOMAINS = {
-    "tabletop": load_refinement(str(HERE / "tabletop.fine")),
-    "assistant": load_refinement(str(HERE / "assistant.fine")),
-    "locked": load(*locked_texts()),
-    "L2": level("L2"),
+    "tabletop": partial(load_refinement, str(HERE / "tabletop.fine")),
+    "assistant": partial(load_refinement, str(HERE / "assistant.fine")),
+    "locked": lambda: load(*locked_texts()),
+    "L2": partial(level, "L2"),
 }
 LIMIT = 6
 
@@ -36,11 +37,11 @@ def _planner(refinement: Refinement, most: int = 32) -> IncrementalFinePlanner:
 
 @pytest.mark.parametrize("name", DOMAINS)
 def test_the_plan_is_the_first_shortest_that_a_search_finds(name: str) -> None:
-    draw, planner = random.Random(21), _planner(DOMAINS[name])
+    draw, planner = random.Random(21), _planner(DOMAINS[name]())
     for _ in range(30):
-        start, goal = drawn_state(DOMAINS[name], draw), drawn_goal(DOMAINS[name], draw)
+        start, goal = drawn_state(DOMAINS[name](), draw), drawn_goal(DOMAINS[name](), draw)
         found = planner.plan(start, goal, LIMIT)
-        expected = first_shortest(DOMAINS[name], start, goal, LIMIT)
+        expected = first_shortest(DOMAINS[name](), start, goal, LIMIT)
         assert (None if isinstance(found, NoPlan) else found) == expected, (start, goal)
 
 

@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Iterator
+from functools import partial
 from itertools import product
 from pathlib import Path
 
@@ -24,10 +25,10 @@ from tests.literals import parsed
 
 HERE = Path(__file__).parents[2] / "refinement"
 DOMAINS = {
-    "tabletop": load_refinement(str(HERE / "tabletop.fine")),
-    "assistant": load_refinement(str(HERE / "assistant.fine")),
-    "locked": load(*locked_texts()),
-    "L2": level("L2"),
+    "tabletop": partial(load_refinement, str(HERE / "tabletop.fine")),
+    "assistant": partial(load_refinement, str(HERE / "assistant.fine")),
+    "locked": lambda: load(*locked_texts()),
+    "L2": partial(level, "L2"),
 }
 
 Step = dict[str, set[str]]
@@ -96,7 +97,7 @@ def _transitions(world: World, state: int) -> Iterator[tuple[Action, int]]:
 
 @pytest.mark.parametrize("name", DOMAINS)
 def test_every_plan_keeps_to_what_is_left(name: str) -> None:
-    refinement = DOMAINS[name]
+    refinement = DOMAINS[name]()
     draw, confining = random.Random(41), Confining(refinement)
     world = world_of(refinement)
     passed = 0
@@ -114,7 +115,7 @@ def test_every_plan_keeps_to_what_is_left(name: str) -> None:
     assert passed
 
 
-ROW = of_size(LevelSize(2, 1, 3, ((1, 2),)))
+ROW = partial(of_size, LevelSize(2, 1, 3, ((1, 2),)))
 
 
 def _places(thing: str, *cells: str) -> set[str]:
@@ -122,7 +123,7 @@ def _places(thing: str, *cells: str) -> set[str]:
 
 
 def test_in_a_row_every_step_has_one_place() -> None:
-    confining, start = Confining(ROW), FineStart(frozenset(parsed(["fine_loc(rob1,room1_1)"])))
+    confining, start = Confining(ROW()), FineStart(frozenset(parsed(["fine_loc(rob1,room1_1)"])))
     steps = confining.steps(start, parsed(["loc(rob1,room2)"]), 3)
     assert steps is not None
     cells = ("room1_1", "room1_2", "room1_3", "room2_1")
@@ -134,7 +135,7 @@ def test_in_a_row_every_step_has_one_place() -> None:
 
 def test_with_a_step_to_spare_there_is_more() -> None:
     start = FineStart(frozenset(parsed(["fine_loc(rob1,room1_1)"])))
-    steps = Confining(ROW).steps(start, parsed(["loc(rob1,room2)"]), 4)
+    steps = Confining(ROW()).steps(start, parsed(["loc(rob1,room2)"]), 4)
     assert steps is not None
     assert steps[2]["fine_loc(rob1)"] == _places("rob1", "room1_2", "room1_3")
 
@@ -142,7 +143,7 @@ def test_with_a_step_to_spare_there_is_more() -> None:
 def test_what_is_held_is_where_the_robot_is() -> None:
     held = {"fine_in_hand(rob1,object1_1)"}
     true = held.union(*(_places(t, "room1_2") for t in ("rob1", "object1_1", "object1_2")))
-    steps = Confining(ROW).steps(
+    steps = Confining(ROW()).steps(
         FineStart(frozenset(parsed(true))), parsed(["loc(rob1,room2)", "loc(object1,room2)"]), 2
     )
     assert steps is not None
@@ -153,7 +154,7 @@ def test_what_is_held_is_where_the_robot_is() -> None:
 
 def test_where_the_goal_holds_already_one_may_go_elsewhere_and_come_back() -> None:
     start = FineStart(frozenset(parsed(["fine_loc(rob1,room2_1)"])))
-    steps = Confining(ROW).steps(start, parsed(["loc(rob1,room2)"]), 2)
+    steps = Confining(ROW()).steps(start, parsed(["loc(rob1,room2)"]), 2)
     assert steps is not None
     anywhere = _places("rob1", "room1_3", "room2_1", "room2_2")
     assert steps[1].get("fine_loc(rob1)", anywhere) >= anywhere
