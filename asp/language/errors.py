@@ -69,12 +69,17 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     return next(iter(get_close_matches(word, sorted(set(known)), n=1, cutoff=_LIKENESS)), None)
 
 
-def suggestion(word: str, known: Iterable[str]) -> str:
-    """The end of a line about an unknown word: the nearest known one, else all that are known."""
+def suggestion(word: str, known: Iterable[str], otherwise: str | None = None) -> str:
+    """The end of a line about an unknown word: the nearest known one, else all that are known.
+
+    With `otherwise` that text stands in place of all that are known.
+    """
     choices = sorted(set(known))
     near = nearest(word, choices)
     if near is not None:
         return f"did you mean '{near}'?"
+    if otherwise is not None:
+        return otherwise
     return "known: " + ", ".join(choices) if choices else "none is known here"
 
 

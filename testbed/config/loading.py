@@ -134,8 +134,8 @@ def _hint(error: ErrorDetails) -> str:
     if expected is None or not isinstance(given, str):
         return ""
     choices = str(expected).replace("'", "").replace(" or ", ", ").split(", ")
-    near = suggestion(given, choices)
-    return f"; {near}" if near.startswith("did") else ""
+    near = suggestion(given, choices, otherwise="")
+    return near and f"; {near}"
 
 
 def _known_key(key: Key) -> str:

@@ -74,8 +74,8 @@ def find_trial(specs: Sequence[TrialSpec], trial: str) -> TrialSpec:
     if found:
         ids = ", ".join(spec.trial for spec in found[:5])
         raise StoreError(f"--trial {trial}: several trials begin so: {ids}")
-    near = suggestion(trial, [spec.trial for spec in specs])
-    hint = near if near.startswith("did") else f"one of them is {specs[0].trial}"
+    one = f"one of them is {specs[0].trial}"
+    hint = suggestion(trial, [spec.trial for spec in specs], otherwise=one)
     among = f"not one of the run's {counted(len(specs), 'trial')}"
     raise StoreError(f"--trial {trial}: {among}; {hint}")
 

@@ -131,9 +131,8 @@ def _attribute(place: str) -> Any:
         raise RegistryError(f"the module '{module}' cannot be imported: {said}") from error
     for part in parts:
         if not hasattr(found, part):
-            near = suggestion(part, (name for name in vars(found) if not name.startswith("_")))
-            if not near.startswith("did"):  # all that there are would be too many to list
-                near = "look at how it is spelled there"
+            public = (name for name in vars(found) if not name.startswith("_"))
+            near = suggestion(part, public, otherwise="look at how it is spelled there")
             raise RegistryError(f"'{place}': {module} has no {part}; {near}")
         found = getattr(found, part)
     return found
