@@ -131,7 +131,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """Adds to the history the result of the last attempt."""
 
     def _relevant(self, percept: Percept) -> Iterable[Literal]:
-        """What the robot observes of what it sees: the outcome of the last attempt (P 3.2).
+        """The visible literals that enter the history: the outcome of the last attempt (P 3.2).
 
         An action's `shows` statements say what that is, those whose condition is seen.
         """

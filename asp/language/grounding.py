@@ -108,7 +108,7 @@ def static_truth(
 ) -> tuple[frozenset[Literal], frozenset[Literal]]:
     """The statics that are true, and those that the laws leave open (through their own negation).
 
-    The alternating fixpoint: what is certain limits what is possible, and the reverse.
+    The alternating fixpoint: certain facts bound the possible ones, and the reverse.
     """
     facts = frozenset(
         fact
