@@ -14,6 +14,7 @@ from asp.language.description import Literals as Literals
 from asp.language.description import Sees as Sees
 from asp.language.description import Shows as Shows
 from asp.language.description import Trigger as Trigger
+from asp.language.errors import DomainError as DomainError
 from asp.language.errors import Problems as Problems
 from asp.language.errors import SourceError as SourceError
 from asp.language.errors import suggestion as suggestion
@@ -37,6 +38,7 @@ from asp.language.loading import packaged_domains as packaged_domains
 from asp.language.loading import parse_description as parse_description
 from asp.language.loading import read_domain as read_domain
 from asp.language.loading import read_packaged as read_packaged
+from asp.language.loading import read_text as read_text
 from asp.language.matching import NOTHING as NOTHING
 from asp.language.matching import Facts as Facts
 from asp.language.matching import Pattern as Pattern
@@ -54,4 +56,5 @@ from asp.language.restriction import restrict as restrict
 from asp.language.restriction import without_exogenous as without_exogenous
 from asp.language.signature import Signature as Signature
 from asp.language.signature import signature_of as signature_of
+from asp.language.signature import unknown_atom as unknown_atom
 from asp.language.variable_sorts import variable_domains as variable_domains

@@ -37,6 +37,17 @@ class SourceError(ValueError):
         self.all: Sequence[SourceError] = (self,)
 
 
+class DomainError(ValueError):
+    """Something asked of a domain that it does not have, or a state that it cannot be in.
+
+    `message` is one line; `key` is where that stands in what was asked, as `("history", 2)`.
+    """
+
+    def __init__(self, message: str, *key: str | int) -> None:
+        super().__init__(": ".join(filter(None, [".".join(map(str, key)), message])))
+        self.message, self.key = message, key
+
+
 class Problems(list[SourceError]):
     """The mistakes found so far in one text.
 

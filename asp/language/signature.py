@@ -4,7 +4,7 @@ Names to which the programs give a meaning of their own are reserved: a domain h
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -162,3 +162,21 @@ def _words() -> Mapping[ASTType, set[str]]:
         if entry.name.endswith(".lp"):
             ast.parse_string(entry.read_text(encoding="utf-8"), collect)
     return names
+
+
+def unknown_atom(
+    text: Literal, signature: Signature, kinds: Collection[str], what: str
+) -> str | None:
+    """What is wrong with a ground atom that is none of these kinds, and what is right, if so."""
+    symbols = {name: own for name, own in signature.symbols.items() if own.kind in kinds}
+    name, values = text.name, text.arguments
+    if name not in symbols:
+        return f"no {what} '{name}'; {suggestion(name, symbols)}"
+    sorts = [signature.sorts[sort.name] for sort in symbols[name].sorts]
+    example = Literal.of(name, (members[0] for members in sorts))
+    if len(values) != len(sorts):
+        return f"{name} takes {len(sorts)} arguments, as in {example}"
+    for value, members in zip(values, sorts, strict=True):
+        if value not in members:
+            return f"'{value}' in {text} is not known there; {suggestion(value, members)}"
+    return None if text.is_positive else f"{text} has a sign; write it as in {example}"

@@ -12,12 +12,24 @@ from typing import Annotated
 
 import typer
 
-from testbed.cli import check, export, repair, replay, report, robot, run, translate
+from testbed.cli import (
+    check,
+    diagram,
+    explain,
+    export,
+    plan,
+    repair,
+    replay,
+    report,
+    robot,
+    run,
+    translate,
+)
 from testbed.cli.common import BAD_INPUT, DONE, refuse
 from testbed.cli.importing import displaced
 from testbed.text import mute, tolerant, warn
 
-COMMANDS = (run, check, robot, report, export, replay, repair, translate)
+COMMANDS = (run, check, robot, report, export, replay, repair, translate, plan, explain, diagram)
 """In the order of the help. Each has a function of its own name, and the end of its help."""
 
 app = typer.Typer(

@@ -20,6 +20,9 @@ Overrides = Annotated[
     list[str] | None,
     typer.Argument(metavar="KEY=VALUE", help="Keys to override, dotted where nested."),
 ]
+Domain = Annotated[
+    str, typer.Argument(metavar="DOMAIN", help="A description (.al), or a packaged domain's name.")
+]
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Run folder.")]
 Folders = Annotated[list[Path], typer.Argument(metavar="DIR...", help="Run folders.")]
 
@@ -62,7 +65,7 @@ def input_errors() -> Iterator[None]:
 
 def _refusal(error: Exception) -> Iterable[str] | None:
     """The lines of an error that is one of the input; None of another."""
-    from asp.language import SourceError
+    from asp.language import DomainError, SourceError
     from testbed.config import ConfigError
     from testbed.experiment.errors import StoreError, WorkerError
     from testbed.registry import RegistryError
@@ -72,7 +75,7 @@ def _refusal(error: Exception) -> Iterable[str] | None:
             return map(str, error.all)
         case ConfigError():
             return error.lines
-        case StoreError() | WorkerError() | RegistryError():
+        case DomainError() | StoreError() | WorkerError() | RegistryError():
             return str(error).split("\n")
         case UnicodeDecodeError():
             return [f"not a text file in UTF-8: {error.reason} at byte {error.start}"]

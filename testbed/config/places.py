@@ -1,14 +1,14 @@
 """Where a key stands, what is wrong with its value, and the lines that say so."""
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 import yaml
 
-from asp.language import Literal, Signature, suggestion
+from asp.language import Literal, Signature, unknown_atom
 from testbed.world import StateError
 
 
@@ -98,24 +98,6 @@ def _lines_below(
     for name, place, value in inner:
         yield (*key, name), place.start_mark.line + 1
         yield from _lines_below(value, (*key, name))
-
-
-def unknown_atom(
-    text: Literal, signature: Signature, kinds: Collection[str], what: str
-) -> str | None:
-    """What is wrong with a ground atom that is none of these kinds, and what is right, if so."""
-    symbols = {name: own for name, own in signature.symbols.items() if own.kind in kinds}
-    name, values = text.name, text.arguments
-    if name not in symbols:
-        return f"no {what} '{name}'; {suggestion(name, symbols)}"
-    sorts = [signature.sorts[sort.name] for sort in symbols[name].sorts]
-    example = Literal.of(name, (members[0] for members in sorts))
-    if len(values) != len(sorts):
-        return f"{name} takes {len(sorts)} arguments, as in {example}"
-    for value, members in zip(values, sorts, strict=True):
-        if value not in members:
-            return f"'{value}' in {text} is not known there; {suggestion(value, members)}"
-    return None if text.is_positive else f"{text} has a sign; write it as in {example}"
 
 
 @dataclass(frozen=True)

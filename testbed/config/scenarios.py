@@ -2,9 +2,9 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
-from asp.language import Signature, suggestion
+from asp.language import Signature, suggestion, unknown_atom
 from testbed.config.models import ExperimentConfig, ScenarioSettings, ScriptEntry
-from testbed.config.places import Finding, Key, unknown_atom
+from testbed.config.places import Finding, Key
 from testbed.config.values import NONE
 
 SCRIPT = "script"
