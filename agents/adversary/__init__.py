@@ -1,4 +1,4 @@
-"""Adversaries: who casts the exogenous actions. One file a strategy, one interface."""
+"""Adversaries: who casts the exogenous actions. One file per strategy, one interface."""
 
 from agents.adversary.base import Adversary as Adversary
 from agents.adversary.base import AdversaryView as AdversaryView

@@ -16,7 +16,7 @@ Flags: TypeAlias = dict[str, bool]
 
 
 class ParallelView(View, ParallelEnv[str, Observation, int]):
-    """A view of a core: one call a step.
+    """A view of a core: one call per step.
 
     The adversary does not know the robot's answer: its mask holds what is possible by itself, and
     an exogenous action that is impossible beside the robot's is dropped, which

@@ -55,7 +55,7 @@ class Panel(NamedTuple):
 
 
 def drawn(chart: Chart) -> Panel:
-    """A chart as a figure; seconds over levels, anything else a line a row."""
+    """A chart as a figure; seconds over levels, anything else one row per line."""
     with mpl.rc_context(SETTINGS):
         own = _curves(chart) if chart.kind == "seconds" else _forest(chart)
         labels = ", ".join(series.label for series in chart.series)

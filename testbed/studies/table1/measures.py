@@ -119,10 +119,10 @@ def measures(run: Run, as_published: bool) -> list[Analysis]:
 
 
 def comparisons_of(config: ExperimentConfig) -> list[Compared]:
-    """The robots of a configuration with activities, each with the baseline, if it is there."""
+    """Every other robot of a configuration with the baseline, if it is there."""
     if BASELINE not in config.robots:
         return []
-    return [Compared(BASELINE, name) for name in config.robots if name.startswith(INTENTIONAL)]
+    return [Compared(BASELINE, name) for name in config.robots if name != BASELINE]
 
 
 def analyse(
