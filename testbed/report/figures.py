@@ -89,7 +89,7 @@ def _curves(chart: Chart) -> Figure:
         _curve(axes, own, {level: index + shift for index, level in enumerate(levels)})
     axes.set_xticks(range(len(levels)), list(map(plain, levels)))
     axes.set_xlim(-0.4, len(levels) - 0.6)
-    axes.set_yscale("log")
+    axes.set_yscale("log", nonpositive="mask")
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _seconds(value)))
     axes.grid(axis="y")
@@ -138,7 +138,7 @@ def _ratios(axes: Axes, series: Sequence[Series]) -> None:
     drawn = (end for own in series for p in own.points for end in (p.low, p.value, p.high))
     ends = [end for end in drawn if end is not None and end > 0]
     low, high = min(ends, default=1.0), max(ends, default=1.0)
-    axes.set_xscale("log")
+    axes.set_xscale("log", nonpositive="mask")
     axes.set_xlim(min(low / ROOM, 0.8), max(high * ROOM, 1.25))
     axes.xaxis.set_major_locator(FixedLocator(TICKS))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))

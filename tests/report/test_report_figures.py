@@ -1,7 +1,10 @@
 """Figures as SVG inside of a page: whole, of the page's colours, and with ids of their own."""
 
 import re
+from typing import Literal
 from xml.etree import ElementTree
+
+import pytest
 
 from testbed.report.figures import VARIABLES, Panel, drawn
 from testbed.studies import Chart, Point, Series
@@ -98,6 +101,14 @@ def test_a_published_curve_is_dashed() -> None:
         for series in (published, measured)
     ]
     assert dashed == [True, False]
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("kind", ["ratios", "seconds"])
+def test_a_value_of_zero_has_no_place_on_a_log_scale(kind: Literal["ratios", "seconds"]) -> None:
+    """A robot that made no step, for one; the values beside it are drawn as without it."""
+    values = Series("ours", "first", (Point("a", 0.0, 0.0, 0.0), Point("b", 15.0, 14.0, 16.0)))
+    assert {"a", "b"} <= set(_texts(drawn(Chart("x", "steps", ["a", "b"], [values], kind))))
 
 
 def test_what_a_figure_says_of_itself_is_escaped() -> None:
