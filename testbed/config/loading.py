@@ -54,7 +54,7 @@ def load_config(
     as its robots. `given_in` is what errors call the place of the overrides.
 
     Raises:
-        ConfigError: one line an error, each with its place and what would be right.
+        ConfigError: one line per error, each with its place and what would be right.
     """
     try:
         path = find_config(source)
@@ -98,8 +98,8 @@ def _describe(error: ErrorDetails, places: Places) -> str:
     if error["type"] == "tuple_type":
         return f"{where}: should be a list such as [{_shown(error['input'])}]"
     message = error["msg"].removeprefix("Input ").replace("a valid integer", "an integer")
-    message = message.replace("a valid ", "a ").partition(" or instance of")[0]
-    message = message[0].lower() + message[1:]
+    message = message.replace("a valid ", "a ").replace("dictionary", "mapping")
+    message = message[0].lower() + message[1:].partition(" or instance of")[0]
     return f"{where}: {message}, not {_shown(error['input'])}{_hint(error)}"
 
 

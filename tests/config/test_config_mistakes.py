@@ -17,6 +17,11 @@ pytestmark = pytest.mark.versions
         ("steps: 20", "stps: 20", "tiny.yaml:11: limits.stps: unknown key; did you mean 'steps'?"),
         ("seed: 3", "seed: three", "tiny.yaml:2: seed: should be an integer, not 'three'"),
         (
+            "{mode: colocated, probability: 0.5}",
+            "always",
+            "tiny.yaml:9: observability.exo_move: should be a mapping, not 'always'",
+        ),
+        (
             "scenarios: [1, random]",
             "scenarios: 5",
             "tiny.yaml:5: scenarios: should be a list such as [5]",
