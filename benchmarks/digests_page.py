@@ -20,7 +20,7 @@ LINKS = {"inprocess": "in process", "zenoh": "over zenoh"}
 
 
 def page(sheets: Sequence[Sheet], overrides: Sequence[str]) -> str:
-    """The page, in Markdown: a section a sheet, a row a way."""
+    """The page, in Markdown: a section per sheet, a row per way."""
     return render(
         "digests",
         differ=[own.name for own in sheets if len({row["digest"] for row in own.rows}) > 1],

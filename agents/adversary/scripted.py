@@ -14,7 +14,7 @@ T = TypeVar("T")
 
 
 class Triggered:
-    """Fires a scenario's exogenous action when one of its triggers applies, once a trial.
+    """Fires a scenario's exogenous action when one of its triggers applies, once per trial.
 
     Where the triggers draw a value, one of those that could be drawn is drawn first, and fires
     only if its own triggers apply: a draw may come to nothing, and is repeated at the next step

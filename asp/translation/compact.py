@@ -2,7 +2,7 @@
 
 The literal translation has a rule for every pair of values that exclude each other, and every pair
 of places that an action cannot lead between. Where a fluent is a function
-(`asp.language.functions`), one rule a value says the same. The program has the parts base, open,
+(`asp.language.functions`), one rule per value says the same. The program has the parts base, open,
 state(t) and step(t), and goes with the theory `incremental_fine_planning`; its answer sets, where a
 state is complete, are the translation's.
 """

@@ -1,4 +1,4 @@
-"""The translation of AL_d to answer set programs (D 2.2): one rule a law, in source order.
+"""The translation of AL_d to answer set programs (D 2.2): one rule per law, in source order.
 
 The program speaks of steps `0..n`: `holds(F,I)`, `-holds(F,I)`, `occurs(A,I)`, `impossible(A,I)`.
 What a robot sees, what actions show and cost, and the scenarios are no part of the transition

@@ -1,1 +1,1 @@
-"""The page of published and measured levels: a module a group of its sections."""
+"""The page of published and measured levels: a module per group of its sections."""

@@ -1,1 +1,1 @@
-"""The page of published and measured: a module a group of its sections."""
+"""The page of published and measured: a module per group of its sections."""

@@ -13,7 +13,7 @@ from testbed.world import StateError
 
 
 class ConfigError(ValueError):
-    """A wrong configuration: `lines` holds one line an error, each with its place."""
+    """A wrong configuration: `lines` holds one line per error, each with its place."""
 
     def __init__(self, lines: Sequence[str]) -> None:
         super().__init__("\n".join(lines))
