@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from typing import Literal as Choice
 from typing import Protocol
 
-from asp import Description
-from asp.language import Action, Fluent, Literal
+from asp.language import Action, Description, Fluent, Literal
 
 Sight = Choice["state", "robot_action"]
 """What a class of adversaries may declare to see, as its attribute `sees`."""

@@ -5,8 +5,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 
-from asp import Description
 from asp.language import (
+    Description,
     Literal,
     Signature,
     SourceError,
