@@ -39,7 +39,12 @@ class _Seal(msgspec.Struct):
 
     version: Count = 0
     crc32: str | None = None
-    trial: str = ""
+
+
+class _Named(msgspec.Struct):
+    """Of a record its id, whatever else is damaged."""
+
+    trial: str
 
 
 # Made here: msgspec reads what a type holds when it first needs it, and two threads that do so at
@@ -212,6 +217,6 @@ def settle(folder: Path) -> None:
 def _trial_of(line: bytes) -> str:
     """The id of the trial that a line, damaged or not, is the record of; empty where unknown."""
     try:
-        return _seal.decode(line).trial if line.endswith(b"\n") else ""
+        return msgspec.json.decode(line, type=_Named).trial if line.endswith(b"\n") else ""
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return ""

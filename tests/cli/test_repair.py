@@ -152,6 +152,17 @@ def test_what_is_damaged_of_a_retry_takes_no_place(
     assert not (folder / "retries.jsonl").exists()
 
 
+def test_a_retry_takes_the_place_of_a_record_with_a_damaged_version(
+    whole: Path, tmp_path: Path
+) -> None:
+    folder = Path(shutil.copytree(whole, tmp_path / "run"))
+    trials, before = folder / "trials.jsonl", (folder / "trials.jsonl").read_bytes()
+    (folder / "retries.jsonl").write_bytes(before.splitlines(keepends=True)[0])
+    trials.write_bytes(re.sub(rb'"version":\d+', b'"version":"?"', before, count=1))
+    assert _do("repair", folder).exit_code == 0
+    assert trials.read_bytes() == before
+
+
 def test_a_retry_whose_records_are_gone_is_repaired(whole: Path, tmp_path: Path) -> None:
     folder = Path(shutil.copytree(whole, tmp_path / "run"))
     (folder / "trials.jsonl").rename(folder / "retries.jsonl")
