@@ -9,9 +9,9 @@ from asp.language import load_description as load_description
 from asp.language import parse_description as parse_description
 
 if TYPE_CHECKING:
-    from asp.reasoning.domain import Domain as Domain
-    from asp.reasoning.domain import Step as Step
-    from asp.reasoning.domain import load as load
+    from asp.reasoning import Domain as Domain
+    from asp.reasoning import Step as Step
+    from asp.reasoning import load as load
 
 DISTRIBUTION = "intention-testbed"
 
@@ -19,7 +19,7 @@ DISTRIBUTION = "intention-testbed"
 def __getattr__(name: str) -> Any:
     """`Domain`, `Step` and `load`, looked up when they are asked for: they take long to import."""
     if name in ("Domain", "Step", "load"):
-        from asp.reasoning import domain  # noqa: PLC0415
+        from asp import reasoning  # noqa: PLC0415
 
-        return getattr(domain, name)
+        return getattr(reasoning, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

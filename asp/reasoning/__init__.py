@@ -1,5 +1,8 @@
 """Plans, explanations and inferences, from descriptions and histories."""
 
+from asp.reasoning.domain import Domain as Domain
+from asp.reasoning.domain import Step as Step
+from asp.reasoning.domain import load as load
 from asp.reasoning.knowledge import Goal as Goal
 from asp.reasoning.knowledge import Knowledge as Knowledge
 from asp.reasoning.knowledge import goal_facts as goal_facts

@@ -5,7 +5,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from asp.language import read_text
-from asp.reasoning.domain import Step
+from asp.reasoning import Step
 from testbed.config.composing import compose
 from testbed.config.models import Section
 from testbed.config.places import ConfigError, Places
