@@ -28,7 +28,11 @@ def command(
     import asp
 
     with input_errors():
-        plan = asp.load(source).plan(state, goal, limit)
+        try:
+            plan = asp.load(source).plan(state, goal, limit)
+        except asp.DomainError as error:
+            option = "--from" if error.key == ("state",) else "--goal"
+            raise asp.DomainError(error.message, option) from None
         for line in (f"no plan of at most {limit} actions",) if plan is None else plan:
             say(line)
     raise typer.Exit(FAILED if plan is None else DONE)

@@ -76,7 +76,9 @@ def test_no_plan_within_the_limit_is_an_exit_code() -> None:
     ("arguments", "named"),
     [
         (("cart.al", "--from", "at(lef)", "--goal", "lit"), "at(lef)"),
+        (("cart.al", "--from", "at(lef)", "--goal", "lit"), "--from: "),
         (("cart.al", "--from", "lit", "--goal", "at(left"), "at(left"),
+        (("cart.al", "--from", "lit", "--goal", "at(left"), "--goal: "),
         (("cart.al", "--from", "at(left), at(right)", "--goal", "lit"), "at(right)"),
         (("cart.al", "--from", "lit", "--goal", "lit, -lit"), "lit"),
         (("missing.al", "--from", "lit", "--goal", "lit"), "missing.al"),
