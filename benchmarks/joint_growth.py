@@ -12,7 +12,7 @@ from clingo import Symbol
 from matplotlib.figure import Figure
 
 from agents.intentional import joint, reasoners
-from agents.intentional.joint import JointReasoner, JointReferenceReasoner
+from agents.intentional.joint import JointReasoner, StagedJointReasoner
 from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
@@ -39,9 +39,9 @@ FIGURES = {
 
 Make = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[History]]
 SIDES: Mapping[str, tuple[str, Make]] = {
-    "letter": ("TI to the letter: one call", JointReferenceReasoner),
-    "ati_one_call": ("ATI, a call a phase", OneCallReasoner),
-    "ti": ("TI, fewest events found before", JointReasoner),
+    "ti": ("TI: one call", JointReasoner),
+    "ati_one_call": ("ATI, one call per phase", OneCallReasoner),
+    "staged": ("TI, staged", StagedJointReasoner),
     "ati": ("ATI, from scratch", ReferenceReasoner),
     "kept": ("ATI, multi-shot sessions", IncrementalReasoner),
 }

@@ -1,4 +1,4 @@
-"""ATI whose plan is found as TI to the letter finds it."""
+"""ATI whose plan is found as TI finds it."""
 
 from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
 from agents.shared import Intention

@@ -1,6 +1,7 @@
 """The original theory of intentions (TI): all explanations are considered while planning.
 
-`JointReferenceReasoner` is the theory to the letter, one program that is solved in one call.
+`JointReasoner` is the theory to the letter, one program that is solved in one call;
+`StagedJointReasoner` is held equal to it.
 """
 
 from dataclasses import replace
@@ -20,10 +21,41 @@ _ACTIVE = ("goes_on", "finishes", "stops")
 
 
 class JointReasoner(ReferenceReasoner):
-    """Reasons about one goal in one domain; every call solves its program from scratch.
+    """Finds explanation and intention together, in one program.
+
+    Nothing is known beforehand, neither how few events explain the history nor how long a shortest
+    plan is, and the horizon lets a plan be as long as the limit: for small domains only.
+    """
+
+    def diagnose(self, _history: History, adopted: Explanation, /) -> Diagnosis:
+        """What was held before: there is no phase of its own."""
+        return Diagnosis(adopted)
+
+    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
+        """The intention for which CR rules are used least. Raises InconsistentHistoryError."""
+        facts = [*self._facts(history), fact("explaining", history.step)]
+        texts = [*self._base, *map(theory, _UNDIVIDED)]
+        longest = max(self._plan_limit, history.longest)
+        constants = self._constants(history, history.step + 1 + longest, longest)
+        constants["plan_limit"] = self._plan_limit
+
+        def best(most: int) -> Intention | None:
+            control = ground(texts, {**constants, "max_unobserved": most}, facts)
+            model, proved = optimal_model(control)
+            if model is None:
+                return None
+            return replace(read_intention(model), under=diagnosis_of(model, proved))
+
+        limits = event_limits(self._base[0], facts, history.step, diagnosis.explanation.size)
+        return next(filter(None, map(best, limits)))
+
+
+class StagedJointReasoner(ReferenceReasoner):
+    """The same in two stages, so that larger programs are solved.
 
     Phase one finds how few events and exceptions explain the history, phase two the intention, in
-    one program with every explanation that takes no more of them.
+    one program with every explanation that takes no more of them; plans of one action are tried
+    before plans of two.
     """
 
     def diagnose(self, history: History, adopted: Explanation, /) -> Diagnosis:
@@ -64,43 +96,13 @@ class JointReasoner(ReferenceReasoner):
         return None
 
 
-class JointReferenceReasoner(ReferenceReasoner):
-    """Finds explanation and intention together; what `JointReasoner` is held equal to.
-
-    Nothing is known beforehand, neither how few events explain the history nor how long a shortest
-    plan is, and the horizon lets a plan be as long as the limit: for small domains only.
-    """
-
-    def diagnose(self, _history: History, adopted: Explanation, /) -> Diagnosis:
-        """What was held before: there is no phase of its own."""
-        return Diagnosis(adopted)
-
-    def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
-        """The intention for which CR rules are used least. Raises InconsistentHistoryError."""
-        facts = [*self._facts(history), fact("explaining", history.step)]
-        texts = [*self._base, *map(theory, _UNDIVIDED)]
-        longest = max(self._plan_limit, history.longest)
-        constants = self._constants(history, history.step + 1 + longest, longest)
-        constants["plan_limit"] = self._plan_limit
-
-        def best(most: int) -> Intention | None:
-            control = ground(texts, {**constants, "max_unobserved": most}, facts)
-            model, proved = optimal_model(control)
-            if model is None:
-                return None
-            return replace(read_intention(model), under=diagnosis_of(model, proved))
-
-        limits = event_limits(self._base[0], facts, history.step, diagnosis.explanation.size)
-        return next(filter(None, map(best, limits)))
-
-
 class Joint(IntentionalRobot):
-    """TI: all smallest explanations are considered while planning."""
+    """TI: explanation and intention are found together, in one program."""
 
     _make_reasoner = JointReasoner
 
 
-class JointReference(IntentionalRobot):
-    """TI to the letter, in one program."""
+class StagedJoint(IntentionalRobot):
+    """TI in two stages: all smallest explanations are considered while planning."""
 
-    _make_reasoner = JointReferenceReasoner
+    _make_reasoner = StagedJointReasoner

@@ -30,7 +30,7 @@ ROBOTS: Registry[RobotClass] = Registry(
         "intentional-nozoom": "agents.intentional.refined:WithoutZooming",
         "intentional-plain": "agents.intentional.controller:Reference",
         "intentional-joint": "agents.intentional.joint:Joint",
-        "intentional-joint-plain": "agents.intentional.joint:JointReference",
+        "intentional-joint-staged": "agents.intentional.joint:StagedJoint",
         "intentional-checking": "agents.intentional.checking:CheckingRobot",
         "traditional": "agents.traditional.robot:TraditionalRobot",
         "traditional-plain": "agents.traditional.robot:TraditionalReference",

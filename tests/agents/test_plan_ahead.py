@@ -28,7 +28,13 @@ sees
 scenarios
   quiet: nothing.
 """
-ROBOTS = ("intentional", "intentional-plain", "intentional-joint", "traditional")
+ROBOTS = (
+    "intentional",
+    "intentional-plain",
+    "intentional-joint",
+    "intentional-joint-staged",
+    "traditional",
+)
 
 
 def _played(path: Path, robot: str, script: str) -> list[Moment]:

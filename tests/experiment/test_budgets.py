@@ -57,9 +57,7 @@ shows
   hitch(T, B) shows tows(T, B).
   slip(T, B)  shows tows(T, B).
 """
-ALONE = [
-    name for name in ROBOTS.names() if name not in ("intentional-nozoom", "intentional-joint-plain")
-]
+ALONE = [name for name in ROBOTS.names() if name not in ("intentional-nozoom", "intentional-joint")]
 """Those that explain in a phase of its own, at the coarse resolution."""
 
 NO_CLOCK = {"decision_s": None, "steps": 40, "plan": 8}

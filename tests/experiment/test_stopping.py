@@ -52,7 +52,9 @@ def _spec(configure: Configure, robot: str) -> TrialSpec:
     return spec
 
 
-@pytest.mark.parametrize("kind", ["intentional", "intentional-plain", "intentional-joint"])
+@pytest.mark.parametrize(
+    "kind", ["intentional", "intentional-plain", "intentional-joint", "intentional-joint-staged"]
+)
 def test_an_inconsistent_history_ends_the_trial_and_not_the_process(
     configure: Configure, kind: str
 ) -> None:

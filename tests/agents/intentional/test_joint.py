@@ -1,11 +1,12 @@
 """TI: one program for diagnosis and planning, with every smallest explanation considered."""
 
+from itertools import product
 from pathlib import Path
 
 import pytest
 
 from agents.intentional import IntentionalRobot
-from agents.intentional.joint import JointReasoner, JointReferenceReasoner
+from agents.intentional.joint import JointReasoner, StagedJointReasoner
 from agents.intentional.reasoners import Activity, History, ReferenceReasoner
 from agents.shared import Intention
 from asp.language import Literal
@@ -40,10 +41,12 @@ def test_its_explanations_are_as_small_as_those_of_ati(wishes: dict[int, Wish]) 
 
 
 def test_it_achieves_the_six_published_scenarios(tmp_path: Path) -> None:
-    config = load_config("quickstart", ["link=inprocess", "robots=[intentional-joint]"])
-    play_missing(config, tmp_path, 1, lambda _: None)
-    outcomes = {record.scenario: record.outcome for record in read_records(tmp_path)}
-    assert outcomes == dict.fromkeys("123456", "achieved")
+    """To the letter and in two stages."""
+    robots = ("intentional-joint", "intentional-joint-staged")
+    given = ["link=inprocess", f"robots=[{','.join(robots)}]", "limits.plan=12"]
+    play_missing(load_config("quickstart", given), tmp_path, 1, lambda _: None)
+    outcomes = {(r.scenario, r.robot): r.outcome for r in read_records(tmp_path)}
+    assert outcomes == dict.fromkeys(product("123456", robots), "achieved")
 
 
 def test_of_all_explanations_the_one_with_the_shortest_plan_counts() -> None:
@@ -68,7 +71,7 @@ def test_of_all_explanations_the_one_with_the_shortest_plan_counts() -> None:
     for room in ("office1", "office2", "library"):
         event = Happening(1, Literal.parse(f"exo_move(book2,{room})"))
         first = Diagnosis(Explanation(unobserved=(event,)))
-        intention = JointReasoner(OFFICE, goal, 9).intend(history, first)
+        intention = StagedJointReasoner(OFFICE, goal, 9).intend(history, first)
         assert (intention.action, len(intention.plan)) == ("start(2)", 2)
         assert intention.under is not None
         assert intention.under.explanation.size == 1
@@ -95,7 +98,7 @@ def test_an_explanation_that_news_makes_needless_is_not_kept() -> None:
     """Neither by ATI, which keeps an explanation while none is smaller, nor by TI."""
     goal = parsed(["-here(rob)"])
     sizes = dict[type[ReferenceReasoner], list[int]]()
-    for make in (ReferenceReasoner, JointReasoner):
+    for make in (ReferenceReasoner, StagedJointReasoner):
         reasoner = make(knowledge("lamp", LAMP), goal, 3)
         history = History(step=3)
         history.observe(parsed(["-lit", "here(rob)"]), 0)
@@ -105,7 +108,7 @@ def test_an_explanation_that_news_makes_needless_is_not_kept() -> None:
         history.happened(Literal.parse("strike"), True, 1)
         second = reasoner.diagnose(history, first).explanation
         sizes[make] = [first.size, second.size]
-    assert sizes == {ReferenceReasoner: [1, 0], JointReasoner: [1, 0]}
+    assert sizes == {ReferenceReasoner: [1, 0], StagedJointReasoner: [1, 0]}
 
 
 NOISE = """
@@ -126,7 +129,7 @@ laws
 """
 
 
-@pytest.mark.parametrize("make", [JointReasoner, JointReferenceReasoner])
+@pytest.mark.parametrize("make", [StagedJointReasoner, JointReasoner])
 def test_it_goes_on_where_some_smallest_explanation_lets_it(make: type[ReferenceReasoner]) -> None:
     """There was a noise: with or without light, which is the goal."""
     reasoner = make(knowledge("noise", NOISE), parsed(["lit"]), 3)

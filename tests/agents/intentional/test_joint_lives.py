@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional import IntentionalRobot
-from agents.intentional.joint import JointReasoner, JointReferenceReasoner
+from agents.intentional.joint import JointReasoner, StagedJointReasoner
 from agents.intentional.reasoners import History, ReferenceReasoner
 from agents.shared import Intention
 from asp.language import parse_description
@@ -45,7 +45,7 @@ def _kind(intention: Intention) -> str:
     return intention.action.partition("(")[0]
 
 
-class BesideAti(JointReasoner):
+class BesideAti(StagedJointReasoner):
     """TI that insists, at each decision, on what it has in common with ATI."""
 
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
@@ -79,7 +79,7 @@ class BesideTheLetter(BesideAti):
 
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
         super().__init__(knowledge, goal, plan_limit)
-        self._letter = JointReferenceReasoner(knowledge, goal, min(plan_limit, MOST_ACTIONS))
+        self._letter = JointReasoner(knowledge, goal, min(plan_limit, MOST_ACTIONS))
 
     def intend(self, history: History, explained: Diagnosis) -> Intention:
         intention = super().intend(history, explained)
