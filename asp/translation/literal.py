@@ -73,9 +73,9 @@ def _rules(statement: syntax.Statement, signature: Signature) -> list[str]:
             term, _, sorts = schema(statement)
             return [rule(f"{kind}{'_action' if kind in roles.ACTIONS else ''}({term})", sorts)]
         case syntax.Fact(literal=literal):
-            return [f"{literal.atom}."]
+            return [rule(literal.atom, _narrowest_sorts(statement, signature))]
         case syntax.CausalLaw() | syntax.StateConstraint() | syntax.ExecutabilityCondition():
-            return [_law(statement, signature)]
+            return _law(statement, signature)
         case syntax.DefaultStatement() | syntax.ExceptionStatement():
             return [_default(statement, signature)]
     return []
@@ -90,7 +90,7 @@ def _sort_rule(name: str, part: syntax.Term | tuple[syntax.Term, ...]) -> str:
 def _law(
     law: syntax.CausalLaw | syntax.StateConstraint | syntax.ExecutabilityCondition,
     signature: Signature,
-) -> str:
+) -> list[str]:
     taken = variable_domains(law, signature)
     i = next(name for name in chain(["I"], map("I{}".format, count(1))) if name not in taken)
     body = [condition(part, signature, i) for part in law.body]
@@ -98,14 +98,17 @@ def _law(
     match law:
         case syntax.CausalLaw(action=action, head=head):
             effect = condition(head, signature, f"{i}+1")
-            return rule(effect, [f"occurs({action},{i})", *body, f"step({i})", f"{i} < n"])
+            return [rule(effect, [f"occurs({action},{i})", *body, f"step({i})", f"{i} < n"])]
         case syntax.StateConstraint(head=head):
             static = signature.symbols[head.atom.name].kind == "static"
-            return rule(condition(head, signature, i), body if static else [*body, f"step({i})"])
-        case syntax.ExecutabilityCondition(actions=(action,)):
-            return rule(f"impossible({action},{i})", [*body, f"step({i})"])
+            return [rule(condition(head, signature, i), body if static else [*body, f"step({i})"])]
+    first, *others = law.actions
     together = [f"occurs({action},{i})" for action in law.actions]
-    return rule("", [*together, *body, f"step({i})"])
+    rules = [rule("", [*together, *body, f"step({i})"])] if others else []
+    if all(other.name == first.name for other in others):  # a compound action is a set
+        same = [f"{first} = {other}" for other in others]
+        rules.append(rule(f"impossible({first},{i})", [*same, *body, f"step({i})"]))
+    return rules
 
 
 def _default(

@@ -43,6 +43,17 @@ laws
 """
 
 
+def shown(program: str) -> set[str]:
+    """The atoms at step 0 that the only answer set of the program shows."""
+    control = clingo.Control(["--warn=none", "0", "-c", "n=0"])
+    control.add("base", [], program)
+    control.ground()
+    answers: list[set[str]] = []
+    control.solve(on_model=lambda model: answers.append({*map(str, model.symbols(shown=True))}))
+    (answer,) = answers
+    return answer
+
+
 def laws_of(program: str) -> list[str]:
     """The lines of the program from the first law's comment to the last law."""
     lines = program.splitlines()
@@ -196,6 +207,20 @@ class TestMeaning:
         assert after(program, ["bell"], ["ring"]) == {frozenset({"bell"})}
         assert after(program, ["bell"], ["push(front)", "ring"]) == frozenset()
         assert after(program, [], ["push(front)", "ring"]) == {frozenset({"open(front)", "bell"})}
+
+    def test_an_action_that_is_impossible_beside_itself_is_impossible(self) -> None:
+        """A compound action is a set: `push(back), push(back)` is `push(back)`."""
+        text = SMALL + "laws\n  impossible push(D), push(back) if bell.\n"
+        asked = "#show impossible/2. :- not holds(bell,0). :- not -holds(open(D),0), door(D)."
+        assert shown(f"{translate(text)} {asked}") == {"impossible(push(back),0)"}
+        assert after(translate(text), ["bell"], ["push(front)"])
+
+    def test_a_fact_with_variables_is_true_of_all_that_they_range_over(self) -> None:
+        beside = "statics\n  beside(door, door).\nfacts\n  beside(D, D).\n"
+        text = f"{SMALL}{beside}laws\n  impossible push(D) if -beside(front, D).\n"
+        assert warnings_of(translate(text)) == []
+        assert after(translate(text), [], ["push(front)"])
+        assert not after(translate(text), [], ["push(back)"])
 
     def test_effects_that_contradict_each_other_have_no_successor(self) -> None:
         assert after(translate(SMALL), [], ["push(front)", "push(back)"]) == frozenset()
