@@ -6,9 +6,19 @@ EPILOG = examples("testbed check quickstart scenarios=[5] limits.steps=40")
 
 
 def command(config: Config, overrides: Overrides = None) -> None:
-    """Validate a configuration and print it as resolved."""
+    """Validate a configuration and print it as resolved.
+
+    A warning says where an action of its domain has several outcomes.
+    """
+    from asp.language import parse_description, read_domain
+    from asp.translation import translate
+    from testbed.cli.branching import warn_of_branching
     from testbed.cli.loading import load
     from testbed.experiment.run_folder import config_text
 
     with input_errors():
-        emit(config_text(load(config, overrides or [])))
+        resolved = load(config, overrides or [])
+        emit(config_text(resolved))
+        if not resolved.levels:  # each level's domain is made of rooms and cells, and branches not
+            file, text = read_domain(resolved.domain)
+            warn_of_branching(parse_description(text, file), translate(text, file), file)
