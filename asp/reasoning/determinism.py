@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from clingo import Symbol
+from clingo.ast import AST, ASTType, Transformer, parse_string
 
 from asp.language import Action, Description, Literal, reachable
 from asp.solving import Limits, State, deciding, fact, first_model, ground, literal_of, select
@@ -18,21 +18,20 @@ LIMITS = Limits(conflicts=200_000, ground_rules=2_000_000)
 _Node = tuple[Literal, bool]
 """A literal of the next state, and whether it is new: it was false before."""
 
-_PREDICATE = re.compile(r"(?<![\w(,])holds\(")
-_OTHER = "other_holds("
-# Two copies of the program agree on the first state and on the action, if any.
+# Two copies of the program agree on the first state and on the action, if any. No name of a
+# description has an apostrophe.
 _TWICE = """
 { occurs(A,0) : action(A) } 1.
-:- holds(F,0), not other_holds(F,0).
-:- other_holds(F,0), not holds(F,0).
-acts :- occurs(A,0).
-branches :- acts, holds(F,1), not other_holds(F,1).
-changes  :- not acts, holds(F,1), not holds(F,0).
-changes  :- not acts, holds(F,0), not holds(F,1).
+:- holds(F,0), not holds'(F,0).
+:- holds'(F,0), not holds(F,0).
+acts' :- occurs(A,0).
+branches' :- acts', holds(F,1), not holds'(F,1).
+changes'  :- not acts', holds(F,1), not holds(F,0).
+changes'  :- not acts', holds(F,0), not holds(F,1).
 #show occurs(A) : occurs(A,0).
 #show before(F) : holds(F,0).
 #show after(F) : holds(F,1).
-#show other(F) : other_holds(F,1).
+#show other(F) : holds'(F,1).
 """
 
 
@@ -57,8 +56,8 @@ def branchings(description: Description, program: str) -> list[Branching]:
     if deterministic_by_form(description):
         return []
     with deciding(LIMITS):
-        control = ground([program, _PREDICATE.sub(_OTHER, program), _TWICE], {"n": 1}, ())
-        kinds = ((fact(kind), True) for kind in ("branches", "changes"))
+        control = ground([program, _other_copy(program), _TWICE], {"n": 1}, ())
+        kinds = ((fact(kind), True) for kind in ("branches'", "changes'"))
         models = (first_model(control, [kind]) for kind in kinds)
         return [_witness(model) for model in models if model is not None]
 
@@ -110,6 +109,26 @@ def _new(description: Description, defined: frozenset[Literal]) -> set[Literal]:
         new.update(heads)
         waiting += heads
     return new
+
+
+class _OtherCopy(Transformer):
+    """Renames the predicate `holds`, and no term that is called so."""
+
+    def visit_SymbolicAtom(self, atom: AST) -> AST:  # noqa: N802 (clingo's name)
+        if atom.symbol.ast_type == ASTType.UnaryOperation:
+            return atom.update(symbol=atom.symbol.update(argument=_other(atom.symbol.argument)))
+        return atom.update(symbol=_other(atom.symbol))
+
+
+def _other(function: AST) -> AST:
+    return function.update(name="holds'") if function.name == "holds" else function
+
+
+def _other_copy(program: str) -> str:
+    """The program about other states, with the same actions."""
+    statements: list[AST] = []
+    parse_string(program, statements.append)
+    return "\n".join(str(_OtherCopy().visit(statement)) for statement in statements)
 
 
 def _witness(model: Iterable[Symbol]) -> Branching:
