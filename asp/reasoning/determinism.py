@@ -120,8 +120,9 @@ class _OtherCopy(Transformer):
         return atom.update(symbol=_other(atom.symbol))
 
 
-def _other(function: AST) -> AST:
-    return function.update(name="holds'") if function.name == "holds" else function
+def _other(atom: AST) -> AST:
+    is_holds = atom.ast_type == ASTType.Function and atom.name == "holds"
+    return atom.update(name="holds'") if is_holds else atom
 
 
 def _other_copy(program: str) -> str:
