@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from msgspec import structs
 
+from agents.intentional.programs import Decided, Watcher
 from agents.intentional.reasoners import (
     Activity,
     History,
@@ -27,6 +28,8 @@ class IntentionalRobot(ReasoningRobot[History]):
     _reasons_type = IntentionalReasons
     _reasons: IntentionalReasons
     _make_reasoner: MakeReasoner[History] = IncrementalReasoner
+    watcher: Watcher | None = None
+    """Is told each decision before it is attempted."""
 
     def _begin(self, task: Task) -> None:
         """Selects the task's goal at step 0."""
@@ -39,6 +42,10 @@ class IntentionalRobot(ReasoningRobot[History]):
         intention = super()._intend(reasoner, thought)
         if intention.under is not None:
             thought.diagnosis, self._explanation = intention.under, intention.under.explanation
+        if self.watcher is not None and thought.diagnosis is not None:
+            self.watcher(
+                Decided(self._domain, self._goal, self._history, thought.diagnosis, intention)
+            )
         return intention
 
     def _hear(self, percept: Percept) -> None:

@@ -4,8 +4,9 @@ The `ReferenceReasoner` solves the theory of intentions, the `IncrementalReasone
 answers on multi-shot sessions.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 from clingo import Symbol
 
@@ -21,6 +22,9 @@ from asp.reasoning.diagnosis import (
 )
 from asp.solving import fact, first_model, ground, literal_of, select, theory
 from testbed.protocol import FINISH
+
+BEYOND_LIMIT = (fact("beyond_limit"),)
+"""What is given where no plan within the limit exists (53)."""
 
 
 @dataclass(frozen=True)
@@ -66,6 +70,14 @@ class History(diagnosis.History):
         return max((len(activity.plan) for activity in self.activities), default=0)
 
 
+class Program(NamedTuple):
+    """The parts of a program: the description and theories by name, constants, facts."""
+
+    texts: Mapping[str, str]
+    constants: Mapping[str, int]
+    facts: Sequence[Symbol]
+
+
 class ReferenceReasoner(ReferenceDiagnoser[History]):
     """Reasons about one goal in one domain; every call solves its program from scratch."""
 
@@ -86,9 +98,28 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
             intention = self._intention(history, diagnosis, length, ())
             if intention is not None:
                 return intention
-        intention = self._intention(history, diagnosis, 1, (fact("beyond_limit"),))
+        intention = self._intention(history, diagnosis, 1, BEYOND_LIMIT)
         assert intention is not None, "(53): an agent always has an intention"
         return intention
+
+    def phase_two(
+        self, history: History, diagnosis: Diagnosis, length: int, more: Sequence[Symbol] = ()
+    ) -> Program:
+        """The theory of planning where `length` more physical actions are considered.
+
+        `more` is `beyond_limit` where no plan within the limit exists.
+        """
+        explanation = diagnosis.explanation
+        facts = (
+            *self._facts(history),
+            fact("explanation", len(explanation.unobserved), history.step),
+            *explanation.facts("explained"),
+            *more,
+        )
+        names = ("description", *self.theories, "planning")
+        texts = dict(zip(names, (*self._base, theory("planning")), strict=True))
+        constants = self._constants(history, history.step + 1 + length, length)
+        return Program(texts, constants, facts)
 
     def _lengths(self, history: History, diagnosis: Diagnosis) -> range:
         """How many more physical actions to consider, one number after the other."""
@@ -100,15 +131,8 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
         self, history: History, diagnosis: Diagnosis, length: int, more: tuple[Symbol, ...]
     ) -> Intention | None:
         """The intention where `length` more physical actions are considered, if there is one."""
-        explanation = diagnosis.explanation
-        constants = self._constants(history, history.step + 1 + length, length)
-        facts = [
-            *self._facts(history),
-            fact("explanation", len(explanation.unobserved), history.step),
-            *explanation.facts("explained"),
-            *more,
-        ]
-        model = first_model(ground([*self._base, theory("planning")], constants, facts))
+        program = self.phase_two(history, diagnosis, length, more)
+        model = first_model(ground(program.texts.values(), program.constants, program.facts))
         return None if model is None else read_intention(model)
 
     def _facts(self, history: History) -> Iterator[Symbol]:

@@ -11,6 +11,7 @@ from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.coarse import Reporter
 from agents.intentional.executor.execution import Execution
 from agents.intentional.executor.sensing import Asking
+from agents.intentional.programs import Watcher
 from agents.shared import retold
 from asp.refinement import load
 from asp.solving import State, deciding, preparation, reasoning_clock
@@ -138,13 +139,15 @@ class EitherRobot:
     capabilities: ClassVar = Capabilities(
         resolutions=("coarse", "fine"), knowledge=("complete", "seen"), first_action_step=2
     )
+    watcher: Watcher | None = None
+    """As of `IntentionalRobot`; at the fine resolution it is told coarse decisions."""
     _zooms: ClassVar = True
 
     def begin(self, task: Task) -> None:
         """Takes the task on. Raises SourceError for its texts."""
-        self._robot: Robot = IntentionalRobot()
-        if task.refinement:
-            self._robot = RefinedRobot(self._robot, self._zooms)
+        coarse = IntentionalRobot()
+        coarse.watcher = self.watcher
+        self._robot: Robot = RefinedRobot(coarse, self._zooms) if task.refinement else coarse
         self._robot.begin(task)
 
     def act(self, percept: Percept) -> Decision:

@@ -27,6 +27,25 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
 
     True also where there is no record of it yet.
 
+    Raises as `stored_trial` does.
+    """
+    spec, recorded = stored_trial(folder, trial)
+    where = of_place(spec.scenario, spec.level)
+    say(f"trial {spec.trial}: {where}, {spec.robot}, seed {spec.seed}")
+    say(f"goal: {' '.join(spec.setting.goal)}")
+    narrator = narrator_of(spec.setting, say)
+    now = play_trial(spec, InProcessRobot(make_robot), narrator.tell).record
+    reason = f": {now.reason}" if now.reason else ""
+    steps, actions = counted(now.steps, "step"), counted(now.action_count, "action")
+    units = counted(now.execution_units, "execution unit")
+    say("")
+    say(f"outcome {now.outcome}{reason} after {steps}, {actions}, {units}")
+    return _compare(recorded, now, say)
+
+
+def stored_trial(folder: Path, trial: str) -> tuple[TrialSpec, TrialRecord | None]:
+    """The trial of a run whose id begins with `trial`, and its record if there is one yet.
+
     Raises:
         StoreError: for a folder without a run, or an id that is not one of its trials.
         ConfigError: where the stored configuration is not valid any more.
@@ -39,21 +58,11 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
     if levels and trial:
         config = config.model_copy(update={"levels": levels})
     spec = find_trial(plan_trials(config), trial)
-    where = of_place(spec.scenario, spec.level)
-    say(f"trial {spec.trial}: {where}, {spec.robot}, seed {spec.seed}")
-    say(f"goal: {' '.join(spec.setting.goal)}")
-    narrator = narrator_of(spec.setting, say)
-    now = play_trial(spec, InProcessRobot(make_robot), narrator.tell).record
-    reason = f": {now.reason}" if now.reason else ""
-    steps, actions = counted(now.steps, "step"), counted(now.action_count, "action")
-    units = counted(now.execution_units, "execution unit")
-    say("")
-    say(f"outcome {now.outcome}{reason} after {steps}, {actions}, {units}")
-    return _compare(next((own for own in played if own.trial == spec.trial), None), now, say)
+    return spec, next((own for own in played if own.trial == spec.trial), None)
 
 
 def list_trials(folder: Path, say: Say) -> None:
-    """Say which trials a run has, with their outcomes so far. Raises as `replay`."""
+    """Say which trials a run has, with their outcomes so far. Raises as `stored_trial`."""
     specs = plan_trials(read_config(folder))
     outcomes = {record.trial: record.outcome for record in read_records(folder)}
     fine = any(spec.setting.fine is not None for spec in specs)
