@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from msgspec import structs
 
+from agents.intentional.heeding import HEEDING, Scene
 from agents.intentional.programs import Decided, Watcher
 from agents.intentional.reasoners import (
     Activity,
@@ -15,7 +16,7 @@ from agents.intentional.reasoners import (
 )
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared import Intention, MakeReasoner, Reasoner, ReasoningRobot, Thought
-from asp.language import Description, Fluent, Literal
+from asp.language import Action, Literal
 from asp.reasoning.diagnosis import GOAL, SELECT, Diagnosis
 from testbed.protocol import FINISH, Capabilities, Percept, Task, Trace, is_mental
 
@@ -33,7 +34,9 @@ class IntentionalRobot(ReasoningRobot[History]):
 
     def _begin(self, task: Task) -> None:
         """Selects the task's goal at step 0."""
-        self._goal_fluents = _bearing_on(task.goal, self._domain.description)
+        self._heeding = HEEDING[task.relevance](task)
+        self._unheeded: list[Literal] = []
+        self._ahead: tuple[Action, ...] = ()
         self._history = History()
         self._history.observe(task.initial, 0)
         self._history.happened(SELECT, True, 0)
@@ -42,15 +45,19 @@ class IntentionalRobot(ReasoningRobot[History]):
         intention = super()._intend(reasoner, thought)
         if intention.under is not None:
             thought.diagnosis, self._explanation = intention.under, intention.under.explanation
-        if self.watcher is not None and thought.diagnosis is not None:
-            self.watcher(
-                Decided(self._domain, self._goal, self._history, thought.diagnosis, intention)
-            )
+        diagnosis = thought.diagnosis
+        assert diagnosis is not None
+        if self.watcher is not None:
+            self.watcher(Decided(self._domain, self._goal, self._history, diagnosis, intention))
+        is_over = is_mental(intention.action) or intention.action == FINISH
+        self._ahead = intention.plan if is_over else self._history.left(diagnosis)
         return intention
 
     def _hear(self, percept: Percept) -> None:
         """Step 4 of the loop: the result of the last attempt, and of having finished."""
         history = self._history
+        if percept.happened:
+            self._ahead = self._ahead[1:]
         for attempted in history.at(history.step).attempted:
             # A mental action and finishing cannot fail; the world only answers physical ones.
             has_failed = attempted == percept.attempted and percept.happened is False
@@ -61,9 +68,12 @@ class IntentionalRobot(ReasoningRobot[History]):
             history.observe([GOAL if percept.goal_holds else GOAL.complement], history.step)
 
     def _relevant(self, percept: Percept) -> Iterable[Literal]:
-        """Step 1 of the loop: what bears on the goal, or on the last attempt (P 3.2)."""
-        wanted = self._goal_fluents.union(each.atom for each in super()._relevant(percept))
-        return [literal for literal in percept.visible if literal.atom in wanted]
+        """Step 1 of the loop: what is relevant to the goal, or to the action at hand (P 3.2)."""
+        at_hand = percept.attempted or next(iter(self._ahead), None)
+        scene = Scene(percept.visible, self._believed[1], at_hand, self._ahead)
+        heeded = frozenset([*super()._relevant(percept), *self._heeding.heeded(scene)])
+        self._unheeded = [literal for literal in percept.visible if literal not in heeded]
+        return [literal for literal in percept.visible if literal in heeded]
 
     def _attempt(self, intention: Intention) -> None:
         """Step 3 of the loop: the attempt is recorded, and a new activity with it."""
@@ -86,15 +96,17 @@ class IntentionalRobot(ReasoningRobot[History]):
             trace = self._with_alternatives(self._with_explanation(trace), diagnosis)
         if diagnosis is None or intention is None:
             return trace
-        changes_activity = is_mental(intention.action)
-        is_over = changes_activity or intention.action == FINISH
-        ahead = intention.plan if is_over else self._history.left(diagnosis)
         trace = structs.replace(
             trace,
-            mental=intention.action if changes_activity else None,
+            mental=intention.action if is_mental(intention.action) else None,
             intention=intention.action,
-            plan=list(ahead),
+            plan=list(self._ahead),
             belief=sorted(intention.believed - {GOAL}),
+            unheeded=[
+                seen
+                for seen in self._unheeded
+                if (seen.atom in intention.believed) != seen.is_positive
+            ],
             plans=trace.plans + (intention.action == start_activity(trace.plans + 1)),
         )
         return self._reasons.explained(trace, self._history, intention, diagnosis)
@@ -111,14 +123,3 @@ class Reference(IntentionalRobot):
     """ATI, each program solved from scratch."""
 
     _make_reasoner = ReferenceReasoner
-
-
-def _bearing_on(goal: Iterable[Literal], description: Description) -> frozenset[Fluent]:
-    """The fluents that bear on the goal.
-
-    These are the fluents of the goal's literals, and those that decide one of them through a
-    state constraint: where a book is seen decides that it is nowhere else.
-    """
-    own = {literal.atom for literal in goal}
-    laws = (law for law in description.constraints if law.head.atom in own)
-    return frozenset(own.union(condition.atom for law in laws for condition in law.body))

@@ -1,6 +1,7 @@
 """Refinement: from a coarse description to a fine one that is tightly coupled to it (P 3.3)."""
 
 from asp.refinement.language import parse_fine as parse_fine
+from asp.refinement.refinement import CoarseDomain as CoarseDomain
 from asp.refinement.refinement import Refinement as Refinement
 from asp.refinement.refinement import load as load
 from asp.refinement.refinement import load_refinement as load_refinement

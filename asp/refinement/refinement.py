@@ -33,7 +33,15 @@ from asp.refinement.refining import weak_text
 
 
 @dataclass(frozen=True, eq=False)
-class Refinement:
+class CoarseDomain:
+    """D_c: a coarse description by itself, as its laws and its signature."""
+
+    coarse: syntax.Source
+    coarse_signature: Signature
+
+
+@dataclass(frozen=True, eq=False)
+class Refinement(CoarseDomain):
     """D_c and D_f: `weak` is the physics of D_f, `strong` has the theory of observation, too.
 
     `statics` are those that are true, the same in both. `text` is what refines D_c, as it was read.
@@ -42,8 +50,6 @@ class Refinement:
     program needs, so that nothing here makes them.
     """
 
-    coarse: syntax.Source
-    coarse_signature: Signature
     vocabulary: Vocabulary
     weak: syntax.Source
     weak_signature: Signature

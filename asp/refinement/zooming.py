@@ -23,9 +23,9 @@ from asp.language import (
     variable_domains,
 )
 from asp.language import variable_sorts as roles
-from asp.refinement.refinement import Refinement
+from asp.refinement.refinement import CoarseDomain, Refinement
 
-_REFINEMENTS = 16
+_DOMAINS = 16
 
 
 @dataclass(frozen=True)
@@ -38,33 +38,39 @@ class Transition:
 
 
 def relevant(
-    refinement: Refinement, transition: Transition, goal: Iterable[Literal]
+    domain: CoarseDomain, transition: Transition | None, goal: Iterable[Literal]
 ) -> frozenset[str]:
     """relCon(T, G): the constants relevant to a transition or a goal (coarse literals).
 
+    Without a transition these are the constants of the goal.
     By rule 4 these are, too, those of what is so before the action and stands in a condition on
     it. Whether the rest of the condition holds does not matter, so that `next_to` and `!=` in it
     are not looked at.
     """
+    if transition is None:
+        return _constants(map(Literal.parse, goal))
     action = Literal.parse(transition.action)
     before = frozenset(map(Literal.parse, transition.before))
     changed = before ^ frozenset(map(Literal.parse, transition.after))
     facts = Facts(before)
     in_conditions = (
         met
-        for condition in _conditions(refinement).get(action.name, ())
+        for condition in _conditions(domain).get(action.name, ())
         for met in condition.heads(action.arguments, facts)
     )
-    literals = [action, *map(Literal.parse, goal), *changed, *in_conditions]
+    return _constants([action, *map(Literal.parse, goal), *changed, *in_conditions])
+
+
+def _constants(literals: Iterable[Literal]) -> frozenset[str]:
     return frozenset(constant for literal in literals for constant in literal.arguments)
 
 
-@lru_cache(_REFINEMENTS)
-def _conditions(refinement: Refinement) -> Mapping[str, Sequence[Pattern]]:
+@lru_cache(_DOMAINS)
+def _conditions(domain: CoarseDomain) -> Mapping[str, Sequence[Pattern]]:
     """The fluent literals in conditions on coarse actions, by the action's name; it is given."""
     found: dict[str, list[Pattern]] = defaultdict(list)
-    signature = refinement.coarse_signature
-    for law in refinement.coarse.each(syntax.ExecutabilityCondition):
+    signature = domain.coarse_signature
+    for law in domain.coarse.each(syntax.ExecutabilityCondition):
         domains = variable_domains(law, signature)
         for literal in roles.literals(law.body):
             declared = signature.symbols.get(literal.atom.name)

@@ -24,7 +24,7 @@ from testbed.config.values import (
     Scenarios,
     Seconds,
 )
-from testbed.protocol import Knowledge
+from testbed.protocol import Knowledge, Relevance
 
 LinkKind = Literal["zenoh", "inprocess"]
 ScriptPolicy = Literal["error", "skip"]
@@ -146,7 +146,8 @@ class ExperimentConfig(Section):
     the scenario's triggers; an empty one means that nothing exogenous happens. `script_policy` says
     what becomes of an entry that is not possible when it is due: it ends the trial with an error,
     or is skipped. `knowledge` is what
-    robots know of the initial state: all of it, or only what they see. `repeats`: so many pairs of
+    robots know of the initial state: all of it, or only what they see; `relevance` is which of the
+    literals that they see intentional robots heed. `repeats`: so many pairs of
     trials from each initial state, in scenarios in which something is drawn. `protocol` is the
     study that the trials are for: a name, or `module:OBJECT`.
 
@@ -173,6 +174,7 @@ class ExperimentConfig(Section):
     limit: Count | None = None
     link: LinkKind = "zenoh"
     knowledge: Knowledge = "complete"
+    relevance: Relevance = "definition"
     observability: dict[str, Observability] = Field(default_factory=dict)
     goal_feedback: Flag = True
     exogenous_while_thinking: Flag = False

@@ -14,7 +14,7 @@ from asp.language import Action, Literal
 from testbed.config import TRIGGERS, ExperimentConfig, Limits, ScriptEntry
 from testbed.environment import Observability, Pace
 from testbed.experiment.seeds import playing_order, short_hash, trial_seed
-from testbed.protocol import Knowledge
+from testbed.protocol import Knowledge, Relevance
 
 BUDGETS = ("decision_s", "conflicts", "ground_rules", "expansions")
 """Limits of a decision, which the robot is told of by the same names."""
@@ -62,6 +62,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     judge_states: int = Limits().judge_states
     script_at_actions: tuple[tuple[int, Action], ...] = ()
     script_skips: bool = False
+    relevance: Relevance = "published"  # as long as there was no other, so that ids stay
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -101,6 +102,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         judge_states=config.limits.judge_states,
         script_at_actions=_numbered(own.script or (), "at_action"),
         script_skips=config.script_policy == "skip",
+        relevance=config.relevance,
     )
 
 

@@ -187,6 +187,7 @@ class TrialSetup:
             goal=[*map(Literal.parse, setting.goal)],
             initial=list(world.literals(state) if complete else world.visible(state, robot)),
             plan_limit=setting.plan_limit,
+            relevance=setting.relevance,
             seed=seed,
             **{name: getattr(setting, name) for name in BUDGETS},
         )

@@ -35,6 +35,13 @@ NoPlan: TypeAlias = Choice["out of reach", "beyond the limit", "not known"]
 
 It is from what the robot believes, which need not be so.
 """
+Relevance: TypeAlias = Choice["published", "definition", "plan", "all"]
+"""Which visible literals a robot heeds.
+
+`published`: those of the released controller; `definition`: what is relevant to the action at hand
+or to the goal by Definition 1 (P 3.3); `plan`: the conditions of the rest of its plan, too; `all`:
+all that it sees.
+"""
 Minimality: TypeAlias = Choice["proved", "unproved"]
 """Whether it is proved that no explanation is smaller than an adopted one."""
 
@@ -54,11 +61,11 @@ class Task(Part, frozen=True, kw_only=True):
 
     ``domain`` and ``source`` are the name and the AL_d text of the domain, ``goal`` a list of
     literals, ``initial`` what the robot knows to hold at step 0, perhaps not everything,
-    ``plan_limit`` the greatest number of actions in a plan. A decision may take ``decision_s``
+    ``plan_limit`` the greatest number of actions in a plan, ``relevance`` which of the literals
+    that it sees a robot heeds, if it chooses among them. A decision may take ``decision_s``
     seconds, so many ``conflicts`` of the solver, ground programs of so many ``ground_rules`` and so
     many ``expansions`` of sets of states; None: any number. Where the robot acts at the fine
-    resolution,
-    ``refinement`` is the text that refines ``source``, and ``initial_fine`` what it knows there at
+    resolution, ``refinement`` is the text that refines ``source``, and ``initial_fine`` what it knows there at
     step 0; ``goal`` and ``initial`` are coarse all the same.
     """
 
@@ -74,6 +81,7 @@ class Task(Part, frozen=True, kw_only=True):
     conflicts: int | None = None
     ground_rules: int | None = None
     expansions: int | None = None
+    relevance: Relevance = "definition"
     refinement: str = ""
     initial_fine: list[Literal] = []
 
@@ -195,7 +203,8 @@ class Trace(Part, frozen=True, kw_only=True):
     process time spent on what other decisions and trials can reuse: encoding, grounding, sets
     of states. At the first step that of beginning the trial is with it. ``no_plan`` is given by
     a robot that gives up. ``deadline`` says that the decision was cut off by the clock, so that
-    it need not be the same on another machine.
+    it need not be the same on another machine. ``unheeded`` are the literals that the robot sees,
+    does not heed, and believes to be false.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
     one, empty in the steps between the first and the last of an abstract action.
     """
@@ -211,6 +220,7 @@ class Trace(Part, frozen=True, kw_only=True):
     more_alternatives: bool = False
     futile_at: Count | None = None
     no_plan: NoPlan | None = None
+    unheeded: Items[Literal] = []
     reason: Text = ""
     plans: Count = 0
     planning_time_s: Seconds = 0.0
