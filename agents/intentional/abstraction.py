@@ -141,8 +141,11 @@ class _Domain:
         )
 
     def needed(self, task: Task) -> frozenset[str]:
-        """The members of classes that a task needs, and one of each class at least."""
-        if self._whole:
+        """The members of classes that a task needs, and one of each class at least.
+
+        A robot that heeds everything needs them all.
+        """
+        if self._whole or task.relevance == "all":
             return self._members
         known = frozenset(each.atom for each in task.initial)
         possible = {literal for literal in task.initial if literal.is_positive}

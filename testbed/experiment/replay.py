@@ -146,6 +146,8 @@ class Narrator:
         yield f"  belief       {self._belief(trace)}"
         if trace.belief and sorted(trace.belief) != sorted(true):
             yield f"               in truth {_difference(trace.belief, true)}"
+        if trace.unheeded:
+            yield f"  unheeded     {' '.join(trace.unheeded)}"
         for contrary in trace.contradictions:
             against = f"{contrary.observed} at step {contrary.step} against {contrary.believed}"
             yield f"  unexpected   {against}"

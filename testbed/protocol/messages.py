@@ -65,8 +65,8 @@ class Task(Part, frozen=True, kw_only=True):
     that it sees a robot heeds, if it chooses among them. A decision may take ``decision_s``
     seconds, so many ``conflicts`` of the solver, ground programs of so many ``ground_rules`` and so
     many ``expansions`` of sets of states; None: any number. Where the robot acts at the fine
-    resolution, ``refinement`` is the text that refines ``source``, and ``initial_fine`` what it knows there at
-    step 0; ``goal`` and ``initial`` are coarse all the same.
+    resolution, ``refinement`` is the text that refines ``source``, and ``initial_fine`` what it
+    knows there at step 0; ``goal`` and ``initial`` are coarse all the same.
     """
 
     trial: str

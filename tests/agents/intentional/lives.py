@@ -7,7 +7,7 @@ from pathlib import Path
 from msgspec import structs
 
 from asp.language import load_description, read_domain
-from testbed.protocol import Decision, Event, Percept, Robot, Task
+from testbed.protocol import Decision, Event, Percept, Relevance, Robot, Task
 from testbed.world import World, world_of
 from tests.literals import parsed
 
@@ -87,6 +87,7 @@ def live(
     feedback: bool = True,
     where: Place = OFFICE,
     failing: Collection[int] = (),
+    relevance: Relevance = "definition",
 ) -> Life:
     """Plays a trial in the state `initial`, with or without goal feedback, for so many steps.
 
@@ -94,7 +95,7 @@ def live(
     """
     goal, states = parsed(goal), [initial]
     state, decisions, news = initial, list[Decision](), list[tuple[int, Event]]()
-    robot.begin(_task(initial, goal, where))
+    robot.begin(structs.replace(_task(initial, goal, where), relevance=relevance))
     percept = _percept(where, state, 1)
     while percept.step < steps:
         decision = robot.act(percept)

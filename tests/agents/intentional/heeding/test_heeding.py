@@ -1,0 +1,174 @@
+"""What a robot heeds of what it sees, by `relevance`: each rule in a domain that needs it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+import yaml
+
+from testbed.config import load_config
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.robots import make_robot
+from testbed.experiment.trial import Moment, play_trial
+from testbed.link import InProcessRobot
+from tests.agents.intentional.heeding.domains import BLOCKS, CANAL, SMITHY, port
+
+Event = tuple[int, str]
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def _played(
+    text: str,
+    initial: Sequence[str],
+    goal: str,
+    events: Sequence[Event],
+    relevance: str = "",
+    robot: str = "intentional",
+) -> list[Moment]:
+    """The steps of a trial in the domain with these events, of which the robot is not told."""
+    Path("own.al").write_text(text, encoding="utf-8")
+    keys = {
+        "name": "own",
+        "domain": "own.al",
+        "goal": [goal],
+        "initial": list(initial),
+        "script": [{"step": step, "action": action} for step, action in events],
+        "exogenous_while_thinking": True,
+        "robots": [robot],
+    }
+    Path("own.yaml").write_text(yaml.safe_dump(keys), encoding="utf-8")
+    overrides = [f"relevance={relevance}"] if relevance else []
+    (spec,) = plan_trials(load_config("own.yaml", overrides))
+    moments = list[Moment]()
+    assert play_trial(spec, InProcessRobot(make_robot), moments.append).record.achieved
+    return moments
+
+
+def _attempts(moments: Sequence[Moment]) -> list[str]:
+    return [moment.decision.action for moment in moments if moment.happened is not None]
+
+
+ROBOTS = pytest.mark.parametrize("robot", ["intentional", "intentional-plain"])
+SHIP_LEAVES = [(2, "tow(brig,north)")]
+LOOKING = ["stands(pilot,east)"]
+
+
+def _looking(places: Sequence[str], relevance: str = "") -> list[Moment]:
+    """The ship is believed in the west, and is brought where the pilot passes on the way."""
+    values = {"S": "brig", "B": "west", "R": "pilot"}
+    moored = f"moors({','.join(values[place] for place in places)})"
+    start = [*LOOKING, moored]
+    return _played(port(*places), start, "aboard(pilot,brig)", SHIP_LEAVES, relevance)
+
+
+@pytest.mark.parametrize("places", ["SB", "BS", "SBR"])
+def test_what_the_goal_names_is_heeded_whatever_the_value_and_wherever_it_stands(
+    places: str,
+) -> None:
+    assert _attempts(_looking(places)) == ["walk(pilot,north)", "board(pilot,brig)"]
+
+
+@pytest.mark.parametrize("places", ["SB", "BS", "SBR"])
+def test_the_released_controller_walks_past_what_it_looks_for(places: str) -> None:
+    attempts = _attempts(_looking(places, "published"))
+    assert attempts[:3] == ["walk(pilot,north)", "walk(pilot,west)", "board(pilot,brig)"]
+    assert len(attempts) > 3
+
+
+def test_what_is_seen_against_the_belief_and_not_heeded_is_on_record() -> None:
+    past, found = _looking("SB", "published"), _looking("SB")
+    seen = [(m.percept.step, m.decision.trace.unheeded) for m in past if m.decision.trace.unheeded]
+    # It stands in the north, where the ship is; believed in the west, it is seen not to be there.
+    assert seen[:2] == [(3, ["moors(brig,north)"]), (4, ["-moors(brig,west)"])]
+    assert not any(moment.decision.trace.unheeded for moment in found)
+
+
+@ROBOTS
+def test_a_defined_goal_is_changed_by_what_defines_it(robot: str) -> None:
+    """Cube b, on c at first, is knocked down while the robot starts to put a on b."""
+    start = ["on(a,ground)", "on(b,c)", "on(c,ground)"]
+    moments = _played(BLOCKS, start, "above(a,c)", [(1, "knock(b,ground)")], robot=robot)
+    assert _attempts(moments) == ["put(a,c)"]
+    assert all(moment.decision.trace.no_plan is None for moment in moments)
+
+
+THROUGH = ["floats(barge,spring)"]
+
+
+@ROBOTS
+@pytest.mark.parametrize(
+    ("relevance", "attempts"),
+    [
+        ("published", ["sail(barge,mill)", "sail(barge,delta)", "crank(barge,weir)"]),
+        ("definition", ["sail(barge,mill)", "sail(barge,delta)", "crank(barge,weir)"]),
+        ("plan", ["sail(barge,mill)", "crank(barge,weir)"]),
+        ("all", ["sail(barge,mill)", "crank(barge,weir)"]),
+    ],
+)
+def test_a_lock_on_the_way_is_heeded_for_the_plan(
+    relevance: str, attempts: list[str], robot: str
+) -> None:
+    goal, closed = "floats(barge,delta)", [(2, "turn(weir)")]
+    moments = _played(CANAL, THROUGH, goal, closed, relevance, robot)
+    assert _attempts(moments) == [*attempts, "sail(barge,delta)"]
+
+
+@pytest.mark.parametrize(
+    ("relevance", "attempts"),
+    [
+        ("definition", ["heat(smith,blade)", "strike(smith,blade)", "call(smith,apprentice)"]),
+        ("plan", ["heat(smith,blade)", "call(smith,apprentice)"]),
+    ],
+)
+def test_a_helper_who_walked_off_is_missed_for_the_plan(
+    relevance: str, attempts: list[str]
+) -> None:
+    left = [(2, "stroll(apprentice,yard)")]
+    moments = _played(SMITHY, ["waits(apprentice,anvil)"], "forged(blade)", left, relevance)
+    assert _attempts(moments) == [*attempts, "strike(smith,blade)"]
+
+
+@pytest.mark.parametrize(
+    ("relevance", "attempts"), [("published", ["crank(barge,weir)"]), ("definition", [])]
+)
+def test_what_the_next_action_names_is_heeded_once_the_activity_is_started(
+    relevance: str, attempts: list[str]
+) -> None:
+    """Somebody opens the gate while the robot starts an activity that begins with opening it."""
+    start = ["floats(barge,mill)", "closed(weir)"]
+    moments = _played(CANAL, start, "floats(barge,delta)", [(1, "turn(weir)")], relevance)
+    assert _attempts(moments) == [*attempts, "sail(barge,delta)"]
+
+
+def _against(relevance: str) -> dict[int, set[str]]:
+    """By step what the robot sees, believes to be otherwise, and does not heed."""
+    dredged = [(2, "dredge(mill)"), (3, "dredge(spring)")]
+    moments = _played(CANAL, THROUGH, "floats(barge,delta)", dredged, relevance)
+    return {m.percept.step: set(m.decision.trace.unheeded) for m in moments}
+
+
+def test_what_the_last_action_names_is_heeded() -> None:
+    """A pool is dredged as the robot comes there, and the one that it came from after it left."""
+    published, definition = _against("published"), _against("definition")
+    assert published[3] == {"dredged(mill)"}
+    assert published[4] == {"dredged(mill)", "dredged(spring)"}
+    # The move from the spring to the mill is about both, that from the mill on about the mill.
+    assert definition[3] == set()
+    assert definition[4] == {"dredged(spring)"}
+    assert not any(_against("all").values())
+
+
+def test_the_baseline_looks_at_its_outcome_whatever_is_relevant() -> None:
+    goal, closed = "floats(barge,delta)", [(1, "turn(weir)")]
+    for relevance in ("published", "all"):
+        moments = _played(CANAL, THROUGH, goal, closed, relevance, "traditional")
+        assert _attempts(moments) == [
+            "sail(barge,mill)",
+            "sail(barge,delta)",
+            "crank(barge,weir)",
+            "sail(barge,delta)",
+        ]
