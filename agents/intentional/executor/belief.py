@@ -168,7 +168,8 @@ class FineTracker:
 
     def is_doubtful(self, literal: Literal) -> bool:
         """Whether a coarse literal rests on tests that may be wrong."""
-        return self.is_magnified(literal) and not self._is_own(literal)
+        is_tested = self.is_magnified(literal) or self.test_of(literal.atom) is not None
+        return is_tested and not self._is_own(literal)
 
     def _is_own(self, literal: Literal) -> bool:
         """Whether a literal is about the robot itself."""
