@@ -28,8 +28,8 @@ class JointReasoner(ReferenceReasoner):
     """
 
     def diagnose(self, _history: History, adopted: Explanation, /) -> Diagnosis:
-        """What was held before: there is no phase of its own."""
-        return Diagnosis(adopted)
+        """What was held before, of which nothing is proved: there is no phase of its own."""
+        return Diagnosis(replace(adopted, proved=False))
 
     def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
         """The intention for which CR rules are used least. Raises InconsistentHistoryError."""

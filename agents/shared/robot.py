@@ -21,7 +21,7 @@ from asp.reasoning.diagnosis import (
     distrust_tests,
 )
 from asp.solving import LimitError, Reading, State, deciding, preparation, reasoning_clock
-from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task, Trace, is_mental
+from testbed.protocol import WAIT, Decision, Minimality, Percept, RobotStops, Task, Trace, is_mental
 
 MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[H_contra]]
 """Makes a reasoner of a domain, a goal and the greatest length of a plan."""
@@ -44,6 +44,15 @@ class Thought:
     began: Reading = field(default_factory=reasoning_clock)
     diagnosed: Reading | None = None
     ended: Reading = field(default_factory=Reading)
+
+    @property
+    def minimal(self) -> Minimality:
+        """Whether what explains the history is proved to be as small as any.
+
+        Where the first phase did not end, that is not even known to explain it.
+        """
+        found = self.diagnosis
+        return "proved" if found is not None and found.explanation.proved else "unproved"
 
     def timed(self, trace: Trace, prepared: float) -> Trace:
         """The trace with the times of both phases.
@@ -119,7 +128,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
             step=percept.step,
             action=action,
             believes_goal=intention is not None and GOAL in intention.believed,
-            trace=structs.replace(trace, deadline=decision.late),
+            trace=structs.replace(trace, minimal=thought.minimal, deadline=decision.late),
         )
 
     @abstractmethod

@@ -59,8 +59,9 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
     """Of each trial of a table what comparisons need, by columns.
 
     `lost`: something other than its robot ended it; `late`: a decision was cut off by the clock;
-    `ended`: it came to its end without an error; `solvable`: some plan achieves the goal, or none
-    is known not to; `idle`: the goal held from the start on, and nothing was done; `quiet`: nothing
+    `unproved_steps`: as in the record; `ended`: it came to its end without an error; `solvable`:
+    some plan achieves the goal, or none is known not to; `idle`: the goal held from the start on,
+    and nothing was done; `quiet`: nothing
     exogenous happened; `out_of_reach`: the goal could not be achieved any more at the end. A trial
     that the robot's own error ended is neither idle nor quiet: what it would have been is not
     known. `state` names the initial state. The other columns are `DIVIDED`.
@@ -73,6 +74,7 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
         *LEAST.values(),
         lost=failure & ~own,
         late=pl.col("deadline"),
+        unproved_steps=pl.col("unproved_steps"),
         out_of_reach=pl.col("in_reach").eq_missing(False),
         ended=~failure,
         solvable=pl.col("minimal_actions").is_not_null()

@@ -108,6 +108,7 @@ def _group(
         "ratios": {name: ratios[name]["ratio"] for name in MEASURES},
         "ratios_of_sums": {name: ratios[name]["of_sums"] for name in MEASURES},
         "times": {name: ratios[name] for name in TIMES},
+        "unproved_steps": {name: rows["unproved_steps"].mean() for name, rows in own.items()},
         "optimum": {name: comparison.optimum(rows) for name, rows in own.items()},
     }
     return frozenset(counted["pair"]), values, tests | {ACCURACY: both.decided.mcnemar("correct")}

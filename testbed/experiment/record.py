@@ -133,6 +133,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     depends on the fewest actions and these are not known (so is `in_reach`), and of a trial that
     something other than its robot ended: it says nothing of the robot.
     `no_plan` says why the robot gave up, from what it believed; `in_reach` from what is true.
+    `unproved_steps` is the number of decisions under an explanation that is not proved to be as
+    small as any; None where the robot does not tell.
     `mental` holds `start(N)`, `stop(N)` and `finish`.
     Times are seconds, `..._time_s` by the wall clock, `..._cpu_s` process time of the robot, its
     solver included. `preparation_cpu_s` is what the trial's decisions caused but others can reuse
@@ -179,6 +181,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     fine: FineCounts | None = None
     in_reach: bool | None = None
     no_plan: NoPlan | None = None
+    unproved_steps: Count | None = None
     deadline: bool = False
 
     @property

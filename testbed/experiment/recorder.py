@@ -62,6 +62,8 @@ class Recorder:
         _add_times(trace, record)
         record.reasoning_time_s = record.planning_time_s + record.diagnosis_time_s
         record.deadline = record.deadline or trace.deadline
+        if trace.minimal is not None:
+            record.unproved_steps = (record.unproved_steps or 0) + (trace.minimal == "unproved")
         if record.fine is None:
             if decision.action not in (WAIT, FINISH):
                 self._attempt(decision.step, decision.action, bool(happened))

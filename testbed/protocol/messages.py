@@ -202,9 +202,11 @@ class Trace(Part, frozen=True, kw_only=True):
     process time of the robot, its solver included; all four without ``preparation_cpu_s``, the
     process time spent on what other decisions and trials can reuse: encoding, grounding, sets
     of states. At the first step that of beginning the trial is with it. ``no_plan`` is given by
-    a robot that gives up. ``deadline`` says that the decision was cut off by the clock, so that
-    it need not be the same on another machine. ``unheeded`` are the literals that the robot sees,
-    does not heed, and believes to be false.
+    a robot that gives up. ``minimal`` says whether it is proved, of the history up to this step,
+    that no explanation is smaller than the one the decision was made under; None: the robot does
+    not tell. ``deadline`` says that the decision was cut off by the clock, so that it need not be
+    the same on another machine. ``unheeded`` are the literals that the robot sees, does not heed,
+    and believes to be false.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
     one, empty in the steps between the first and the last of an abstract action.
     """
@@ -222,6 +224,7 @@ class Trace(Part, frozen=True, kw_only=True):
     no_plan: NoPlan | None = None
     unheeded: Items[Literal] = []
     reason: Text = ""
+    minimal: Minimality | None = None
     plans: Count = 0
     planning_time_s: Seconds = 0.0
     diagnosis_time_s: Seconds = 0.0

@@ -95,7 +95,8 @@ def explanation_of(shown: Iterable[Symbol], proved: bool = True) -> Explanation:
     exceptions = sorted(str(default) for (default,) in found["exception"])
     known = ((literal_of(fluent), truth.name == "true") for fluent, truth in found["initial"])
     initial = sorted(fluent if truth else fluent.complement for fluent, truth in known)
-    return Explanation(unobserved, distrusted, tuple(exceptions), tuple(initial), proved)
+    is_smallest = proved or not (unobserved or distrusted or exceptions)
+    return Explanation(unobserved, distrusted, tuple(exceptions), tuple(initial), is_smallest)
 
 
 Alternatives = tuple[list[Explanation], bool]

@@ -123,7 +123,9 @@ class IncrementalDiagnoser(Generic[H_contra]):
         found = self._smallest(self._problem(history))
         if found is None:
             return replace(adopted, proved=False)
-        return adopted if adopted.price <= found.explanation.price else Explanation()
+        if adopted.price > found.explanation.price:
+            return Explanation()
+        return replace(adopted, proved=found.explanation.proved)
 
     def _compress(self, history: History) -> None:
         """Compresses a little more of the history, where its start is known.
