@@ -2,6 +2,7 @@
 # make test   the test suite
 # make check  formatting, lint, types, import directions
 # make bench  the benchmarks at full size
+# make fuzz   GAMES=5000 random games against brute force, from SEED on, the time of day by default
 # make load   the test suite beside busy processes, then three times the tests of link, interrupt, resume
 # make lowest a part of the suite with the lowest version of each dependency that pyproject.toml allows
 #
@@ -11,6 +12,8 @@ PYTHON ?= python3
 VENV   := .venv
 LOWEST := .venv-lowest
 BUSY   ?= 8
+GAMES  ?= 5000
+SEED   := $(or $(SEED),$(shell date +%s))
 BIN    := $(VENV)/bin
 PIP    := PIP_CONSTRAINT=$(CURDIR)/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1 \
           $(BIN)/python -m pip install --quiet
@@ -19,7 +22,7 @@ PIP    := PIP_CONSTRAINT=$(CURDIR)/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK
 marked  = $$(grep -rl --include='test_*.py' 'mark\.$(1)' tests)
 BESIDE  = $(BIN)/python -m tests.beside $(BUSY)
 
-.PHONY: demo test check bench load lowest clean
+.PHONY: demo test check bench fuzz load lowest clean
 
 demo: $(VENV)/.demo
 	$(BIN)/testbed run configs/quickstart.yaml
@@ -35,6 +38,9 @@ check: $(VENV)/.test
 
 bench: $(VENV)/.bench
 	$(BIN)/python -m benchmarks
+
+fuzz: $(VENV)/.test
+	$(BIN)/python -m benchmarks.games $(GAMES) --seed $(SEED)
 
 load: $(VENV)/.test
 	$(BESIDE) $(BIN)/python -m pytest -n 2 --dist worksteal
