@@ -140,9 +140,13 @@ class Domain:
         """The smallest explanation of a history, the first of these in the stated order.
 
         It has the fewest unobserved events and distrusted reports, and then the fewest exceptions
-        to defaults. Raises InconsistentHistoryError where nothing explains it, and LimitError.
+        to defaults. Its `initial` leaves out what follows from the rest and from what was observed
+        at step 0. Raises InconsistentHistoryError where nothing explains it, and LimitError.
         """
-        return self._diagnosis(history, goal).explanation
+        told = self._history(history)
+        found, known = self._diagnosis(told, goal).explanation, self._knowledge
+        observed = diagnosis.record_of(told.at(0), known).observed
+        return replace(found, initial=diagnosis.beyond_observed(known, observed, found.initial))
 
     def explanations(
         self, history: Iterable[Step], goal: Given = (), most: int = 100
@@ -152,7 +156,7 @@ class Domain:
         They differ in what happened; what they assume of the initial state is not listed. Raises as
         `explain` does.
         """
-        alternatives = self._diagnosis(history, goal).alternatives
+        alternatives = self._diagnosis(self._history(history), goal).alternatives
         assert alternatives is not None, "incremental diagnosis always has them"
         return alternatives(most)
 
@@ -201,12 +205,12 @@ class Domain:
         order = self.description.fluents
         return tuple(sorted(states, key=lambda state: [fluent not in state for fluent in order]))
 
-    def _diagnosis(self, history: Iterable[Step], goal: Given) -> diagnosis.Diagnosis:
+    def _diagnosis(self, history: diagnosis.History, goal: Given) -> diagnosis.Diagnosis:
         wanted, known = self._literals(goal, "goal"), self._knowledge
         with_goal = replace(known, program=known.program + _REACHED)
         reference = diagnosis.ReferenceDiagnoser[diagnosis.History](with_goal, wanted)
         diagnoser = diagnosis.IncrementalDiagnoser(self._sessions, wanted, 0, reference)
-        return diagnoser.diagnose(self._history(history), Explanation())
+        return diagnoser.diagnose(history, Explanation())
 
     def _history(self, steps: Iterable[Step]) -> diagnosis.History:
         told = diagnosis.History()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from testbed.cli.common import FAILED, Domain, examples, input_errors, say
+from testbed.text import warn
 
 if TYPE_CHECKING:
     from asp.reasoning.diagnosis import Explanation
@@ -46,7 +47,9 @@ def command(
         told, places = read_history(history)
         try:
             first = [domain.explain(told.history, told.goal)]
-            others = domain.explanations(told.history, told.goal, MOST)[0] if every else []
+            others, more = (
+                domain.explanations(told.history, told.goal, MOST) if every else ([], False)
+            )
         except DomainError as error:
             raise ConfigError(places.lines([(error.key, error.message)])) from None
         except InconsistentHistoryError as error:
@@ -55,6 +58,8 @@ def command(
         for number, explanation in enumerate(others or first):
             for line in [*["or"][:number], *_told(explanation)]:
                 say(line)
+        if more:
+            warn(f"there are more explanations that are as small: these are the first {MOST}")
 
 
 def _told(explanation: "Explanation") -> Iterator[str]:
