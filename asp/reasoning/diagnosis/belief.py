@@ -1,5 +1,6 @@
 """The belief tracker: the states of a history by its explanation, step by step."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from asp.language import Literal
@@ -50,20 +51,30 @@ class BeliefTracker:
         """The belief at step 0."""
         return Belief(0, state, frozenset([0]) if self.holds(state) else frozenset())
 
-    def carried(
-        self, belief: Belief | None, history: History, adopted: Explanation, trusting: bool = False
-    ) -> Belief | None:
-        """The belief at the history's step; None where the explanation does not agree with it.
+    def along(self, states: Sequence[State]) -> list[Belief]:
+        """The beliefs of steps that have these states, from step 0 on."""
+        beliefs = [self.start(states[0])]
+        beliefs += (self._following(beliefs[-1], state) for state in states[1:])
+        return beliefs
 
-        Where it is `trusting`, observations are not compared again. Raises LimitError.
+    def carry(
+        self, beliefs: list[Belief], history: History, adopted: Explanation, trusting: bool = False
+    ) -> bool:
+        """Adds the beliefs of all steps up to that of the history, each following the last one.
+
+        False where the explanation does not agree with a step. Where it is `trusting`, observations
+        are not compared again. Raises LimitError.
         """
-        while belief is not None:
-            if not trusting and self.surprises(history.at(belief.step), belief.state):
-                return None
-            if belief.step == history.step:
-                return belief
-            belief = self._advance(belief, history, adopted)
-        return None
+        while True:
+            last = beliefs[-1]
+            if not trusting and self.surprises(history.at(last.step), last.state):
+                return False
+            if last.step == history.step:
+                return True
+            following = self._advance(last, history, adopted)
+            if following is None:
+                return False
+            beliefs.append(following)
 
     def _advance(self, belief: Belief, history: History, adopted: Explanation) -> Belief | None:
         """The belief a step later, if what happened there agrees with the explanation."""
@@ -75,5 +86,8 @@ class BeliefTracker:
         after = self.transitions.after(belief.state, adopted.executed(record, step), events)
         if after is None or (record.attempt is not None and record.attempt[1] != after[1]):
             return None
-        state, step = after[0], step + 1
+        return self._following(belief, after[0])
+
+    def _following(self, belief: Belief, state: State) -> Belief:
+        step = belief.step + 1
         return Belief(step, state, belief.held | {step} if self.holds(state) else belief.held)

@@ -7,6 +7,7 @@ observation contradicts it; then the whole history is explained anew.
 from __future__ import annotations
 
 from collections.abc import Collection
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from typing import Generic
@@ -21,6 +22,7 @@ from asp.reasoning.diagnosis.explanations import (
     H_contra,
 )
 from asp.reasoning.diagnosis.history import History, Problem, Record, problem_of, record_of
+from asp.reasoning.diagnosis.long_histories.arcs import Arcs
 from asp.reasoning.diagnosis.long_histories.frontier import Compression, Frontier
 from asp.reasoning.diagnosis.reference import SEARCH
 from asp.reasoning.diagnosis.smallest_explanations import Interpretation, SmallestExplanations
@@ -43,7 +45,7 @@ class DiagnosisSessions:
         self.knowledge = knowledge
         self.transitions = Transitions(knowledge.program, knowledge.description.fluents)
         self.explanations = SmallestExplanations(knowledge)
-        self.ends = SmallestExplanations(knowledge, begins=False)
+        self.arcs = Arcs(knowledge)
 
     def tracker(self, goal: Goal, since: int = 0) -> BeliefTracker:
         """A tracker of beliefs about a goal; `since` is the first step with events."""
@@ -69,20 +71,21 @@ class IncrementalDiagnoser(Generic[H_contra]):
         self._compression = COMPRESSION
         self._tracker = sessions.tracker(goal, since)
         self._frontier: Frontier | None = None
-        self._belief: Belief | None = None
+        self._beliefs: list[Belief] = []
+        self._under = Explanation()
         self._fewest = (0, 0)
         self._heard = 0
 
     @property
     def belief(self) -> Belief:
         """What is believed since the last diagnosis."""
-        assert self._belief is not None, "a belief follows a diagnosis"
-        return self._belief
+        assert self._beliefs, "a belief follows a diagnosis"
+        return self._beliefs[-1]
 
     @property
     def frontier(self) -> Frontier | None:
-        """Where the history is compressed to; None as long as nothing is compressed."""
-        return self._frontier if self._frontier is not None and self._frontier.step else None
+        """What the history is compressed to; None where it is too short."""
+        return self._frontier
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
@@ -100,12 +103,9 @@ class IncrementalDiagnoser(Generic[H_contra]):
         reported = self._knowledge.actions[1] & history.at(history.step - 1).happened.keys()
         if is_late or (reported and not adopted.proved):
             adopted = self._revised(history, adopted)
-        belief = self._belief or self._first(history, adopted)
-        carried = self._tracker.carried(belief, history, adopted)
-        if carried is None:
+        if not self._carried(history, adopted):
             adopted = self._explain(history, adopted)
-        else:
-            self._belief = carried
+        self._under = adopted
         return Diagnosis(adopted, alternatives=partial(self._alternatives, history, adopted))
 
     def _hear(self, history: History) -> bool:
@@ -113,14 +113,26 @@ class IncrementalDiagnoser(Generic[H_contra]):
         news = history.late_news[self._heard :]
         if news:
             self._heard += len(news)
-            self._belief, self._fewest = None, (0, 0)
-            if self._frontier is not None and min(news) <= self._frontier.step:
-                self._frontier = None
+            self._fewest = (0, 0)
+            del self._beliefs[min(news) + 1 :]
+            if self._frontier is not None:
+                self._frontier.forget(min(news))
         return bool(news)
+
+    def _carried(self, history: History, adopted: Explanation) -> bool:
+        """Whether what is adopted agrees with all that was observed; it is believed if it does."""
+        if adopted != self._under.left(history):
+            self._beliefs = []
+        if not self._beliefs:
+            self._under, first = adopted, self._first(history, adopted)
+            if first is None:
+                return False
+            self._beliefs = [first]
+        return self._tracker.carry(self._beliefs, history, adopted)
 
     def _revised(self, history: History, adopted: Explanation) -> Explanation:
         """What news leaves of the adopted explanation: nothing where another one is smaller."""
-        found = self._smallest(self._problem(history))
+        found = self._smallest(history)
         if found is None:
             return replace(adopted, proved=False)
         if adopted.price > found.explanation.price:
@@ -128,69 +140,72 @@ class IncrementalDiagnoser(Generic[H_contra]):
         return replace(adopted, proved=found.explanation.proved)
 
     def _compress(self, history: History) -> None:
-        """Compresses a little more of the history, where its start is known.
+        """Compresses a little more of the history.
 
         Where the decision reaches one of its limits, this is left for later: it only saves time.
         """
         settings = self._compression
-        if settings is None or history.step <= settings.after or self._unknown(history):
+        if settings is None or history.step <= settings.after:
             return
-        try:
-            if self._frontier is None:
-                first = Problem(
-                    self._goal, {0: record_of(history.at(0), self._knowledge)}, 0, self._since
-                )
-                start = self._sessions.explanations.smallest(first)
-                if start is None:
-                    return
-                self._frontier = Frontier(self._sessions.ends, self._tracker, settings, start)
+        if self._frontier is None:
+            sessions = self._sessions
+            self._frontier = Frontier(sessions.arcs, sessions.explanations, self._tracker, settings)
+        with suppress(LimitError):
             self._frontier.follow(history)
-        except LimitError:
-            pass
 
     def _explain(self, history: H_contra, adopted: Explanation) -> Explanation:
         """The explanation of the whole history; the belief becomes what it implies."""
-        problem, unknown = self._problem(history), self._unknown(history)
-        if unknown:
-            found = self._sessions.explanations.keeping(problem, adopted)
-            if found is not None:
-                return self._adopt(found, history, unknown)
-        found = self._smallest(problem)
+        unknown = self._unknown(history)
+        found = self._keeping(history, adopted) if unknown else None
+        found = found or self._smallest(history)
         if found is None:
             explanation = self._reference.diagnose(history, adopted).explanation
             start = self._first(history, explanation)
-            self._belief = self._tracker.carried(start, history, explanation, trusting=True)
-            assert self._belief is not None, "an explanation explains every step from the first on"
+            assert start is not None, "an explanation says how it began"
+            self._beliefs = [start]
+            carried = self._tracker.carry(self._beliefs, history, explanation, trusting=True)
+            assert carried, "an explanation explains every step from the first on"
         else:
-            explanation = self._adopt(found, history, unknown)
+            explanation = self._adopt(found, unknown)
         if explanation.proved and explanation.without_start != adopted.without_start:
             self._fewest = (explanation.size, len(explanation.exceptions))
         return explanation
 
-    def _smallest(self, problem: Problem) -> Interpretation | None:
+    def _keeping(self, history: History, adopted: Explanation) -> Interpretation | None:
+        """The first interpretation with what is adopted of events, reports and exceptions."""
+        least = self._frontier and self._frontier.least(history)
+        if least is None:
+            explanations = self._sessions.explanations
+            return explanations.keeping(self._problem(history), adopted)
+        assert self._frontier is not None
+        return self._frontier.keeping(history, adopted) if adopted.price == least else None
+
+    def _smallest(self, history: History) -> Interpretation | None:
         """The smallest explanation; None where that takes another way, or more than the budget."""
-        frontier = self.frontier
         try:
             with up_to(SEARCH):
                 current().check_conflicts()
-                found = frontier and frontier.smallest(problem, self._fewest[0])
-                return found or self._sessions.explanations.smallest(problem, self._fewest)
+                found = self._frontier and self._frontier.smallest(history)
+                if found is not None:
+                    return found
+                explanations = self._sessions.explanations
+                return explanations.smallest(self._problem(history), self._fewest)
         except BudgetError:
             return None
 
-    def _adopt(
-        self, found: Interpretation, history: History, unknown: Collection[Fluent]
-    ) -> Explanation:
+    def _adopt(self, found: Interpretation, unknown: Collection[Fluent]) -> Explanation:
         """The explanation that was found; the belief becomes what it leads to."""
-        self._belief = Belief(history.step, found.state, found.held)
-        initial = sorted(f if f in found.initial else f.complement for f in unknown)
+        self._beliefs = self._tracker.along(found.states)
+        initial = sorted(f if f in found.states[0] else f.complement for f in unknown)
         return replace(found.explanation, initial=tuple(initial))
 
     def _alternatives(self, history: History, adopted: Explanation, most: int) -> Alternatives:
         """At most so many explanations of the size of one, and whether there are more of them."""
-        problem, frontier = self._problem(history), self.frontier
-        found = frontier and frontier.alternatives(problem, adopted.size, most)
-        return found or self._sessions.explanations.alternatives(problem, adopted, most)
+        found = self._frontier and self._frontier.alternatives(history, adopted, most)
+        if found is not None:
+            return found
+        explanations = self._sessions.explanations
+        return explanations.alternatives(self._problem(history), adopted, most)
 
     def _first(self, history: History, adopted: Explanation) -> Belief | None:
         """The belief at step 0, if the adopted explanation says how it began."""
@@ -203,7 +218,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
             start = self._sessions.explanations.smallest(Problem(self._goal, records, 0, 0))
             if start is None or start.explanation.exceptions != adopted.exceptions:
                 return None
-            state = start.initial
+            state = start.states[0]
         return self._tracker.start(state)
 
     def _problem(self, history: History) -> Problem:

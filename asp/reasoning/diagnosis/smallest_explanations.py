@@ -31,18 +31,10 @@ _MOST_SESSIONS = 4
 
 @dataclass(frozen=True)
 class Interpretation:
-    """An explanation, the initial state, the state at the last step, when the goal held."""
+    """An explanation of a history, and the states of all steps."""
 
     explanation: Explanation
-    initial: State
-    state: State
-    held: frozenset[int]
-
-    def followed_by(self, end: Interpretation, first: int) -> Interpretation:
-        """This and an interpretation of the history from step `first` on."""
-        explanation = self.explanation.followed_by(end.explanation, first)
-        held = self.held.union(first + step for step in end.held)
-        return Interpretation(explanation, self.initial, end.state, held)
+    states: Sequence[State]
 
 
 @dataclass(frozen=True)
@@ -82,12 +74,8 @@ class Question:
         with preferring(session.control, limited) as model:
             if model is None:
                 return None
-            return Interpretation(
-                explanation_of(model.symbols(shown=True)),
-                session.state(model, 0),
-                session.state(model, step),
-                frozenset(i for i in range(step + 1) if session.is_true(model, "reached", i)),
-            )
+            states = [session.state(model, time) for time in range(step + 1)]
+            return Interpretation(explanation_of(model.symbols(shown=True)), states)
 
     def all(
         self, events: int, exceptions: int | None, most: int
@@ -183,8 +171,8 @@ class SmallestExplanations:
         return self._question(problem, most, horizon)
 
     def outcomes(self, problem: Problem) -> Question:
-        """The explanations of a history of one step, each with the states that it may lead to."""
-        return self._question(problem, MANY, 1, "outcomes")
+        """The explanations of a history of a step or none, each with the states it may lead to."""
+        return self._question(problem, MANY, problem.step, "outcomes")
 
     def _question(self, problem: Problem, most: int, horizon: int, *parts: str) -> Question:
         def made() -> Session:

@@ -40,7 +40,7 @@ class BothCompressed(Both):
     """The incremental way compresses its history after a few steps already."""
 
     def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        compression = Compression(after=4, lag=3, margin=1, answers=400)
+        compression = Compression(after=4, answers=400)
         with patch.object(incremental, "COMPRESSION", compression):
             super().__init__(knowledge, goal, plan_limit)
 

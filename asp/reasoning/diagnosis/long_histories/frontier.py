@@ -1,246 +1,236 @@
 """The states that a history may have led to, each with the smallest explanations that lead there.
 
-Whatever is explained later is explained by one of these and by events after it: of explanations
-that lead to the same state only the smallest can belong to a smallest one of the whole, and of
-those that are equally small only the first in the order of `order.lp` to the first one. The states
-that take more than `limit` events are left out, so that a frontier knows all explanations of a
-history with at most so many. Where the same events may lead to several states, the order does not
-say to which, and nothing is compressed. The end of the history is explained from each state of the
-frontier, as a history of which all is known at first.
+They follow step by step, as in the algorithm of Viterbi: whatever is explained later is explained
+by one of these states and by what happened after it. Of explanations that lead to the same state
+only the smallest can belong to a smallest one of the whole, and of those that are equally small
+only the first in the order of `order.lp` to the first one. Late news of a step leaves what is known
+of the steps before it.
 """
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from asp.reasoning.diagnosis.belief import BeliefTracker
 from asp.reasoning.diagnosis.explanations import Alternatives, Explanation
-from asp.reasoning.diagnosis.history import Happening, History, Problem, Record, record_of
-from asp.reasoning.diagnosis.smallest_explanations import (
-    FEW,
-    Interpretation,
-    Question,
-    SmallestExplanations,
+from asp.reasoning.diagnosis.history import History, Problem
+from asp.reasoning.diagnosis.long_histories.arcs import Arc, Arcs
+from asp.reasoning.diagnosis.long_histories.paths import (
+    Path,
+    Paths,
+    Ways,
+    beginnings,
+    continued,
+    steps_of,
 )
-from asp.solving import BudgetError, Recent, State
+from asp.reasoning.diagnosis.long_histories.steps import ArcsOfState, Steps
+from asp.reasoning.diagnosis.smallest_explanations import MANY, Interpretation, SmallestExplanations
+from asp.solving import BudgetError, State
 
-REMEMBERED = 4_000
-"""The greatest number of states and actions whose transitions are remembered."""
-
-LENGTH = 24
-"""How many steps the end of a history may have."""
-
-_BRANCHES_OF_AN_ENTRY = 4
-_STEPS_OF_A_DECISION = 3
-_INFINITE = float("inf")
-_ATTEMPT, _END, _REPORT = range(3)
-
-_Branches = Sequence[tuple[Explanation, State]]
-"""What may have happened at one step, with the states that it leads to."""
+_MARGIN = 4
+_LAYERS_OF_A_DECISION = 3
+_ANSWERS_OF_AN_EXPLANATION = 30_000
 
 
 @dataclass(frozen=True)
 class Compression:
     """How a history is compressed.
 
-    From step `after` on, so that `lag` steps are left at the end; with a limit that is `margin`
-    above the smallest explanation; at most `most` states and `kept` explanations of each; and
-    with so many `answers` of the solver at each step.
+    From step `after` on; to at most `most` states of a step, with `arcs` from each and `kept`
+    explanations of each; with so many `answers` of the solver in a decision that can do without.
+    Late news of the last `late` steps leaves what is known of the steps before it.
     """
 
-    after: int = 64
-    lag: int = 12
-    margin: int = 2
+    after: int = 32
     most: int = 64
+    arcs: int = 256
     kept: int = 3
-    answers: int = 48
+    answers: int = 1_000
+    late: int = 64
+
+
+@dataclass(frozen=True)
+class Layer:
+    """The smallest paths to each state of a step, of all those that have at most a size."""
+
+    paths: Paths
+    limit: float
+
+    @property
+    def smallest(self) -> list[Sequence[Path]]:
+        """The paths that are as small as any, by the states that they lead to."""
+        least = min((paths[0].price for paths in self.paths.values()), default=None)
+        return [paths for paths in self.paths.values() if paths[0].price == least]
 
 
 class Frontier:
-    """The entries of a step of one history whose initial state is known; it advances by steps.
+    """The layers of one history, which grows.
 
-    Where there are more states than the settings allow, `limit` is lowered; where the smallest
-    explanation reaches the limit, it begins anew with a higher one. `entries` are the smallest
-    explanations of each state in their order: `kept` of them, and one more where there are more.
+    Where a layer has more states than the settings allow, those that take most are left out: the
+    limit of this layer, and of all that follow, is lowered.
     """
 
     def __init__(
         self,
-        ends: SmallestExplanations,
+        arcs: Arcs,
+        explanations: SmallestExplanations,
         tracker: BeliefTracker,
         settings: Compression,
-        start: Interpretation,
     ) -> None:
-        """`ends` are of histories that do not begin, `start` is how this one began."""
-        self._ends = ends
+        """`explanations` are those of histories that begin."""
+        self._steps = Steps(arcs, tracker, settings.arcs)
+        self._whole = arcs.most_assumed
+        self._explanations = explanations
         self._tracker = tracker
         self._settings = settings
-        events = tracker.knowledge.description.exogenous_actions
-        self._places: Mapping[str, int] = {event: place for place, event in enumerate(events)}
-        self._branches: Recent[object, _Branches | None] = Recent(REMEMBERED)
-        self._start = start
-        self._begin(settings.margin)
-
-    def _begin(self, limit: int) -> None:
-        self.step, self.limit, self._aim = 0, limit, limit
-        self.entries: Mapping[State, Sequence[Interpretation]] = {self._start.state: [self._start]}
+        self._first_step = 0
+        self._layers: list[Layer] = []
+        self._last: Layer | None = None
 
     @property
-    def least(self) -> int:
-        """The size of the smallest explanation; one more than the limit where there is none."""
-        sizes = (entry[0].explanation.size for entry in self.entries.values())
-        return min(sizes, default=self.limit + 1)
+    def step(self) -> int:
+        """The step of the last layer; -1 where there is none."""
+        return self._first_step + len(self._layers) - 1
 
-    def smallest(self, problem: Problem, fewest: int) -> Interpretation | None:
-        """The first of the smallest explanations of a history, not smaller than `fewest`.
-
-        None where the frontier does not know all of those that are as small. Raises LimitError.
-        """
-        for size in range(max(fewest, self.least), self._largest(problem) + 1):
-            found = [
-                entry[0].followed_by(end, self.step)
-                for entry, question, room in self._entries(problem, size)
-                if (end := question.first(room)) is not None
-            ]
-            if found:
-                return min(found, key=lambda whole: self._order(whole.explanation))
-        return None
-
-    def alternatives(self, problem: Problem, size: int, most: int) -> Alternatives | None:
-        """At most so many explanations of the smallest size, and whether there are more of them.
-
-        None where the frontier does not know. Raises LimitError.
-        """
-        if not self.least <= size <= self._largest(problem):
-            return None
-        found: list[Explanation] = []
-        more = False
-        for entry, question, room in self._entries(problem, size):
-            ends, left_off = question.all(room, None, most)
-            prefixes = entry[: self._settings.kept]
-            found += (
-                prefix.explanation.followed_by(end, self.step)
-                for end, _ in ends
-                for prefix in prefixes
-            )
-            more = more or left_off or (bool(ends) and len(prefixes) < len(entry))
-        return found[:most], more or len(found) > most
+    def forget(self, since: int) -> None:
+        """Takes back the layers from a step on."""
+        self._last = None
+        if since <= self._first_step:
+            self._layers, self._first_step = [], 0
+        else:
+            del self._layers[since - self._first_step :]
 
     def follow(self, history: History) -> None:
-        """Compresses a little more of a history.
+        """Adds a few layers.
 
         Raises LimitError, also where that takes more answers of the solver than are allowed; those
         that it has are remembered.
         """
-        settings, known = self._settings, self._tracker.knowledge
-        self._answers = settings.answers
-        until = min(history.step - settings.lag, self.step + _STEPS_OF_A_DECISION)
-        while self.step < until:
-            record, after = (record_of(history.at(self.step + i), known) for i in range(2))
-            while (entries := self._next(record, after)) is None:
-                self.limit -= 1
-            self.step, self.entries = self.step + 1, entries
-        wanted = self.least + settings.margin
-        if self.least >= self.limit and wanted > self._aim:
-            self._begin(wanted)
+        self._last = None
+        self._steps.answers = self._settings.answers
+        self._advance(history, min(history.step - 1, self.step + _LAYERS_OF_A_DECISION))
 
-    def _largest(self, problem: Problem) -> int:
-        """The size up to which all explanations of a history are found; -1 where it is too long."""
-        is_short = problem.step - self.step <= LENGTH
-        return min(self.limit, self.least + FEW) if is_short else -1
+    def least(self, history: History) -> tuple[int, int] | None:
+        """The price of the smallest explanations of a history; None where it is not known.
 
-    def _entries(
-        self, problem: Problem, size: int
-    ) -> Iterator[tuple[Sequence[Interpretation], Question, int]]:
-        """Entries of at most a size, with the end of the history from there, and what is left."""
-        question = self._ends.question(problem.suffix(self.step), FEW)
-        for state, entry in self.entries.items():
-            room = size - entry[0].explanation.size
-            if room >= 0:
-                yield entry, question.starting(state), room
+        Raises LimitError.
+        """
+        ends = self._ends(history)
+        return ends[0][0].price if ends else None
 
-    def _next(
-        self, record: Record, following: Record
-    ) -> Mapping[State, Sequence[Interpretation]] | None:
-        """The entries of the next step; None where there are too many within the limit."""
-        found: dict[State, list[Interpretation]] = {}
-        happened, agrees = replace(record, observed=(), goal=None), self._observed(following)
-        for state, entry in self.entries.items():
-            room = self.limit - entry[0].explanation.size
-            if room >= 0:
-                branches = self._from(state, happened, room)
-                if branches is None:
-                    return None
-                for explanation, after in branches:
-                    if agrees(after):
-                        self._extend(found, entry, explanation, after)
-        if len(found) > self._settings.most:
+    def smallest(self, history: History) -> Interpretation | None:
+        """The first of the smallest explanations of a history; None where it is not known.
+
+        Raises LimitError.
+        """
+        firsts = (paths[0] for paths in self._ends(history))
+        first = min(firsts, key=lambda path: path.order, default=None)
+        return None if first is None else first.interpretation
+
+    def keeping(self, history: History, adopted: Explanation) -> Interpretation | None:
+        """The first interpretation with the events, reports and exceptions of an explanation.
+
+        None where there is none, and where that is not known. Raises LimitError.
+        """
+        self._steps.answers = _ANSWERS_OF_AN_EXPLANATION
+        try:
+            return self._kept(history, adopted)
+        except BudgetError:
             return None
-        return {state: self._first(entry) for state, entry in found.items()}
 
-    def _from(self, state: State, record: Record, room: int) -> _Branches | None:
-        if self.step < self._tracker.since:
-            room = -1
-        return self._branches.get((state, record, room), lambda: self._look(state, record, room))
+    def alternatives(
+        self, history: History, adopted: Explanation, most: int
+    ) -> Alternatives | None:
+        """At most so many smallest explanations of a history, and whether there are more of them.
 
-    def _look(self, state: State, record: Record, room: int) -> _Branches | None:
-        """The branches of a state; None where they are too many, or not deterministic."""
-        if self._answers <= 0:
-            raise BudgetError("no more is compressed in this decision")
-        most = self._settings.most * _BRANCHES_OF_AN_ENTRY
-        problem = Problem(self._tracker.goal, {0: record}, step=1, since=0 if room >= 0 else 1)
-        found, left_off = self._ends.outcomes(problem).starting(state).all(room, None, most)
-        self._answers -= 2 + (most if left_off else len(found))
-        # Of several outcomes of the same events the order says nothing.
-        several = len({explanation for explanation, _ in found}) < len(found)
-        return None if left_off or several else found
+        None where that is not known, or the one is not as small. Raises LimitError.
+        """
+        ends, kept = self._ends(history), self._settings.kept
+        if not ends or ends[0][0].price != adopted.price:
+            return None
+        in_order = sorted((p for paths in ends for p in paths[:kept]), key=lambda path: path.order)
+        found = list(dict.fromkeys(path.explanation for path in in_order))
+        return found[:most], len(found) > most or any(len(paths) > kept for paths in ends)
 
-    def _observed(self, following: Record) -> Callable[[State], bool]:
-        """Whether a state agrees with what was observed of it."""
-        true = frozenset(each for each in following.observed if each.is_positive)
-        false = frozenset(each.atom for each in following.observed) - true
-        return lambda state: (
-            true <= state
-            and false.isdisjoint(state)
-            and following.goal in (None, self._tracker.holds(state))
-        )
+    def _ends(self, history: History) -> list[Sequence[Path]]:
+        """The smallest paths to the history's step, by states; none where they are not known.
 
-    def _extend(
-        self,
-        found: dict[State, list[Interpretation]],
-        entry: Sequence[Interpretation],
-        explanation: Explanation,
-        after: State,
-    ) -> None:
-        """Adds the explanations of a state with what a branch assumes, if none there is smaller."""
-        there, size = found.setdefault(after, []), entry[0].explanation.size + explanation.size
-        if there and there[0].explanation.size < size:
-            return
-        if there and there[0].explanation.size > size:
-            there.clear()
-        held = frozenset([1] if self._tracker.holds(after) else [])
-        end = Interpretation(explanation, frozenset(), after, held)
-        there += (prefix.followed_by(end, self.step) for prefix in entry)
+        What is observed of this step is not complete before the next one: its layer is not kept.
+        """
+        if self._last is None:
+            self._steps.answers = _ANSWERS_OF_AN_EXPLANATION
+            try:
+                self._advance(history, history.step - 1)
+                self._last = self._next(history)
+            except BudgetError:
+                return []
+        return self._last.smallest
 
-    def _first(self, entry: list[Interpretation]) -> Sequence[Interpretation]:
-        if len(entry) == 1:
-            return entry
-        in_order = sorted(entry, key=lambda prefix: self._order(prefix.explanation))
-        return in_order[: self._settings.kept + 1]
+    def _advance(self, history: History, until: int) -> None:
+        if not self._layers:
+            self._layers.append(self._begin(history))
+        while self.step < until:
+            self._layers.append(self._next(history))
+            if len(self._layers) > self._settings.late:
+                self._first_step += 1
+                del self._layers[0]
 
-    def _order(self, explanation: Explanation) -> tuple[list[tuple[float, ...]], ...]:
-        """Its place (`order.lp`): what is distrusted, the latest first; then events are late."""
-        # An attempt has no place among exogenous actions: it comes before the end, which comes
-        # before a report.
-        distrusted: list[tuple[float, ...]] = [
-            (_REPORT, step, -place) if place >= 0 else (_ATTEMPT, -step)
-            for step, place in self._latest_first(explanation.distrusted)
-        ]
-        assumed: list[tuple[float, ...]] = [
-            (-step, place) for step, place in self._latest_first(explanation.unobserved)
-        ]
-        return [*distrusted, (_END,)], [*assumed, (_INFINITE,)]
+    def _begin(self, history: History) -> Layer:
+        problem = Problem(self._tracker.goal, {0: self._steps.record(history, 0)}, 0, 0)
+        most = self._settings.most
+        found, left_off = self._explanations.outcomes(problem).all(MANY, None, most)
+        if left_off:
+            return Layer({}, -1)
+        return Layer(beginnings(found, self._tracker.knowledge.description), self._whole)
 
-    def _latest_first(self, happenings: Collection[Happening]) -> list[tuple[int, int]]:
-        """The steps and places of happenings, at one step in the order of their places."""
-        placed = [(step, self._places.get(action, -1)) for step, action in happenings]
-        return sorted(placed, key=lambda pair: (-pair[0], pair[1]))
+    def _next(self, history: History) -> Layer:
+        """The layer after the last one."""
+        layer = self._layers[-1]
+        arcs = self._steps.arcs(history, self.step)
+        agrees = self._steps.agreeing(history, self.step + 1)
+        limit = layer.limit
+        while (ways := self._ways(layer.paths, arcs, agrees, limit)) is None:
+            least = min(paths[0].size for paths in layer.paths.values())
+            limit = min(limit - 1, least + _MARGIN)
+        return Layer(continued(ways, self._settings.kept + 1), limit)
+
+    def _ways(
+        self, paths: Paths, arcs: ArcsOfState, agrees: Callable[[State], bool], limit: float
+    ) -> Ways | None:
+        """How paths go on within a limit, to each state the smallest; None: to too many states."""
+        prices: dict[State, tuple[int, int]] = {}
+        ways: dict[State, list[tuple[Path, Arc]]] = {}
+        for state, before in paths.items():
+            size, exceptions = before[0].price
+            found = arcs(state, limit - size) if size <= limit else ()
+            if found is None:
+                return None
+            for arc in found:
+                price, after = (size + arc.size, exceptions), arc.after
+                known = prices.get(after)
+                if known == price:
+                    ways[after] += ((path, arc) for path in before)
+                elif (known is None or price < known) and agrees(after):
+                    prices[after], ways[after] = price, [(path, arc) for path in before]
+        return None if len(ways) > self._settings.most else ways
+
+    def _kept(self, history: History, adopted: Explanation) -> Interpretation | None:
+        assumed, is_whole = steps_of(adopted), self._layers[-1].limit >= self._whole
+        begun = (path for paths in self._begin(history).paths.values() for path in paths)
+        alive = {path.state: path for path in begun if path.exceptions == adopted.exceptions}
+        for step in range(history.step):
+            wanted = assumed.get(step, Explanation())
+            arcs, agrees = self._steps.arcs(history, step), self._steps.agreeing(history, step + 1)
+            following: dict[State, Path] = {}
+            for path in alive.values():
+                found = arcs(path.state, MANY if is_whole else wanted.size) or ()
+                after = next((arc.after for arc in found if arc.explanation == wanted), None)
+                if after is None or not agrees(after):
+                    continue
+                known = following.get(after)
+                if known is None or path.order < known.order:
+                    following[after] = replace(path, before=path, last=wanted, state=after)
+            alive = following
+        first = min(alive.values(), key=lambda path: path.order, default=None)
+        return None if first is None else first.interpretation

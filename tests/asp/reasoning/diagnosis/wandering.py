@@ -28,11 +28,11 @@ class Habits:
 def wander(
     where: Place, goal: tuple[Literal, ...], steps: int, seed: int, habits: Habits
 ) -> Iterator[History]:
-    """The history at each step, one that grows. The robot knows how it began."""
+    """The history at each step, one that grows. The robot knows what it is told of the start."""
     draw, world = Random(seed), where.world
     state = draw.choice(list(world.initial_states()))
     history, news = History(), list[tuple[int, Report]]()
-    history.observe(world.literals(state), 0)
+    history.observe(where.known(state), 0)
     history.happened(SELECT, True, 0)
     for step in range(steps):
         attempt = _attempt(world, state, draw, habits) if step else None

@@ -1,0 +1,68 @@
+"""The steps of one history: which arcs its states have, and which states were not observed away."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from asp.reasoning.diagnosis.belief import BeliefTracker
+from asp.reasoning.diagnosis.history import History, Record, record_of
+from asp.reasoning.diagnosis.long_histories.arcs import Arc, Arcs
+from asp.reasoning.diagnosis.smallest_explanations import MANY
+from asp.solving import BudgetError, State
+
+ArcsOfState = Callable[[State, float], Sequence[Arc] | None]
+"""The arcs of a state, of at most a size; None where they are not known. Raises LimitError."""
+
+
+class Steps:
+    """The steps of one history; `answers` of the solver are left for arcs that it had not yet.
+
+    They count where they are remembered from another history, too, so that what is known of a
+    history depends on it alone.
+    """
+
+    def __init__(self, arcs: Arcs, tracker: BeliefTracker, most: int) -> None:
+        """`most` is the greatest number of arcs of a state."""
+        self.answers = 0
+        self._arcs = arcs
+        self._tracker = tracker
+        self._most = most
+        self._seen: set[object] = set()
+
+    def record(self, history: History, step: int) -> Record:
+        """What the history says of a step."""
+        return record_of(history.at(step), self._tracker.knowledge)
+
+    def arcs(self, history: History, step: int) -> ArcsOfState:
+        """The arcs of states at a step; BudgetError is raised where too few answers are left."""
+        happened = replace(self.record(history, step), observed=(), goal=None)
+        is_past, most = step >= self._tracker.since, self._most
+
+        def from_state(state: State, room: float) -> Sequence[Arc] | None:
+            key = state, happened, is_past, int(min(room, MANY)), most
+            if key in self._seen:
+                return self._arcs.of(*key)
+            if self.answers <= 0:
+                raise BudgetError("no more is compressed in this decision")
+            found = self._arcs.of(*key)
+            self.answers -= 2 + (most if found is None else len(found))
+            self._seen.add(key)
+            return found
+
+        return from_state
+
+    def agreeing(self, history: History, step: int) -> Callable[[State], bool]:
+        """Whether a state agrees with what was observed at a step."""
+        record, verdicts = self.record(history, step), dict[State, bool]()
+        true = frozenset(each for each in record.observed if each.is_positive)
+        false = frozenset(each.atom for each in record.observed) - true
+
+        def agrees(state: State) -> bool:
+            if state not in verdicts:
+                verdicts[state] = (
+                    true <= state
+                    and false.isdisjoint(state)
+                    and record.goal in (None, self._tracker.holds(state))
+                )
+            return verdicts[state]
+
+        return agrees
