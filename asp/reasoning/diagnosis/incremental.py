@@ -185,11 +185,9 @@ class IncrementalDiagnoser(Generic[H_contra]):
         try:
             with up_to(SEARCH):
                 current().check_conflicts()
-                found = self._frontier and self._frontier.smallest(history)
-                if found is not None:
-                    return found
-                explanations = self._sessions.explanations
-                return explanations.smallest(self._problem(history), self._fewest)
+                frontier, explanations = self._frontier, self._sessions.explanations
+                found = None if frontier is None else frontier.smallest(history)
+                return found or explanations.smallest(self._problem(history), self._fewest)
         except BudgetError:
             return None
 
@@ -201,11 +199,9 @@ class IncrementalDiagnoser(Generic[H_contra]):
 
     def _alternatives(self, history: History, adopted: Explanation, most: int) -> Alternatives:
         """At most so many explanations of the size of one, and whether there are more of them."""
-        found = self._frontier and self._frontier.alternatives(history, adopted, most)
-        if found is not None:
-            return found
-        explanations = self._sessions.explanations
-        return explanations.alternatives(self._problem(history), adopted, most)
+        frontier, explanations = self._frontier, self._sessions.explanations
+        found = None if frontier is None else frontier.alternatives(history, adopted, most)
+        return found or explanations.alternatives(self._problem(history), adopted, most)
 
     def _first(self, history: History, adopted: Explanation) -> Belief | None:
         """The belief at step 0, if the adopted explanation says how it began."""
