@@ -13,18 +13,25 @@ SERIES = {
     "first_ms": "first, with grounding",
     "fast_median_ms": "multi-shot sessions",
     "reference_ms": "from scratch",
+    "median_ms": "compressed",
+    "99_ms": "compressed, 99th percentile",
+    "whole_median_ms": "whole history",
 }
 
 
 def draw(sheets: Sequence[Sheet], path: Path) -> None:
-    """A picture of the sheets with more than one point, side by side; times on a log scale."""
-    shown = [sheet for sheet in sheets if len(sheet.rows) > 1]
+    """A picture of the sheets over numbers, side by side; times on a log scale."""
+    shown = [sheet for sheet in sheets if len(sheet.rows) > 1 and _is_curve(sheet)]
     figure = Figure(figsize=(INCHES * len(shown), INCHES), layout="constrained")
     for axes, sheet in zip(figure.subplots(1, len(shown), squeeze=False)[0], shown, strict=True):
         _curves(axes, sheet)
     figure.axes[0].set_ylabel("one decision (ms)")
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=130)
+
+
+def _is_curve(sheet: Sheet) -> bool:
+    return not isinstance(next(iter(sheet.rows[0].values())), str)
 
 
 def _curves(axes: Axes, sheet: Sheet) -> None:

@@ -10,6 +10,7 @@ from benchmarks import (
     figures,
     games,
     growth,
+    hostile,
     joint_growth,
     memory,
     mutation,
@@ -26,6 +27,7 @@ SIZES = ("small", "full")
 BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "decisions": decisions.main,
     "growth": growth.main,
+    "hostile": hostile.main,
     "peers": peers.main,
     "memory": memory.main,
     "driver": driver.main,
@@ -39,5 +41,8 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "ablation": ablation.main,
 }
 
-FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {"growth": figures.draw}
+FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {
+    "growth": figures.draw,
+    "hostile": figures.draw,
+}
 """The benchmarks that draw what they found beside their JSON."""

@@ -6,7 +6,18 @@ from pathlib import Path
 import pytest
 
 from agents.shared.reasoning import MOST_DOMAINS
-from benchmarks import decisions, driver, growth, memory, mutation, peers, trials, worlds
+from benchmarks import (
+    decisions,
+    driver,
+    growth,
+    hostile,
+    hostile_lives,
+    memory,
+    mutation,
+    peers,
+    trials,
+    worlds,
+)
 from benchmarks.__main__ import main
 from benchmarks.growth import BOOKS, CARRIED, CORRIDORS, ROOMS, STEPS
 from benchmarks.sheets import Row, Sheet
@@ -135,3 +146,14 @@ def test_worlds_have_a_row_a_level() -> None:
     assert column(rows, "level") == ["L1", "L3"]
     assert column(rows, "fluents") == [14, 188]
     assert column(rows, "events") == [1 * 4, 9 * 16]
+
+
+def test_hostile_lives_are_explained_within_their_budgets_as_the_reference_does() -> None:
+    sheets = rows_of(hostile.main("small"))
+    rows = sheets["hostile"]
+    assert column(rows, "variant") == list(hostile_lives.VARIANTS)
+    assert sum(int(str(cut)) for cut in column(rows, "cut")) == 0
+    assert all(int(str(answered)) > 0 for answered in column(rows, "answered"))
+    sizes = [int(str(size)) for size in column(sheets["hidden"], "assumed")]
+    assert sizes == sorted(sizes)
+    assert sizes[-1] >= hostile.BIN
