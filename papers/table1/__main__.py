@@ -19,6 +19,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("folder", type=Path, metavar="DIR", help="run folder of the protocol")
     parser.add_argument("--unaided", type=Path, help="one of a run without goal feedback")
     parser.add_argument("--later", type=Path, help="one of a run whose random events come later")
+    parser.add_argument("--heeding", type=Path, help="one of a run with another `relevance`")
     parser.add_argument(
         "--variant", type=Path, nargs="*", default=(), help="of runs in a variant of the domain"
     )
@@ -26,8 +27,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         variants, told = (tuple(map(read_run, own)) for own in (given.variant, given.told))
-        runs = (read_run(given.folder), _run(given.unaided), _run(given.later))
-        page = document(Sources(*runs, told, variants))
+        single = (given.unaided, given.later, given.heeding)
+        page = document(Sources(read_run(given.folder), *map(_run, single), told, variants))
     except (StoreError, ConfigError, OSError) as error:
         print(error, file=sys.stderr)
         return BAD_INPUT

@@ -14,13 +14,14 @@ class Sources:
     main: Run
     unaided: Run | None = None
     later: Run | None = None
+    heeding: Run | None = None
     told: tuple[Run, ...] = ()
     variants: tuple[Run, ...] = ()
 
 
 def played(sources: Sources) -> list[Run]:
     """The runs that are made by `testbed run`."""
-    single = (sources.main, sources.unaided, sources.later)
+    single = (sources.main, sources.unaided, sources.later, sources.heeding)
     return [*(run for run in single if run is not None), *sources.variants]
 
 
@@ -34,8 +35,8 @@ def commands(sources: Sources) -> str:
         lines.append(f"$ python -m benchmarks.told {main} runs/{run.config.name}{order}")
     options = [
         f"--{option} runs/{run.config.name}"
-        for option, run in (("unaided", sources.unaided), ("later", sources.later))
-        if run is not None
+        for option in ("unaided", "later", "heeding")
+        if (run := getattr(sources, option)) is not None
     ]
     for option, several in (("variant", sources.variants), ("told", sources.told)):
         if several:

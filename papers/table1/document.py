@@ -7,7 +7,7 @@ from papers.table1.drawing import drawing
 from papers.table1.failing import blindness, failures, meetings
 from papers.table1.hypotheses import Hypothesis, both, compared, hypotheses, weigh
 from papers.table1.measured import optimum, times
-from papers.table1.others import later, unaided
+from papers.table1.others import heeding, later, unaided
 from papers.table1.pairs import Pair
 from papers.table1.released import released
 from papers.table1.rows import row_by_row
@@ -46,6 +46,7 @@ def document(sources: Sources) -> str:
         failures(sources.main, mind),
         meetings(pairs),
         *([] if sources.unaided is None else [unaided(sources.unaided)]),
+        *([] if sources.heeding is None else [heeding(sources.heeding, sources.main)]),
         _tests(analysis),
     ]
     return render(

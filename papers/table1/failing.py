@@ -16,7 +16,7 @@ from testbed.studies.table1.published import PUBLISHED
 
 def blindness(pairs: Sequence[Pair]) -> str:
     """When the traditional robot fails, and what decides that, as far as it does in these pairs."""
-    seen = {name: evidence.blindness(own) for name, own in _by_row(pairs).items()}
+    seen = {name: evidence.blindness(own) for name, own in by_row(pairs).items()}
     return render(
         "table1/blindness",
         rows=list(_undone(seen)),
@@ -31,7 +31,8 @@ def _undone(seen: Mapping[str, Blindness]) -> Iterator[tuple[str, ...]]:
         yield (name, *first, str(own.others), f"{own.others_right} of {own.others}")
 
 
-def _by_row(pairs: Sequence[Pair]) -> Mapping[str, list[Pair]]:
+def by_row(pairs: Sequence[Pair]) -> Mapping[str, list[Pair]]:
+    """The pairs of each row, by the table and the scenario."""
     groups: dict[str, list[Pair]] = {}
     for pair in pairs:
         drawn = pair.intended == RANDOM

@@ -1,9 +1,11 @@
-"""Runs under other rules: without goal feedback, and with events that come later."""
+"""Runs under other rules: without goal feedback, with later events, with another relevance."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from statistics import fmean
 
 from papers.table1 import evidence
+from papers.table1.failing import by_row
 from papers.table1.pairs import Pair
 from papers.table1.runs import Run
 from papers.text import percent, render
@@ -14,6 +16,9 @@ from testbed.studies.table1.tables import HEADINGS
 from testbed.studies.tables import Cell
 from testbed.text import number
 from testbed.world import load_world
+
+EFFORT = ("plans", "actions", "execution_units")
+"""What a trial takes whatever the machine."""
 
 
 def later(run: Run, main: Sequence[Pair]) -> str:
@@ -94,3 +99,26 @@ def _place(pair: Pair) -> str:
 
 def _share(right: Sequence[bool]) -> str:
     return f"{100 * sum(right) / len(right):.1f}% ({sum(right)})" if right else "-"
+
+
+def heeding(run: Run, main: Run) -> str:
+    """The rows in which the treatment does otherwise with another `relevance`."""
+    ours, others = (by_row(own.pairs[own.minds[0]]) for own in (main, run))
+    rows = {name: (_effort(ours.get(name, ())), _effort(others[name])) for name in others}
+    changed = [name for name, (before, after) in rows.items() if before != after]
+    return render(
+        "table1/heeding",
+        relevance=run.config.relevance,
+        usual=main.config.relevance,
+        rows=[(name, main.config.relevance, *rows[name][0]) for name in changed]
+        + [(name, run.config.relevance, *rows[name][1]) for name in changed],
+        same=len(others) - len(changed),
+        alike=sum(len(others[name]) for name in others if name not in changed),
+    )
+
+
+def _effort(pairs: Sequence[Pair]) -> tuple[str, ...]:
+    """How many pairs, in how many trials the treatment achieved its goal, what it needed."""
+    own = [pair.treatment for pair in pairs]
+    means = (fmean(side.measures[name] for side in own) if own else None for name in EFFORT)
+    return (str(len(own)), _share([side.achieved for side in own]), *map(number, means))

@@ -7,7 +7,7 @@ import pytest
 from papers.table1 import evidence
 from papers.table1.drawing import drawing, unclassified
 from papers.table1.failing import blindness, failures, meetings
-from papers.table1.others import later, unaided
+from papers.table1.others import heeding, later, unaided
 from papers.table1.pairs import Pair
 from papers.table1.rows import row_by_row
 from papers.table1.runs import Run
@@ -268,6 +268,28 @@ def test_without_feedback_pairs_without_event_or_work_are_counted_apart() -> Non
     assert "random, nothing to do" not in rows
     assert says(page, 1, 1)
     assert page.index("no event") < page.index("nothing to do")
+
+
+def _heeding(relevance: str, actions: int) -> Run:
+    """Locks, of which one run takes so many actions, and a book that was moved: always 8."""
+    own = [
+        *(a_pair("6", a_side(actions=taken, execution_units=90)) for taken in (8, actions)),
+        a_pair("3", a_side(actions=8, execution_units=90)),
+    ]
+    config = CONFIG.model_copy(update={"relevance": relevance})
+    return Run(None, config, {"intentional": own}, {})  # type: ignore[arg-type]  # no folder
+
+
+def test_what_another_relevance_changes_is_told_row_by_row() -> None:
+    usual = _heeding("published", 9)
+    page = heeding(_heeding("definition", 7), usual)
+    table = [line.strip("| ").split(" | ") for line in page.splitlines() if line.startswith("| ")]
+    assert [[cell.strip() for cell in row] for row in table[2:]] == [
+        ["random, 6", relevance, "2", "100.0% (2)", "1.00", actions, "90.00"]
+        for relevance, actions in (("published", "8.50"), ("definition", "7.50"))
+    ]
+    assert says(page, 1, 1)
+    assert not _lines(heeding(_heeding("definition", 9), usual))
 
 
 def test_why_nothing_is_missed_is_said_only_where_nothing_is() -> None:
