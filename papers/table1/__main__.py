@@ -27,8 +27,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     try:
         variants, told = (tuple(map(read_run, own)) for own in (given.variant, given.told))
-        single = (given.unaided, given.later, given.heeding)
-        page = document(Sources(read_run(given.folder), *map(_run, single), told, variants))
+        runs = read_run(given.folder), _run(given.unaided), _run(given.later), _run(given.heeding)
+        page = document(Sources(*runs, told, variants))
     except (StoreError, ConfigError, OSError) as error:
         print(error, file=sys.stderr)
         return BAD_INPUT
