@@ -108,8 +108,8 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         Raises RobotStops where nothing explains the history.
         """
         with deciding() as decision:
-            self._observe(percept)
             thought = Thought(self._explanation)
+            self._observe(percept)
             try:
                 with deciding(self._limits):
                     self._think(thought)
