@@ -62,7 +62,8 @@ def belief_faults(turn: Turn) -> Iterator[Fault]:
 
 def unheeded_faults(turn: Turn, state: State) -> Iterator[Fault]:
     """What is visible and contradicts the belief is said not to be heeded."""
-    unheeded, visible = map(set, (turn.decision.trace.unheeded, turn.percept.visible))
+    unheeded = set(turn.decision.trace.unheeded or ())
+    visible = set(turn.percept.visible)
     expected = {each for each in visible if not turn.office.agrees(state, [str(each)])}
     if unheeded != expected:
         yield turn.fault("belief", f"unheeded is {unheeded}, but {expected} contradicts the belief")

@@ -134,7 +134,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     something other than its robot ended: it says nothing of the robot.
     `no_plan` says why the robot gave up, from what it believed; `in_reach` from what is true.
     `unproved_steps` is the number of decisions under an explanation that is not proved to be as
-    small as any; None where the robot does not tell.
+    small as any, `unheeded_steps` that of decisions at which it saw the contrary of what it
+    believed and did not heed it; None where the robot does not tell.
     `mental` holds `start(N)`, `stop(N)` and `finish`.
     Times are seconds, `..._time_s` by the wall clock, `..._cpu_s` process time of the robot, its
     solver included. `preparation_cpu_s` is what the trial's decisions caused but others can reuse
@@ -182,6 +183,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     in_reach: bool | None = None
     no_plan: NoPlan | None = None
     unproved_steps: Count | None = None
+    unheeded_steps: Count | None = None
     deadline: bool = False
 
     @property

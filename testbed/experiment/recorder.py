@@ -64,6 +64,8 @@ class Recorder:
         record.deadline = record.deadline or trace.deadline
         if trace.minimal is not None:
             record.unproved_steps = (record.unproved_steps or 0) + (trace.minimal == "unproved")
+        if trace.unheeded is not None:
+            record.unheeded_steps = (record.unheeded_steps or 0) + bool(trace.unheeded)
         if record.fine is None:
             if decision.action not in (WAIT, FINISH):
                 self._attempt(decision.step, decision.action, bool(happened))

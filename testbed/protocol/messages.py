@@ -206,7 +206,7 @@ class Trace(Part, frozen=True, kw_only=True):
     that no explanation is smaller than the one the decision was made under; None: the robot does
     not tell. ``deadline`` says that the decision was cut off by the clock, so that it need not be
     the same on another machine. ``unheeded`` are the literals that the robot sees, does not heed,
-    and believes to be false.
+    and believes to be false; None: the robot does not tell.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
     one, empty in the steps between the first and the last of an abstract action.
     """
@@ -222,7 +222,7 @@ class Trace(Part, frozen=True, kw_only=True):
     more_alternatives: bool = False
     futile_at: Count | None = None
     no_plan: NoPlan | None = None
-    unheeded: Items[Literal] = []
+    unheeded: Items[Literal] | None = None
     reason: Text = ""
     minimal: Minimality | None = None
     plans: Count = 0

@@ -13,12 +13,14 @@ from asp.language import (
     Literal,
     Problems,
     Signature,
+    analyse,
     ground_description,
     signature_of,
     syntax,
     variable_domains,
 )
 from asp.refinement import (
+    CoarseDomain,
     Refinement,
     Transition,
     fine_constants,
@@ -312,3 +314,11 @@ class TestFineGoals:
         effects, _ = fine_goal(refinement, transition, constants)
         assert {each.atom for each in effects} == changed
         assert all(e.is_positive == (e.atom in transition.after) for e in effects)
+
+
+def test_a_description_that_nothing_refines_has_the_same_relevant_constants() -> None:
+    alone = CoarseDomain(*analyse((HERE / "tabletop.al").read_text(encoding="utf-8")))
+    goal = parsed(["delivered(block2)"])
+    for transition in acts("tabletop"):
+        assert relevant(alone, transition, goal) == relevant(of("tabletop"), transition, goal)
+    assert relevant(alone, None, goal) == {"block2"}

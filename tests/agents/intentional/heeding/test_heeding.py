@@ -1,12 +1,15 @@
 """What a robot heeds of what it sees, by `relevance`: each rule in a domain that needs it."""
 
+import json
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 import yaml
+from typer.testing import CliRunner
 
-from testbed.config import load_config
+from testbed.cli import app
+from testbed.config import config_names, load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
@@ -44,7 +47,10 @@ def _played(
     overrides = [f"relevance={relevance}"] if relevance else []
     (spec,) = plan_trials(load_config("own.yaml", overrides))
     moments = list[Moment]()
-    assert play_trial(spec, InProcessRobot(make_robot), moments.append).record.achieved
+    record = play_trial(spec, InProcessRobot(make_robot), moments.append).record
+    assert record.achieved
+    told = [m.decision.trace.unheeded for m in moments if m.decision.trace.unheeded is not None]
+    assert record.unheeded_steps == (sum(map(bool, told)) if told else None)
     return moments
 
 
@@ -148,7 +154,7 @@ def _against(relevance: str) -> dict[int, set[str]]:
     """By step what the robot sees, believes to be otherwise, and does not heed."""
     dredged = [(2, "dredge(mill)"), (3, "dredge(spring)")]
     moments = _played(CANAL, THROUGH, "floats(barge,delta)", dredged, relevance)
-    return {m.percept.step: set(m.decision.trace.unheeded) for m in moments}
+    return {m.percept.step: set(m.decision.trace.unheeded or ()) for m in moments}
 
 
 def test_what_the_last_action_names_is_heeded() -> None:
@@ -172,3 +178,65 @@ def test_the_baseline_looks_at_its_outcome_whatever_is_relevant() -> None:
             "crank(barge,weir)",
             "sail(barge,delta)",
         ]
+
+
+FINE = {
+    "name": "fine",
+    "levels": ["row"],
+    "level_sizes": {"row": {"rooms": 4, "rows": 1, "columns": 2, "objects": [[1, 1]]}},
+    "goal": ["in_hand(rob1,object1)"],
+    "initial": ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room3_1)"],
+    "script": [{"at_action": 1, "action": "fine_exo_move(object1_1,room2_1)"}],
+    "robots": ["intentional"],
+    "limit": 1,
+}
+
+
+@pytest.mark.parametrize("relevance", ["published", "definition", "plan", "all"])
+def test_it_is_the_same_at_the_fine_resolution(relevance: str) -> None:
+    """The object comes from the third room into the second one, through which the robot goes."""
+    Path("fine.yaml").write_text(yaml.safe_dump(FINE), encoding="utf-8")
+    (spec,) = plan_trials(load_config("fine.yaml", [f"relevance={relevance}"]))
+    record = play_trial(spec, InProcessRobot(make_robot)).record
+    actions = [attempt.action for attempt in record.actions]
+    if relevance == "published":
+        assert actions[:2] == ["move(rob1,room2)", "move(rob1,room3)"]
+        assert record.unheeded_steps
+    else:
+        assert actions == ["move(rob1,room2)", "pickup(rob1,object1)"]
+        assert record.unheeded_steps == 0
+
+
+def test_a_trial_with_another_relevance_is_another_trial_with_the_same_seed() -> None:
+    specs = {
+        each: plan_trials(load_config("table1", ["limit=2", f"relevance={each}"]))
+        for each in ("published", "definition", "plan", "all")
+    }
+    assert len({spec.trial for own in specs.values() for spec in own}) == 4 * len(specs["all"])
+    assert len({tuple(spec.seed for spec in own) for own in specs.values()}) == 1
+
+
+def test_the_published_studies_heed_what_the_released_controller_did() -> None:
+    relevances = {name: load_config(name).relevance for name in config_names()}
+    published = {name for name, relevance in relevances.items() if relevance == "published"}
+    assert published == {"quickstart", "table1", "levels"}
+    assert set(relevances.values()) == {"published", "definition"}
+
+
+def test_a_replay_tells_what_was_not_heeded() -> None:
+    _looking("SB")  # writes the configuration
+    arguments = ["run", "own.yaml", "relevance=published", "link=inprocess", "--out", "own"]
+    assert CliRunner().invoke(app, [*arguments, "--quiet"]).exit_code == 0
+    (line,) = Path("own/trials.jsonl").read_text(encoding="utf-8").splitlines()
+    told = CliRunner().invoke(app, ["replay", "own", "--trial", json.loads(line)["trial"]])
+    assert told.exit_code == 0
+    found = [line.split() for line in told.stdout.splitlines() if "unheeded" in line]
+    assert found[:2] == [["unheeded", "moors(brig,north)"], ["unheeded", "-moors(brig,west)"]]
+
+
+def test_an_unknown_relevance_is_refused_in_one_line() -> None:
+    refused = CliRunner().invoke(app, ["check", "office", "relevance=plans"])
+    assert refused.exit_code == 2
+    (line,) = refused.stderr.splitlines()
+    assert "relevance" in line
+    assert "plan" in line.replace("plans", "")

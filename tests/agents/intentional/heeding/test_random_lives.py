@@ -61,7 +61,7 @@ def test_what_is_heeded_is_believed_and_the_rest_is_on_record(
             belief = frozenset(decision.trace.belief)
             visible = where.world.visible(state, where.robot)
             against = {each for each in visible if (each.atom in belief) != each.is_positive}
-            assert against == set(decision.trace.unheeded)
+            assert against == set(decision.trace.unheeded or ())
             walked_past += len(against)
     if relevance == "all":
         assert walked_past == 0
