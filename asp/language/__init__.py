@@ -17,6 +17,7 @@ from asp.language.description import Trigger as Trigger
 from asp.language.errors import DomainError as DomainError
 from asp.language.errors import Problems as Problems
 from asp.language.errors import SourceError as SourceError
+from asp.language.errors import nearest as nearest
 from asp.language.errors import suggestion as suggestion
 from asp.language.functions import Function as Function
 from asp.language.functions import excluding_place as excluding_place

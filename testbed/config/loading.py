@@ -3,14 +3,14 @@
 import inspect
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from asp.language import load_description, suggestion
+from asp.language import load_description, nearest, suggestion
 from testbed.config import models
 from testbed.config.checking import Check, check
 from testbed.config.composing import compose
@@ -72,7 +72,9 @@ def load_config(
         found = error.errors(include_url=False)
         cut = {item["loc"][:-1] for item in found if _is_rest_of_literal(item)}
         kept = (item for item in found if item["type"] != "literal" or item["loc"][:-1] not in cut)
-        raise ConfigError([_describe(item, places) for item in kept]) from None
+        meant = set(map(_meant_key, found))
+        told = (item for item in kept if item["type"] != "missing" or item["loc"] not in meant)
+        raise ConfigError([_describe(item, places) for item in told]) from None
     check(config, places, checks)
     if config.is_fine:
         return config
@@ -82,6 +84,15 @@ def load_config(
 def _is_rest_of_literal(error: ErrorDetails) -> bool:
     """Whether a key is what YAML cut off from an unquoted literal, at a comma."""
     return error["type"] == "extra_forbidden" and ")" in str(error["loc"][-1])
+
+
+def _meant_key(error: ErrorDetails) -> Key | None:
+    """The key that an unknown one is a misspelling of; None: none, or it is known."""
+    if error["type"] != "extra_forbidden":
+        return None
+    *section, name = error["loc"]
+    near = nearest(str(name), _fields_of(section))
+    return None if near is None else (*section, near)
 
 
 def _describe(error: ErrorDetails, places: Places) -> str:
@@ -142,11 +153,16 @@ def _known_key(key: Key) -> str:
     """What an unknown key should be: in quotes, or one of its section."""
     if "(" in str(key[-1]) or ")" in str(key[-1]):
         return "put quotes around an action or a literal with a comma in it"
+    return suggestion(str(key[-1]), _fields_of(key[:-1]))
+
+
+def _fields_of(key: Iterable[str | int]) -> Iterable[str]:
+    """The keys of the section that a key leads to."""
     section: type[BaseModel] = ExperimentConfig
-    for part in key[:-1]:
+    for part in key:
         inner = SECTION.search(str(get_type_hints(section).get(str(part))))
         section = getattr(models, inner[1]) if inner else section
-    return suggestion(str(key[-1]), section.model_fields)
+    return section.model_fields
 
 
 def _located(config: ExperimentConfig, path: Path) -> ExperimentConfig:

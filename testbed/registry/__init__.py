@@ -78,7 +78,10 @@ class Registry(Generic[T]):
     def _place(self, name: str) -> str:
         claims = self._claims()
         if name not in claims:
-            raise RegistryError(f"unknown {self.kind} '{name}'; {suggestion(name, claims)}")
+            module, dot, attribute = name.rpartition(".")
+            own = f"of a module of your own it is module:Class, such as {module}:{attribute}"
+            near = suggestion(name, claims, otherwise=own if dot else None)
+            raise RegistryError(f"unknown {self.kind} '{name}'; {near}")
         by_owner = claims[name]
         if len(by_owner) > 1:
             owners = " and ".join(sorted(by_owner))

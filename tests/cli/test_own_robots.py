@@ -134,6 +134,7 @@ def test_a_robot_beside_the_configuration_plays_with_the_others() -> None:
         ("carriers:Carrier.Inner", ["Inner"]),
         ("carriers:", ["module:Class"]),
         ("car riers:Carrier", ["module:Class"]),
+        ("carriers.Carrier", ["module:Class", "carriers:Carrier"]),
         ("nowhere.carriers:Carrier", ["nowhere"]),
         ("broken:Carrier", ["ZeroDivisionError"]),
         ("leaving:Carrier", ["SystemExit"]),

@@ -14,6 +14,7 @@ pytestmark = pytest.mark.versions
     ("old", "new", "line"),
     [
         ("seed: 3", "sed: 3", "tiny.yaml:2: sed: unknown key; did you mean 'seed'?"),
+        ("goal:", "gaol:", "tiny.yaml:3: gaol: unknown key; did you mean 'goal'?"),
         ("steps: 20", "stps: 20", "tiny.yaml:11: limits.stps: unknown key; did you mean 'steps'?"),
         ("seed: 3", "seed: three", "tiny.yaml:2: seed: should be an integer, not 'three'"),
         (
