@@ -14,6 +14,7 @@ _JOINT_LIVES = "tests/agents/intentional/test_joint_lives.py"
 _PLANS = "tests/asp/reasoning/planning/test_plans.py"
 _PLANS_KEPT = "tests/asp/reasoning/planning/test_incremental_plans.py"
 _THE_END = f"{_COMPRESSION}::test_the_end_of_a_history_is_explained_without_what_was_compressed"
+_OUTCOMES = "tests/asp/theories/test_outcomes.py"
 _REASONS = "tests/agents/intentional/test_reasons.py"
 
 EXERCISED: Mapping[str, tuple[str, ...]] = {
@@ -56,7 +57,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "joint": (_JOINT, _JOINT_LIVES),
     "misreadings": ("tests/asp/reasoning/diagnosis/test_misreadings.py",),
     "order": (_EXPLANATIONS, "tests/asp/theories/test_order.py"),
-    "planning": (_REPORTS, _PREFERENCES, _PLANS, _LIVES),
+    "planning": (_REPORTS, _OUTCOMES, _PREFERENCES, _PLANS, _LIVES),
     "reach": (
         f"{_REASONS}::test_where_states_are_too_many_to_look_at_there_are_shorter_proofs",
         f"{_REASONS}::test_what_holds_by_definition_may_cease_to",

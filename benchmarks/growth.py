@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
+from agents.intentional.activities import History
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.shared import Intention, Reasoner
 from asp.language import Action, Fluent, Literal
 from asp.reasoning import Knowledge, knowledge

@@ -10,7 +10,8 @@ import numpy as np
 
 from agents.adversary import AdversaryView, Game
 from agents.intentional import IntentionalRobot
-from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
+from agents.intentional.activities import History
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.shared import Intention
 from asp.language import Action, Literal
 from asp.reasoning import Knowledge
@@ -24,7 +25,7 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
-from testbed.protocol import NONE, Decision, Percept, Task
+from testbed.protocol import NONE, Decision, Percept, Plans, Task
 from testbed.world import load_world, world_of
 
 EVERY = 4
@@ -148,9 +149,11 @@ class Watched:
         self._life.moments.append(Moment(percept.step, ms, grounding, held.size, adopted, cut))
         return decision
 
-    def _reasoner(self, knowledge: Knowledge, goal: tuple[Literal, ...], limit: int) -> "Watched":
-        self._fast = IncrementalReasoner(knowledge, goal, limit)
-        self._reference = ReferenceReasoner(knowledge, goal, limit)
+    def _reasoner(
+        self, knowledge: Knowledge, goal: tuple[Literal, ...], limit: int, plans: Plans
+    ) -> "Watched":
+        self._fast = IncrementalReasoner(knowledge, goal, limit, plans)
+        self._reference = ReferenceReasoner(knowledge, goal, limit, plans)
         return self
 
     def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:

@@ -12,8 +12,9 @@ from clingo import Symbol
 from matplotlib.figure import Figure
 
 from agents.intentional import joint, reasoners
+from agents.intentional.activities import History
 from agents.intentional.joint import JointReasoner, StagedJointReasoner
-from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
 from asp.reasoning import Knowledge

@@ -1,6 +1,7 @@
 """ATI whose plan is found as TI finds it."""
 
-from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
+from agents.intentional.activities import History
+from agents.intentional.reasoners import ReferenceReasoner, read_intention
 from agents.shared import Intention
 from asp.reasoning.diagnosis import Diagnosis
 from asp.solving import fact, ground, optimal_model, theory

@@ -5,7 +5,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 from agents.intentional import IntentionalRobot
-from agents.intentional.reasoners import History, IncrementalReasoner
+from agents.intentional.activities import History
+from agents.intentional.reasoners import IncrementalReasoner
 from agents.shared import Intention, Reasoner
 from asp.language import Action, Literal, parse_description
 from asp.reasoning.diagnosis import Diagnosis, Explanation
@@ -82,11 +83,7 @@ def besiege(
     """
     world = world_of(parse_description(source, "office.al"))
     siege = Siege()
-    robot = IntentionalRobot(
-        lambda knowledge, wanted, limit: Recording(
-            IncrementalReasoner(knowledge, wanted, limit), recorded, siege
-        )
-    )
+    robot = IntentionalRobot(lambda *asked: Recording(IncrementalReasoner(*asked), recorded, siege))
     told, untold = (Core(world, _rules(goal, steps, mode), ()) for mode in ("always", "never"))
     told.reset(seed=0, initial=initial, trial="siege")
     untold.reset(seed=0, initial=initial, trial="siege")

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from agents.intentional.reasoners import History
+from agents.intentional.activities import History
 from agents.shared import Reasoner
 from asp.language import Action, Fluent, Literal
 from asp.reasoning import Knowledge, knowledge

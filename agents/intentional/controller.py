@@ -5,15 +5,10 @@ from typing import ClassVar
 
 from msgspec import structs
 
+from agents.intentional.activities import Activity, History, start_activity
 from agents.intentional.heeding import HEEDING, Scene
 from agents.intentional.programs import Decided, Watcher
-from agents.intentional.reasoners import (
-    Activity,
-    History,
-    IncrementalReasoner,
-    ReferenceReasoner,
-    start_activity,
-)
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared import Intention, MakeReasoner, Reasoner, ReasoningRobot, Thought
 from asp.language import Action, Literal
@@ -25,7 +20,9 @@ class IntentionalRobot(ReasoningRobot[History]):
     """A robot that reasons with the adapted theory of intentions (ATI)."""
 
     # At step 1 it starts an activity, or finishes.
-    capabilities: ClassVar = Capabilities(knowledge=("complete", "seen"), first_action_step=2)
+    capabilities: ClassVar = Capabilities(
+        knowledge=("complete", "seen"), plans=("optimistic", "conformant"), first_action_step=2
+    )
     _reasons_type = IntentionalReasons
     _reasons: IntentionalReasons
     _make_reasoner: MakeReasoner[History] = IncrementalReasoner
@@ -50,7 +47,7 @@ class IntentionalRobot(ReasoningRobot[History]):
         if self.watcher is not None:
             self.watcher(Decided(self._domain, self._goal, self._history, diagnosis, intention))
         is_over = is_mental(intention.action) or intention.action == FINISH
-        self._ahead = intention.plan if is_over else self._history.left(diagnosis)
+        self._ahead = intention.plan if is_over else self._history.left(diagnosis.indices)
         return intention
 
     def _hear(self, percept: Percept) -> None:
@@ -93,7 +90,7 @@ class IntentionalRobot(ReasoningRobot[History]):
             plans=len(self._history.activities),
         )
         if diagnosis is not None:
-            trace = self._with_alternatives(self._with_explanation(trace), diagnosis)
+            trace = self._with_alternatives(self._with_explanation(trace, thought), diagnosis)
         if diagnosis is None or intention is None:
             return trace
         trace = structs.replace(
@@ -109,6 +106,7 @@ class IntentionalRobot(ReasoningRobot[History]):
             ],
             plans=trace.plans + (intention.action == start_activity(trace.plans + 1)),
         )
+        self._expect(intention.believed - {GOAL}, self._ahead)
         return self._reasons.explained(trace, self._history, intention, diagnosis)
 
     def _with_alternatives(self, trace: Trace, diagnosis: Diagnosis) -> Trace:

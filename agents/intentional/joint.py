@@ -8,8 +8,9 @@ from dataclasses import replace
 
 from clingo import Symbol
 
+from agents.intentional.activities import History
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.reasoners import History, ReferenceReasoner, read_intention
+from agents.intentional.reasoners import ReferenceReasoner, read_intention
 from agents.shared import Intention
 from asp.reasoning.diagnosis import Diagnosis, Explanation, diagnosis_of, event_limits
 from asp.solving import fact, first_model, ground, optimal_model, theory
@@ -96,13 +97,18 @@ class StagedJointReasoner(ReferenceReasoner):
         return None
 
 
+_ABLE = replace(IntentionalRobot.capabilities, plans=("optimistic",))
+
+
 class Joint(IntentionalRobot):
     """TI: explanation and intention are found together, in one program."""
 
+    capabilities = _ABLE
     _make_reasoner = JointReasoner
 
 
 class StagedJoint(IntentionalRobot):
     """TI in two stages: all smallest explanations are considered while planning."""
 
+    capabilities = _ABLE
     _make_reasoner = StagedJointReasoner

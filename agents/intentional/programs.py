@@ -8,7 +8,8 @@ from textwrap import fill
 
 from clingo import Symbol
 
-from agents.intentional.reasoners import BEYOND_LIMIT, History, Program, ReferenceReasoner
+from agents.intentional.activities import History
+from agents.intentional.reasoners import BEYOND_LIMIT, Program, ReferenceReasoner
 from agents.shared import Intention
 from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation
@@ -31,6 +32,10 @@ _FIRST_PLAN = """\
 % ==== Of several shortest plans the first in the order of declaration ====
 
 #minimize { R@n-I,A : occurs(A,I), rank(A,R), paa(A), current_step(I1), I1 < I }.
+
+% Before that, as in (a): no activity is futile that need not be.
+#minimize { 1@n+3,AN : futile_activity(AN,I) }.
+#maximize { 1@n+2 : goes_on; 1@n+1 : finishes }.
 """
 
 
@@ -64,7 +69,7 @@ def program_of(decided: Decided) -> str:
 
 def _phase_two(decided: Decided) -> Program:
     intention, history, diagnosis = decided.intention, decided.history, decided.diagnosis
-    left = history.left(diagnosis) if diagnosis.indices else ()
+    left = history.left(diagnosis.indices)
     gives_up = intention.action == FINISH and GOAL not in intention.believed
     reference = ReferenceReasoner(decided.knowledge, decided.goal, len(intention.plan))
     length = max(1, len(left), len(intention.plan))

@@ -5,69 +5,30 @@ answers on multi-shot sessions.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 from clingo import Symbol
 
-from agents.shared import Intention, sessions_of
-from asp.language import Action, Literal
-from asp.reasoning import Knowledge, diagnosis
+from agents.intentional.activities import History
+from agents.intentional.options import Option, in_order, intended
+from agents.shared import Conformant, Intention, outlook_of, sessions_of
+from asp.language import Action
+from asp.reasoning import Goal, Knowledge
 from asp.reasoning.diagnosis import (
-    GOAL,
+    Belief,
     Diagnosis,
     Explanation,
     IncrementalDiagnoser,
     ReferenceDiagnoser,
+    diagnosis_of,
 )
-from asp.solving import fact, first_model, ground, literal_of, select, theory
-from testbed.protocol import FINISH
+from asp.reasoning.planning import reference_conformant_planner
+from asp.solving import answer_sets, fact, first_model, ground, literal_of, select, theory
+from testbed.protocol import Plans
 
 BEYOND_LIMIT = (fact("beyond_limit"),)
 """What is given where no plan within the limit exists (53)."""
-
-
-@dataclass(frozen=True)
-class Activity:
-    """A plan made for the goal: its name (1, 2, ...) and its physical actions."""
-
-    name: int
-    plan: tuple[Action, ...]
-
-
-def start_activity(name: int) -> Action:
-    """The mental action of starting an activity."""
-    return Action.of("start", (str(name),))
-
-
-def stop_activity(name: int) -> Action:
-    """The mental action of stopping an activity."""
-    return Action.of("stop", (str(name),))
-
-
-@dataclass
-class History(diagnosis.History):
-    """What was observed and attempted at each step, and every activity so far."""
-
-    activities: list[Activity] = field(default_factory=list)
-
-    def activity_facts(self) -> Iterator[Symbol]:
-        """What the theory knows of each activity: its goal, its components, its length."""
-        for activity in self.activities:
-            yield fact("activity_goal", activity.name, GOAL)
-            yield fact("activity_length", activity.name, len(activity.plan))
-            for index, action in enumerate(activity.plan, start=1):
-                yield fact("activity_component", activity.name, index, action)
-
-    def left(self, diagnosis: Diagnosis) -> tuple[Action, ...]:
-        """What is left of the plan of the activity that is carried out."""
-        name, index = next(iter(diagnosis.indices.items()))
-        return self.activities[name - 1].plan[index:]
-
-    @property
-    def longest(self) -> int:
-        """The length of the longest plan so far."""
-        return max((len(activity.plan) for activity in self.activities), default=0)
 
 
 class Program(NamedTuple):
@@ -83,17 +44,27 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
 
     theories = ("history", "intentions", "goal_persistence")
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
+    def __init__(
+        self, knowledge: Knowledge, goal: Goal, plan_limit: int, plans: Plans = "optimistic"
+    ) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
         super().__init__(knowledge, goal)
+        self._knowledge = knowledge
+        self._goal = goal
         self._plan_limit = plan_limit
+        self._is_conformant = plans == "conformant" and not knowledge.deterministic
 
     def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
         """Phase two, over a horizon that grows from the end of the activity in progress on.
 
         Where no activity is in progress this is iterative deepening: the first horizon with an
-        intention is that of a shortest plan. Beyond the plan limit the goal is futile.
+        intention is that of a shortest plan. Beyond the plan limit the goal is futile. Conformant
+        plans are no part of the theory: they are looked for from every state that may be.
         """
+        if self._is_conformant:
+            outlook = Conformant(reference_conformant_planner(self._knowledge))
+            options = self._options(history, diagnosis)
+            return intended(options, history, diagnosis, outlook, self._goal, self._plan_limit)
         for length in self._lengths(history, diagnosis):
             intention = self._intention(history, diagnosis, length, ())
             if intention is not None:
@@ -123,8 +94,10 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
 
     def _lengths(self, history: History, diagnosis: Diagnosis) -> range:
         """How many more physical actions to consider, one number after the other."""
-        left = (len(history.activities[n - 1].plan) - i for n, i in diagnosis.indices.items())
-        first = max([1, *left])
+        left = len(history.left(diagnosis.indices))
+        if not self._knowledge.deterministic:  # under other outcomes more of it may be left
+            left = len(history.left(dict.fromkeys(diagnosis.indices, 0)))
+        first = max(1, left)
         return range(first, max(first, self._plan_limit) + 1)
 
     def _intention(
@@ -133,7 +106,25 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
         """The intention where `length` more physical actions are considered, if there is one."""
         program = self.phase_two(history, diagnosis, length, more)
         model = first_model(ground(program.texts.values(), program.constants, program.facts))
-        return None if model is None else read_intention(model)
+        if model is None or self._knowledge.deterministic:
+            return None if model is None else read_intention(model)
+        under = replace(diagnosis, indices=diagnosis_of(model).indices)
+        return replace(read_intention(model), under=under)
+
+    def _options(self, history: History, diagnosis: Diagnosis) -> list[Option]:
+        """What may be so at the history's step, in the order of the fluents."""
+        facts = [*self._facts(history), *diagnosis.explanation.facts("explained")]
+        texts = [*self._base, theory("belief")]
+        found, _ = answer_sets(ground(texts, self._constants(history, history.step), facts))
+        known = self._knowledge.description.fluents
+        options = []
+        for shown in found:
+            believed = [fluent for (fluent,) in select(shown, "believed", 1)]
+            places = (f.arguments for f in believed if f.match("current_action_index", 2))
+            active = {name.number: index.number for name, index in places if index.number >= 0}
+            state = frozenset(map(literal_of, believed)).intersection(known)
+            options.append(Option(state, active))
+        return in_order(options, self._knowledge)
 
     def _facts(self, history: History) -> Iterator[Symbol]:
         yield from super()._facts(history)
@@ -160,12 +151,13 @@ FIRST_EVENT = 1
 class IncrementalReasoner(IncrementalDiagnoser[History]):
     """Reasons about one goal in one domain, as the reference does, for one trial."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[Literal, ...], plan_limit: int) -> None:
+    def __init__(
+        self, knowledge: Knowledge, goal: Goal, plan_limit: int, plans: Plans = "optimistic"
+    ) -> None:
         """`plan_limit` is the greatest number of actions in a plan."""
-        sessions = sessions_of(knowledge)
-        reference = ReferenceReasoner(knowledge, goal, plan_limit)
-        super().__init__(sessions.diagnosis, goal, FIRST_EVENT, reference)
-        self._plans = sessions.plans
+        reference = ReferenceReasoner(knowledge, goal, plan_limit, plans)
+        super().__init__(sessions_of(knowledge).diagnosis, goal, FIRST_EVENT, reference)
+        self._outlook = outlook_of(knowledge, plans)
         self._actions, _ = knowledge.actions
         self._plan_limit = plan_limit
         self._active: int | None = None
@@ -174,24 +166,15 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
     def diagnose(self, history: History, adopted: Explanation, /) -> Diagnosis:
         """Phase one. Raises InconsistentHistoryError."""
         self._follow(history)
-        return replace(super().diagnose(history, adopted), indices=self._indices(history))
+        found = super().diagnose(history, adopted)
+        return replace(found, indices=self._indices(history, self.belief))
 
     def intend(self, history: History, diagnosis: Diagnosis, /) -> Intention:
         """Phase two."""
-        state = self.belief.state
-        if self.holds(state):
-            return Intention(FINISH, (), state | {GOAL})
-        for name in diagnosis.indices:
-            left = history.left(diagnosis)
-            if left and self._plans.succeeds(state, self._goal, left):
-                return Intention(left[0], (), state)  # (38)
-            return Intention(stop_activity(name), (), state)  # (41)
-        plan = self._plans.shortest(state, self._goal, self._plan_limit)
-        if plan is None:
-            return Intention(FINISH, (), state)  # (53)
-        earlier = (activity.name for activity in history.activities if activity.plan == plan)
-        name = next(earlier, len(history.activities) + 1)
-        return Intention(start_activity(name), plan, state)  # (42), (52)
+        options = [Option(each.state, self._indices(history, each)) for each in self.beliefs]
+        options = in_order(options, self._knowledge)
+        limit = self._plan_limit
+        return intended(options, history, diagnosis, self._outlook, self._goal, limit)
 
     def _follow(self, history: History) -> None:
         """Which activity is active after the last step (1), and what took effect since it is."""
@@ -206,13 +189,12 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
                 if done not in self._executed:  # a step may be diagnosed twice
                     self._executed.append(done)
 
-    def _indices(self, history: History) -> dict[int, int]:
+    def _indices(self, history: History, belief: Belief) -> dict[int, int]:
         """The index of the active activity (3), which stood still where the goal held (7)-(9)."""
         if self._active is None:
             return {}
         plan, index = history.activities[self._active - 1].plan, 0
-        held = self.belief.held
         for step, action in self._executed:
-            if step not in held and plan[index : index + 1] == (action,):
+            if step not in belief.held and plan[index : index + 1] == (action,):
                 index += 1
         return {self._active: index}

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from agents.intentional.reasoners import FIRST_EVENT, History
+from agents.intentional.activities import History
+from agents.intentional.reasoners import FIRST_EVENT
 from agents.shared import Intention, Narration, Reasons, Step, listed
 from asp.language import Action
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation, problem_of
@@ -25,6 +26,17 @@ class IntentionalReasons(Reasons):
         self, trace: Trace, history: History, intention: Intention, diagnosis: Diagnosis
     ) -> Trace:
         """The trace with the reason of a decision at the history's step."""
+        trace = self._reason(trace, history, intention, diagnosis)
+        for outcome in trace.explanation.outcomes if trace.explanation else ():
+            what = (outcome.action, " at step ", Step(outcome.step))
+            reason = trace.reason.parts if isinstance(trace.reason, Narration) else (trace.reason,)
+            said = Narration(*what, " had another outcome than expected; ", *reason)
+            trace = structs.replace(trace, reason=said)
+        return trace
+
+    def _reason(
+        self, trace: Trace, history: History, intention: Intention, diagnosis: Diagnosis
+    ) -> Trace:
         state, action = intention.believed - {GOAL}, intention.action
         if action == FINISH:
             if GOAL in intention.believed:
@@ -33,7 +45,7 @@ class IntentionalReasons(Reasons):
             return structs.replace(trace, reason=text, no_plan=no_plan)
         if action.name == "start":
             return structs.replace(trace, reason=_started(history, intention))
-        left = history.left(diagnosis)
+        left = history.left(diagnosis.indices)
         if action.name == "stop":
             futile_at, text = self._futile(history.step, state, left)
             return structs.replace(trace, reason=text, futile_at=futile_at)
@@ -55,7 +67,7 @@ class IntentionalReasons(Reasons):
             return [], True
         others = (e for e in found if e != own.without_start)
         proved = [replace(other, proved=own.proved) for other in others]
-        return [self.explanation(other, (), history.step) for other in proved], more
+        return [self.explanation(other, (), None, history.step) for other in proved], more
 
     def _found(self, history: History, diagnosis: Diagnosis) -> tuple[list[Explanation], bool]:
         if diagnosis.alternatives is not None:
@@ -66,18 +78,21 @@ class IntentionalReasons(Reasons):
 
     def _futile(self, step: int, state: State, left: tuple[Action, ...]) -> tuple[int, Narration]:
         """The first step at which the projection of a plan breaks (36), in words, too."""
+        transitions, states = self._sessions.transitions, [state]
         for later, action in enumerate(left, start=step):
-            after = self._sessions.transitions.after(state, action, ())
-            if after is None or not after[1]:
-                hindrance = self._sessions.transitions.hindrance(state, action)
+            found = {state: transitions.all_after(state, action, ()) for state in states}
+            blocked = [state for state, (_, took_effect) in found.items() if not took_effect]
+            if blocked and (self._is_conformant or len(blocked) == len(states)):
+                hindrance = transitions.hindrance(blocked[0], action)
                 because = (" with ", listed(hindrance)) if hindrance else ()
                 said = ("futile: ", action, " is impossible at step ", Step(later), *because)
                 return later, Narration(*said)
-            state = after[0]
+            states = list(dict.fromkeys(each for after, _ in found.values() for each in after))
         end = step + len(left)
-        failing = listed(each.complement for each in self._tracker.missing(state))
-        said = ("futile: its end, at step ", Step(end), ", violates the goal with ", failing)
-        return end, Narration(*said)
+        missing = next(filter(None, map(self._tracker.missing, states)), ())
+        failing = listed(each.complement for each in missing)
+        how = ("with ", failing) if missing else ("after some outcomes",)
+        return end, Narration("futile: its end, at step ", Step(end), ", violates the goal ", *how)
 
 
 def _started(history: History, intention: Intention) -> str:

@@ -137,7 +137,10 @@ class EitherRobot:
     """Acts at the fine resolution if its task has one, else as `IntentionalRobot` does."""
 
     capabilities: ClassVar = Capabilities(
-        resolutions=("coarse", "fine"), knowledge=("complete", "seen"), first_action_step=2
+        resolutions=("coarse", "fine"),
+        knowledge=("complete", "seen"),
+        plans=("optimistic", "conformant"),
+        first_action_step=2,
     )
     watcher: Watcher | None = None
     """As of `IntentionalRobot`; at the fine resolution it is told coarse decisions."""

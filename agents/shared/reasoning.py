@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 from typing import Protocol
 
+from agents.shared.outlook import Conformant, Optimistic, Outlook
 from asp.language import Action, Fluent
 from asp.reasoning import Knowledge, Transitions
 from asp.reasoning.diagnosis import Diagnoser, Diagnosis, DiagnosisSessions, H_contra
-from asp.reasoning.planning import IncrementalPlanner, Reachability
+from asp.reasoning.planning import IncrementalConformantPlanner, IncrementalPlanner, Reachability
 from asp.solving import Limits, Recent
-from testbed.protocol import Task
+from testbed.protocol import Plans, Task
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,7 @@ class Sessions:
     transitions: Transitions
     diagnosis: DiagnosisSessions
     plans: IncrementalPlanner
+    conformant: IncrementalConformantPlanner
     reach: Reachability
 
 
@@ -63,7 +65,17 @@ def sessions_of(knowledge: Knowledge) -> Sessions:
         description = knowledge.description
         plans = IncrementalPlanner(description.source, f"{description.name}.al")
         diagnosis = DiagnosisSessions(knowledge)
-        reach = Reachability(description, diagnosis.transitions, plans)
-        return Sessions(diagnosis.transitions, diagnosis, plans, reach)
+        transitions, actions = diagnosis.transitions, description.agent_actions
+        conformant = IncrementalConformantPlanner(actions, transitions, plans)
+        reach = Reachability(description, transitions, plans)
+        return Sessions(transitions, diagnosis, plans, conformant, reach)
 
     return _SESSIONS.get(knowledge.program, made)
+
+
+def outlook_of(knowledge: Knowledge, plans: Plans) -> Outlook:
+    """How plans of a domain are judged, by its sessions."""
+    sessions = sessions_of(knowledge)
+    if plans == "conformant" and not knowledge.deterministic:
+        return Conformant(sessions.conformant)
+    return Optimistic(sessions.plans)

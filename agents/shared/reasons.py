@@ -1,6 +1,7 @@
 """Reasons of decisions in words: for people, with no part in a decision."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from types import MappingProxyType
 
 from agents.shared.narration import Narration
 from agents.shared.reasoning import limits_of, sessions_of
@@ -21,25 +22,40 @@ class Reasons:
         self._limits = limits_of(task)
         self._sessions = sessions_of(knowledge)
         self._tracker = self._sessions.diagnosis.tracker(self._goal)
+        self._is_conformant = task.plans == "conformant" and not knowledge.deterministic
 
     def explanation(
-        self, explanation: Explanation, misread: Collection[Happening], step: int
+        self,
+        explanation: Explanation,
+        misread: Collection[Happening],
+        outcome: Happening | None,
+        step: int,
     ) -> protocol.Explanation:
-        """An explanation found at a step as it travels, with the tests that were wrong."""
+        """An explanation found at a step as it travels.
+
+        With the tests that were wrong, and the action that had another outcome than expected.
+        """
         return protocol.Explanation(
             step=step,
             unobserved=_events(explanation.unobserved),
             distrusted=_events((*explanation.distrusted, *misread)),
+            outcomes=_events([outcome] if outcome else []),
             exceptions=self._knowledge.against(explanation.exceptions),
             minimal="proved" if explanation.proved else "unproved",
         )
 
     def contradictions(
-        self, history: History, adopted: Explanation, believed: State, step: int
+        self,
+        history: History,
+        adopted: Explanation,
+        believed: State,
+        step: int,
+        expected: Mapping[int, State] = MappingProxyType({}),
     ) -> list[Contradiction]:
         """What contradicts the belief of an earlier step, projected with what was adopted.
 
-        Of all steps the first one at which something does, with everything that does there.
+        Of all steps the first one at which something does, with everything that does there. Where
+        actions may have several outcomes the states of later steps are those `expected`.
         """
         state, adopted = believed, adopted.left(history)
         while True:
@@ -59,7 +75,8 @@ class Reasons:
                 seen = attempt.complement if after[1] else attempt
                 sides = _in("hpd", seen), _in("hpd", seen.complement)
                 return [Contradiction(step=step, observed=sides[0], believed=sides[1])]
-            state, step = after[0], step + 1
+            step += 1
+            state = expected.get(step, after[0])
 
     def no_plan(self, believed: Collection[Fluent]) -> tuple[NoPlan, str]:
         """Why no plan within the limit was found from what is believed, as a key and in words.
@@ -67,11 +84,15 @@ class Reasons:
         What is believed need not be so.
         """
         within = f"no plan of at most {self._task.plan_limit} actions achieves the goal"
+        if self._is_conformant:
+            within += " with all outcomes"
         try:
             with deciding(self._limits):
                 reachable = self._sessions.reach.reachable(frozenset(believed), self._goal)
         except LimitError:
             reachable = None
+        if self._is_conformant and reachable:
+            reachable = None  # with some outcomes, which does not suffice
         if reachable is None:
             return "not known", f"{within}; whether a longer one does is not known"
         if reachable:

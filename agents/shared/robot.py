@@ -1,15 +1,16 @@
 """The turn of a step that reasoning robots share: observe, diagnose, intend, tell, attempt."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Generic
 
 from msgspec import structs
 
+from agents.shared.expectations import Expectations
 from agents.shared.reasoning import Intention, Reasoner, limits_of
 from agents.shared.reasons import Reasons
-from asp.language import Literal
+from asp.language import Action, Literal
 from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import (
     GOAL,
@@ -21,17 +22,29 @@ from asp.reasoning.diagnosis import (
     distrust_tests,
 )
 from asp.solving import LimitError, Reading, State, deciding, preparation, reasoning_clock
-from testbed.protocol import WAIT, Decision, Minimality, Percept, RobotStops, Task, Trace, is_mental
+from testbed.protocol import (
+    WAIT,
+    Decision,
+    Minimality,
+    Percept,
+    Plans,
+    RobotStops,
+    Task,
+    Trace,
+    is_mental,
+)
 
-MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int], Reasoner[H_contra]]
-"""Makes a reasoner of a domain, a goal and the greatest length of a plan."""
+MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int, Plans], Reasoner[H_contra]]
+"""Makes a reasoner of a domain, a goal, the greatest length of a plan, and which plans will do."""
 
 
 @dataclass
 class Thought:
     """What the two phases at a step came to, as far as they did, and when they were over.
 
-    `before` is what explained the history before; `is_new` says whether the plan was made now;
+    `before` is what explained the history before; `outcome` is an action whose outcome was another
+    one than expected, if that is new, and `expected` are the states that were expected, by step,
+    where actions may have several outcomes; `is_new` says whether the plan was made now;
     `limit` names the limit of decisions that was reached, if any. A phase that the time for the
     decision did not suffice for ended when the decision did.
     """
@@ -39,6 +52,8 @@ class Thought:
     before: Explanation
     diagnosis: Diagnosis | None = None
     intention: Intention | None = None
+    outcome: Happening | None = None
+    expected: Mapping[int, State] = field(default_factory=dict)
     is_new: bool = True
     limit: str = ""
     began: Reading = field(default_factory=reasoning_clock)
@@ -172,10 +187,13 @@ class ReasoningRobot(ABC, Generic[H_contra]):
 
     def _prepare(self) -> Reasoner[H_contra]:
         """What the domain is reasoned with, made in a decision so that its limits hold for it."""
-        limit = self._task.plan_limit
+        limit, plans = self._task.plan_limit, self._task.plans
         with preparation():
             self._reasons = self._reasons_type(self._domain, self._task)
-            self._reasoner = self._make_reasoner(self._domain, self._goal, limit)
+            self._expectations = (
+                None if self._domain.deterministic else Expectations(self._domain, self._goal)
+            )
+            self._reasoner = self._make_reasoner(self._domain, self._goal, limit, plans)
         return self._reasoner
 
     def _think(self, thought: Thought) -> None:
@@ -184,8 +202,27 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         diagnosis = self._diagnosed(reasoner)
         thought.diagnosed = reasoning_clock()
         thought.diagnosis, self._explanation = diagnosis, diagnosis.explanation
+        self._compare(thought)
         intention = self._intend(reasoner, thought)
         thought.ended, thought.intention = reasoning_clock(), intention
+
+    def _compare(self, thought: Thought) -> None:
+        """Whether an action had another outcome than expected, by the latest observations."""
+        expectations, history = self._expectations, self._history
+        if expectations is None:
+            return
+        before = thought.before.left(history)
+        is_contradicted = expectations.follow(history, before)
+        thought.expected = dict(expectations.states)
+        if self._explanation != before:
+            expectations.forget()
+        elif is_contradicted:
+            thought.outcome = expectations.other_outcome(history, before)
+
+    def _expect(self, believed: State, ahead: tuple[Action, ...]) -> None:
+        """A decision was made in a state that is believed in, with a plan ahead."""
+        if self._expectations is not None:
+            self._expectations.believe(self._history.step, believed, ahead)
 
     def _intend(self, reasoner: Reasoner[H_contra], thought: Thought) -> Intention:
         """Phase two."""
@@ -201,15 +238,15 @@ class ReasoningRobot(ABC, Generic[H_contra]):
                 raise
             return reasoner.diagnose(self._history, self._explanation)
 
-    def _with_explanation(self, trace: Trace) -> Trace:
+    def _with_explanation(self, trace: Trace, thought: Thought) -> Trace:
         """The trace with the explanation, and what made it needed, if it has not been told yet."""
         told, (before, _) = (self._explanation, self._history.misread), self._told
-        if told == self._told:
+        if told == self._told and thought.outcome is None:
             return trace
         self._told = told
         history, (since, believed) = self._history, self._believed
-        return structs.replace(
-            trace,
-            explanation=self._reasons.explanation(*told, history.step),
-            contradictions=self._reasons.contradictions(history, before, believed, since),
+        contradictions = self._reasons.contradictions(
+            history, before, believed, since, thought.expected
         )
+        explanation = self._reasons.explanation(*told, thought.outcome, history.step)
+        return structs.replace(trace, explanation=explanation, contradictions=contradictions)

@@ -17,7 +17,9 @@ class TraditionalRobot(ReasoningRobot[History]):
     finishes, and does not heed what it is told of the goal afterwards.
     """
 
-    capabilities: ClassVar = Capabilities(knowledge=("complete", "seen"))
+    capabilities: ClassVar = Capabilities(
+        knowledge=("complete", "seen"), plans=("optimistic", "conformant")
+    )
     _make_reasoner: MakeReasoner[History] = IncrementalReasoner
 
     def _begin(self, task: Task) -> None:
@@ -29,7 +31,8 @@ class TraditionalRobot(ReasoningRobot[History]):
 
     def _intend(self, reasoner: Reasoner[History], thought: Thought) -> Intention:
         """What is left of the plan, or a new one. What was found remains at a limit."""
-        if self._explanation != thought.before.left(self._history):
+        is_explained = self._explanation != thought.before.left(self._history)
+        if is_explained or thought.outcome is not None:
             self._rest = None
         thought.is_new = self._rest is None
         return self._rest or super()._intend(reasoner, thought)
@@ -49,13 +52,15 @@ class TraditionalRobot(ReasoningRobot[History]):
             self._rest = None  # whenever there will be time for another one
 
     def _trace(self, thought: Thought) -> Trace:
-        trace = self._with_explanation(Trace(reason=thought.limit, plans=self._plans))
+        trace = Trace(reason=thought.limit, plans=self._plans)
+        trace = self._with_explanation(trace, thought)
         intention = thought.intention
         if intention is None:
             return trace
         believed = intention.believed - {GOAL}
         if thought.is_new:
             self._believed = (self._history.step, believed)
+            self._expect(believed, intention.plan)
         self._plans += thought.is_new and bool(intention.plan)
         is_given_up = not intention.plan and GOAL not in intention.believed
         no_plan, given_up = self._reasons.no_plan(believed) if is_given_up else (None, "")

@@ -10,3 +10,5 @@ from asp.reasoning.knowledge import knowledge as knowledge
 from asp.reasoning.relevance import Relevance as Relevance
 from asp.reasoning.relevance import interchangeable as interchangeable
 from asp.reasoning.successors import Transitions as Transitions
+from asp.reasoning.successors import in_order as in_order
+from asp.reasoning.successors import place_of as place_of

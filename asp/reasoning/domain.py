@@ -14,7 +14,14 @@ from asp.language import parse_description as parsed
 from asp.reasoning import diagnosis
 from asp.reasoning.diagnosis import Explanation
 from asp.reasoning.knowledge import Knowledge
-from asp.reasoning.planning import IncrementalPlanner, Plan, Reachability
+from asp.reasoning.planning import (
+    IncrementalConformantPlanner,
+    IncrementalPlanner,
+    Plan,
+    Plans,
+    Reachability,
+)
+from asp.reasoning.successors import in_order
 from asp.solving import State, answer_sets, ground, literal_of, state_of
 from asp.translation import translate
 
@@ -108,11 +115,14 @@ class Domain:
         wrong = f"not one state has {', '.join(wanted) or 'nothing'} and what follows, and no more"
         raise DomainError(wrong if core is None else diagnosis.cannot_hold(core), "state")
 
-    def plan(self, state: Given, goal: Given, limit: int = MOST_ACTIONS) -> Plan | None:
+    def plan(
+        self, state: Given, goal: Given, limit: int = MOST_ACTIONS, plans: Plans = "optimistic"
+    ) -> Plan | None:
         """The first shortest plan of the agent's actions in the order of declaration, or None.
 
         None says that no plan has at most `limit` actions. Where actions have several outcomes,
-        some of them reach the goal. Raises LimitError.
+        some of them reach the goal; in a plan that is conformant, all do, and each action is
+        possible in every state that may be reached by then. Raises LimitError.
         """
         start, wanted = self.state(state), self._literals(goal, "goal")
         if all((each.atom in start) == each.is_positive for each in wanted):
@@ -120,7 +130,11 @@ class Domain:
         planner, reachability = self._planning
         if reachability.reachable(start, wanted) is False:
             return None
-        return planner.shortest(start, wanted, limit)
+        if plans == "optimistic":
+            return planner.shortest(start, wanted, limit)
+        actions, transitions = self.description.agent_actions, self._sessions.transitions
+        conformant = IncrementalConformantPlanner(actions, transitions, planner)
+        return conformant.shortest([start], wanted, limit)
 
     def successors(self, state: Given, actions: Given = ()) -> tuple[State, ...]:
         """The states that these actions, all at once, lead to; none where they cannot occur.
@@ -202,8 +216,7 @@ class Domain:
         return found
 
     def _sorted(self, states: Iterable[State]) -> tuple[State, ...]:
-        order = self.description.fluents
-        return tuple(sorted(states, key=lambda state: [fluent not in state for fluent in order]))
+        return tuple(in_order(states, self.description.fluents))
 
     def _diagnosis(self, history: diagnosis.History, goal: Given) -> diagnosis.Diagnosis:
         wanted, known = self._literals(goal, "goal"), self._knowledge

@@ -7,6 +7,7 @@ from functools import cached_property, lru_cache
 from clingo import Symbol
 
 from asp.language import Action, Description, Literal, parse_description
+from asp.reasoning.determinism import deterministic_by_form
 from asp.solving import fact
 from asp.translation import translate
 
@@ -46,6 +47,11 @@ class Knowledge:
         """The agent's own actions, and exogenous ones."""
         description = self.description
         return frozenset(description.agent_actions), frozenset(description.exogenous_actions)
+
+    @cached_property
+    def deterministic(self) -> bool:
+        """Whether it is known that every action has one outcome."""
+        return deterministic_by_form(self.description)
 
     def against(self, exceptions: Iterable[str]) -> list[Literal]:
         """The literals that hold at step 0 where these defaults, given by name, have exceptions."""

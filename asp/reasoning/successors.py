@@ -20,19 +20,36 @@ from asp.solving import (
 _CHOOSING = clingo.Function("choosing")
 
 
-class Transitions:
-    """The transition diagram of a domain, one transition at a time."""
+def in_order(states: Iterable[State], fluents: Sequence[Fluent]) -> list[State]:
+    """States in the order of the fluents: of two that first in which a fluent is true."""
+    return sorted(states, key=lambda state: place_of(state, fluents))
 
-    def __init__(self, program: str, fluents: Sequence[Fluent]) -> None:
+
+def place_of(state: State, fluents: Sequence[Fluent]) -> list[bool]:
+    """A key for the order of states."""
+    return [fluent not in state for fluent in fluents]
+
+
+class Transitions:
+    """The transition diagram of a domain, one transition at a time.
+
+    `deterministic` says that every action has one outcome.
+    """
+
+    def __init__(
+        self, program: str, fluents: Sequence[Fluent], deterministic: bool = False
+    ) -> None:
+        self.deterministic = deterministic
         self._fluents = tuple(fluents)
         self._session = Session(program, "incremental_transitions", fluents, (), n=1)
 
     def after(
         self, state: State, attempt: Action | None, reported: tuple[Action, ...]
     ) -> tuple[State, bool] | None:
-        """The next state, and whether the attempt took effect; None where nothing fits.
+        """A next state, and whether the attempt took effect; None where nothing fits.
 
-        `attempt` is the agent's action, or None; `reported` are exogenous actions that happened.
+        `attempt` is the agent's action, or None; `reported` are exogenous actions that happened. Of
+        several next states it is any.
         """
         session = self._session
         attempted = () if attempt is None else (fact("attempted", attempt),)
@@ -45,6 +62,17 @@ class Transitions:
                 return None
             took_effect = attempt is not None and session.is_true(model, "occurs", attempt, 0)
             return session.state(model, 1), took_effect
+
+    def all_after(
+        self, state: State, attempt: Action | None, reported: tuple[Action, ...]
+    ) -> tuple[Sequence[State], bool]:
+        """Every next state, in the order of the fluents, and whether the attempt took effect."""
+        after = self.after(state, attempt, reported)
+        if after is None:
+            return (), False
+        if self.deterministic:
+            return (after[0],), after[1]
+        return in_order(self._reached(state, ()), self._fluents), after[1]
 
     def successors(self, state: State) -> set[State]:
         """The states that actions of the agent's own may lead to. Raises LimitError."""

@@ -18,18 +18,23 @@ def command(
     ],
     goal: Annotated[list[str], typer.Option(help="Literals that are to hold in the end.")],
     limit: Annotated[int, typer.Option(min=0, help="The largest number of actions.")] = 100,
+    conformant: Annotated[
+        bool, typer.Option("--conformant", help="All outcomes of its actions reach the goal.")
+    ] = False,
 ) -> None:
     """Find a shortest plan of the agent's actions, one line per action.
 
     Literals have commas between them, and options may be repeated. Of several shortest plans it is
     the first in the order of declaration; where actions have several outcomes, some of them reach
-    the goal. The exit code is 1 where there is no plan within the limit.
+    the goal, with --conformant all do. The exit code is 1 where there is no plan within the limit.
     """
     import asp
+    from testbed.protocol import Plans
 
     with input_errors():
         try:
-            plan = asp.load(source).plan(state, goal, limit)
+            plans: Plans = "conformant" if conformant else "optimistic"
+            plan = asp.load(source).plan(state, goal, limit, plans)
         except asp.DomainError as error:
             option = "--from" if error.key == ("state",) else "--goal"
             raise asp.DomainError(error.message, option) from None

@@ -24,7 +24,7 @@ from testbed.config.values import (
     Scenarios,
     Seconds,
 )
-from testbed.protocol import Knowledge, Relevance
+from testbed.protocol import Knowledge, Plans, Relevance
 
 LinkKind = Literal["zenoh", "inprocess"]
 ScriptPolicy = Literal["error", "skip"]
@@ -145,11 +145,11 @@ class ExperimentConfig(Section):
     `initial` absent means every state that the domain's `initially` allows. A `script` replaces
     the scenario's triggers; an empty one means that nothing exogenous happens. `script_policy` says
     what becomes of an entry that is not possible when it is due: it ends the trial with an error,
-    or is skipped. `knowledge` is what
-    robots know of the initial state: all of it, or only what they see; `relevance` is which of the
-    literals that they see intentional robots heed. `repeats`: so many pairs of
-    trials from each initial state, in scenarios in which something is drawn. `protocol` is the
-    study that the trials are for: a name, or `module:OBJECT`.
+    or is skipped. `knowledge` is what robots know of the initial state: all of it, or only what
+    they see; `relevance` is which of the literals that they see intentional robots heed; `plans`:
+    whether some outcomes of a plan's actions have to reach the goal, or all. `repeats`: so many
+    pairs of trials from each initial state, in scenarios in which something is drawn. `protocol` is
+    the study that the trials are for: a name, or `module:OBJECT`.
 
     With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
     resolution. They are drawn: each has its initial state and its goal unless these are given.
@@ -175,6 +175,7 @@ class ExperimentConfig(Section):
     link: LinkKind = "zenoh"
     knowledge: Knowledge = "complete"
     relevance: Relevance = "definition"
+    plans: Plans = "optimistic"
     observability: dict[str, Observability] = Field(default_factory=dict)
     goal_feedback: Flag = True
     exogenous_while_thinking: Flag = False

@@ -34,6 +34,8 @@ def _lacks(able: Capabilities, config: ExperimentConfig) -> Iterator[str]:
     if config.knowledge not in able.knowledge:
         kinds = " or ".join(able.knowledge)
         yield f"cannot begin with knowledge: {config.knowledge}; give knowledge: {kinds}"
+    if config.plans not in able.plans:
+        yield f"does not make plans that are {config.plans}; give plans: {' or '.join(able.plans)}"
     if able.needs_goal_feedback and not config.gives_goal_feedback:
         yield "needs to be told that its goal does not hold; give goal_feedback: true"
 

@@ -72,7 +72,8 @@ class Explained(msgspec.Struct):
     """An explanation that the robot adopted at `step`, and why it needed one.
 
     `distrusted` are reports that it takes for false, own attempts that were not executed, and
-    fluents that a test was wrong about; `alternatives` is the number of other explanations that are
+    fluents that a test was wrong about; `outcomes` are actions whose outcome was another one than
+    it expected; `alternatives` is the number of other explanations that are
     as small; there are more of them if `more_alternatives`. `minimal` is
     `unproved` where the budget of the decision did not suffice to rule out a smaller one.
     """
@@ -81,6 +82,7 @@ class Explained(msgspec.Struct):
     unobserved: list[At]
     exceptions: list[Literal]
     distrusted: list[At] = []
+    outcomes: list[At] = []
     contradictions: list[Contradiction] = []
     alternatives: Count = 0
     more_alternatives: bool = False

@@ -150,6 +150,7 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
         [At(event.step, event.action) for event in explanation.unobserved],
         list(explanation.exceptions),
         distrusted=[At(event.step, event.action) for event in explanation.distrusted],
+        outcomes=[At(event.step, event.action) for event in explanation.outcomes],
         contradictions=trace.contradictions,
         alternatives=len(trace.alternatives),
         more_alternatives=trace.more_alternatives,

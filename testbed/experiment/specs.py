@@ -14,7 +14,7 @@ from asp.language import Action, Literal
 from testbed.config import TRIGGERS, ExperimentConfig, Limits, ScriptEntry
 from testbed.environment import Observability, Pace
 from testbed.experiment.seeds import playing_order, short_hash, trial_seed
-from testbed.protocol import Knowledge, Relevance
+from testbed.protocol import Knowledge, Plans, Relevance
 
 BUDGETS = ("decision_s", "conflicts", "ground_rules", "expansions")
 """Limits of a decision, which the robot is told of by the same names."""
@@ -63,6 +63,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     script_at_actions: tuple[tuple[int, Action], ...] = ()
     script_skips: bool = False
     relevance: Relevance = "published"  # as long as there was no other, so that ids stay
+    plans: Plans = "optimistic"
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -103,6 +104,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         script_at_actions=_numbered(own.script or (), "at_action"),
         script_skips=config.script_policy == "skip",
         relevance=config.relevance,
+        plans=config.plans,
     )
 
 

@@ -85,7 +85,9 @@ def exception(literal: Literal) -> str:
 
 
 def explanation(told: Explanation | Explained) -> str:
-    """An explanation as text: how it began, what others did, what is distrusted."""
+    """An explanation as text: how it began, what others did, what is distrusted, other outcomes."""
     events = [f"{event.action} at step {event.step}" for event in told.unobserved]
     false = [f"distrusted {event.action} at step {event.step}" for event in told.distrusted]
-    return ", ".join([*map(exception, told.exceptions), *events, *false]) or "nothing unobserved"
+    other = [f"another outcome of {own.action} at step {own.step}" for own in told.outcomes]
+    assumed = [*map(exception, told.exceptions), *events, *false, *other]
+    return ", ".join(assumed) or "nothing unobserved"

@@ -189,6 +189,7 @@ class TrialSetup:
             plan_limit=setting.plan_limit,
             relevance=setting.relevance,
             seed=seed,
+            plans=setting.plans,
             **{name: getattr(setting, name) for name in BUDGETS},
         )
 

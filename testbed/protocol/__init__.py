@@ -23,6 +23,7 @@ from testbed.protocol.messages import FineTrace as FineTrace
 from testbed.protocol.messages import Minimality as Minimality
 from testbed.protocol.messages import NoPlan as NoPlan
 from testbed.protocol.messages import Percept as Percept
+from testbed.protocol.messages import Plans as Plans
 from testbed.protocol.messages import Question as Question
 from testbed.protocol.messages import Relevance as Relevance
 from testbed.protocol.messages import Task as Task

@@ -42,6 +42,8 @@ Relevance: TypeAlias = Choice["published", "definition", "plan", "all"]
 or to the goal by Definition 1 (P 3.3); `plan`: the conditions of the rest of its plan, too; `all`:
 all that it sees.
 """
+Plans: TypeAlias = Choice["optimistic", "conformant"]
+"""Whether some outcomes of a plan's actions have to reach the goal, or all."""
 Minimality: TypeAlias = Choice["proved", "unproved"]
 """Whether it is proved that no explanation is smaller than an adopted one."""
 
@@ -61,12 +63,14 @@ class Task(Part, frozen=True, kw_only=True):
 
     ``domain`` and ``source`` are the name and the AL_d text of the domain, ``goal`` a list of
     literals, ``initial`` what the robot knows to hold at step 0, perhaps not everything,
-    ``plan_limit`` the greatest number of actions in a plan, ``relevance`` which of the literals
-    that it sees a robot heeds, if it chooses among them. A decision may take ``decision_s``
-    seconds, so many ``conflicts`` of the solver, ground programs of so many ``ground_rules`` and so
-    many ``expansions`` of sets of states; None: any number. Where the robot acts at the fine
-    resolution, ``refinement`` is the text that refines ``source``, and ``initial_fine`` what it
-    knows there at step 0; ``goal`` and ``initial`` are coarse all the same.
+    ``plan_limit`` the greatest number of actions in a plan, ``plans`` whether some outcomes of its
+    actions have to reach the goal (optimistic), or all (conformant), ``relevance`` which of the
+    literals that it sees a robot heeds, if it chooses among them. A decision may take
+    ``decision_s`` seconds, so many ``conflicts`` of the solver, ground programs of so many
+    ``ground_rules`` and so many ``expansions`` of sets of states; None: any number. Where the
+    robot acts at the fine resolution, ``refinement`` is the text that refines ``source``, and
+    ``initial_fine`` what it knows there at step 0; ``goal`` and ``initial`` are coarse all the
+    same.
     """
 
     trial: str
@@ -84,6 +88,7 @@ class Task(Part, frozen=True, kw_only=True):
     relevance: Relevance = "definition"
     refinement: str = ""
     initial_fine: list[Literal] = []
+    plans: Plans = "optimistic"
 
 
 class Event(Part, frozen=True, kw_only=True):
@@ -128,14 +133,16 @@ class Explanation(Part, frozen=True, kw_only=True):
 
     ``unobserved`` are exogenous actions, ``exceptions`` the literals that hold at step 0 against
     a default, ``distrusted`` reports of what did not happen, attempts of the robot's own that were
-    not executed, and fluents that a test was wrong about. ``minimal`` is ``"unproved"`` where
-    the budget of the decision was used up before a smaller explanation was ruled out.
+    not executed, and fluents that a test was wrong about. ``outcomes`` are actions whose outcome
+    was another one than the robot expected, which takes no event. ``minimal`` is ``"unproved"``
+    where the budget of the decision was used up before a smaller explanation was ruled out.
     """
 
     step: Count
     unobserved: Items[Event]
     exceptions: Items[Literal]
     distrusted: Items[Event] = []
+    outcomes: Items[Event] = []
     minimal: Minimality = "proved"
 
 

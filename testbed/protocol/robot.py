@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, get_args
 
-from testbed.protocol.messages import Decision, Percept, Task
+from testbed.protocol.messages import Decision, Percept, Plans, Task
 
 Resolution: TypeAlias = Literal["coarse", "fine"]
 Knowledge: TypeAlias = Literal["complete", "seen"]
@@ -18,19 +18,25 @@ class Capabilities:
     refinement. ``knowledge`` are the kinds of knowledge of the initial state that it can begin
     with: ``complete``, and ``seen`` where ``Task.initial`` may leave fluents open.
     ``needs_goal_feedback``: it relies on being told, by ``Percept.goal_holds``, that it finished
-    without its goal. ``first_action_step`` is the first step at which it may attempt a physical
+    without its goal. ``plans`` are the kinds of plans that it can be asked for (``Task.plans``).
+    ``first_action_step`` is the first step at which it may attempt a physical
     action; a robot that starts an activity by a mental action has 2.
 
-    Raises ValueError for a resolution or a kind of knowledge that there is not.
+    Raises ValueError for a resolution, or a kind of knowledge or plans, that there is not.
     """
 
     resolutions: tuple[Resolution, ...] = ("coarse",)
     knowledge: tuple[Knowledge, ...] = ("complete",)
     needs_goal_feedback: bool = False
+    plans: tuple[Plans, ...] = ("optimistic",)
     first_action_step: int = 1
 
     def __post_init__(self) -> None:
-        known = {"resolutions": get_args(Resolution), "knowledge": get_args(Knowledge)}
+        known = {
+            "resolutions": get_args(Resolution),
+            "knowledge": get_args(Knowledge),
+            "plans": get_args(Plans),
+        }
         for name, choices in known.items():
             given = getattr(self, name)
             if isinstance(given, str) or not set(given) <= set(choices):

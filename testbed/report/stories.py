@@ -131,4 +131,5 @@ def _assumed(explained: Explained) -> str:
     exceptions = sorted(map(exception, explained.exceptions))
     events = sorted(event.action for event in explained.unobserved)
     distrusted = sorted(f"distrusted {report.action}" for report in explained.distrusted)
-    return " ".join([*exceptions, *events, *distrusted]) or NOTHING
+    outcomes = sorted(f"another outcome of {own.action}" for own in explained.outcomes)
+    return " ".join([*exceptions, *events, *distrusted, *outcomes]) or NOTHING

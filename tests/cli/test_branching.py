@@ -1,6 +1,9 @@
 """Warnings of `check` and `translate`: actions with several outcomes, states that change alone."""
 
+import json
+import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner, Result
@@ -9,9 +12,19 @@ from asp.reasoning import determinism
 from asp.solving import Limits
 from asp.translation import translate
 from testbed.cli import app
-from tests.asp.reasoning.branching import DIE, DOOR, RESTLESS
+from tests.asp.reasoning.branching import CRATES, DIE, DOOR, RESTLESS
 
 CONFIG = 'name: own\ndomain: own.al\ngoal: ["{}"]\nrobots: [intentional]\n'
+PLAYED = """
+name: crates
+domain: own.al
+goal: ["-high(large)"]
+initial: ["high(large)", "whole(large)"]
+scenarios: none
+robots: [intentional, intentional-plain]
+link: inprocess
+limits: {plan: 4, steps: 12}
+"""
 NAMED = [
     (DIE, "up(one)", ("throw", "up(", "|")),
     (DOOR, "outside", ("pull", "shut", "loose")),
@@ -66,3 +79,61 @@ def test_a_search_that_comes_to_no_end_is_said_to_have_come_to_none(
     (line,) = _warnings(_call("translate", "own.al"))
     assert "own.al" in line
     assert "throw" not in line
+
+
+def test_a_plan_may_be_asked_to_be_conformant() -> None:
+    Path("own.al").write_text(CRATES, encoding="utf-8")
+    asked = ("plan", "own.al", "--from", "high(large), whole(large)", "--goal", "-high(large)")
+    assert _call(*asked).stdout.split() == ["tip(large)"]
+    assert _call(*asked, "--conformant").stdout.split() == ["tie(large)", "lower(large)"]
+    assert _call(*asked, "--conformant", "--limit", "1").exit_code == 1
+
+
+def _played(*overrides: str) -> dict[str, dict[str, Any]]:
+    """The records of a run with the crates, by robot."""
+    Path("own.al").write_text(CRATES, encoding="utf-8")
+    Path("own.yaml").write_text(PLAYED, encoding="utf-8")
+    result = _call("run", "own.yaml", *overrides, "--out", "run", "--quiet")
+    assert result.exit_code == 0, result.output
+    lines = Path("run", "trials.jsonl").read_text(encoding="utf-8").splitlines()
+    return {record["robot"]: record for record in map(json.loads, lines)}
+
+
+def _actions(record: dict[str, Any]) -> list[str]:
+    return [each["action"] for each in record["actions"]]
+
+
+def test_robots_make_the_plans_that_the_configuration_asks_for() -> None:
+    for record in _played("plans=conformant").values():
+        assert record["outcome"] == "achieved"
+        assert _actions(record) == ["tie(large)", "lower(large)"]
+
+
+def test_an_outcome_that_was_not_expected_is_on_record_and_the_robot_recovers() -> None:
+    for seed in range(8):
+        records = _played(f"seed={seed}", "plans=optimistic")
+        assert all(_actions(each)[0] == "tip(large)" for each in records.values())
+        assert records["intentional"]["outcome"] == "achieved"
+        assert _actions(records["intentional"]) == _actions(records["intentional-plain"])
+        if _actions(records["intentional"])[1:]:
+            break
+        shutil.rmtree("run")
+    else:
+        raise AssertionError("with some seed the crate breaks")
+    (explained,) = records["intentional"]["explanations"]
+    assert explained["outcomes"] == [{"step": 2, "action": "tip(large)"}]
+    assert not explained["unobserved"]
+    assert _actions(records["intentional"])[1:] == ["tie(large)", "lower(large)"]
+
+
+def test_a_robot_that_makes_no_conformant_plans_is_not_asked_for_them() -> None:
+    _written(DIE, "up(one)")
+    asked = ("check", "own.yaml", "plans=conformant")
+    assert _call(*asked).exit_code == 0
+    result = _call(*asked, "robots=[intentional-joint]")
+    assert result.exit_code == 2
+    assert "intentional-joint" in result.stderr
+    assert "plans: optimistic" in result.stderr
+    result = _call("check", "own.yaml", "plans=hopeful")
+    assert result.exit_code == 2
+    assert "plans" in result.stderr

@@ -1,5 +1,6 @@
 """Smallest explanations of histories: the reference, and the incremental twin held equal to it."""
 
+from asp.reasoning.diagnosis.belief import Belief as Belief
 from asp.reasoning.diagnosis.explanations import Diagnoser as Diagnoser
 from asp.reasoning.diagnosis.explanations import Diagnosis as Diagnosis
 from asp.reasoning.diagnosis.explanations import Explanation as Explanation

@@ -7,17 +7,24 @@ from asp.language import Literal
 from asp.reasoning.diagnosis.explanations import Explanation
 from asp.reasoning.diagnosis.history import GOAL, History, Moment, record_of
 from asp.reasoning.knowledge import Goal, Knowledge
-from asp.reasoning.successors import Transitions
-from asp.solving import State
+from asp.reasoning.successors import Transitions, place_of
+from asp.solving import State, current
 
 
 @dataclass(frozen=True)
 class Belief:
-    """What an explained history says of a step, and the steps up to it at which the goal held."""
+    """What an explained history may have led to at a step, and when the goal held up to it.
+
+    Where actions have several outcomes there may be several beliefs under one explanation.
+    """
 
     step: int
     state: State
     held: frozenset[int]
+
+
+Beliefs = tuple[Belief, ...]
+"""Those of one step, in the order of the fluents: first where the first of them is true."""
 
 
 class BeliefTracker:
@@ -51,42 +58,62 @@ class BeliefTracker:
         """The belief at step 0."""
         return Belief(0, state, frozenset([0]) if self.holds(state) else frozenset())
 
-    def along(self, states: Sequence[State]) -> list[Belief]:
-        """The beliefs of steps that have these states, from step 0 on."""
+    def along(self, states: Sequence[State]) -> list[Beliefs]:
+        """The beliefs of steps that have these states, from step 0 on, one each."""
         beliefs = [self.start(states[0])]
         beliefs += (self._following(beliefs[-1], state) for state in states[1:])
-        return beliefs
+        return [(belief,) for belief in beliefs]
 
     def carry(
-        self, beliefs: list[Belief], history: History, adopted: Explanation, trusting: bool = False
+        self, beliefs: list[Beliefs], history: History, adopted: Explanation, trusting: bool = False
     ) -> bool:
-        """Adds the beliefs of all steps up to that of the history, each following the last one.
+        """Adds the beliefs of all steps up to that of the history, each following the last ones.
 
-        False where the explanation does not agree with a step. Where it is `trusting`, observations
+        What is observed rules out beliefs of the last step. False where the explanation does not
+        agree with a step. Where it is `trusting`, and every action has one outcome, observations
         are not compared again. Raises LimitError.
         """
+        trusting = trusting and self.transitions.deterministic
         while True:
             last = beliefs[-1]
-            if not trusting and self.surprises(history.at(last.step), last.state):
+            if not trusting:
+                moment = history.at(last[0].step)
+                last = tuple(each for each in last if not self.surprises(moment, each.state))
+            if not last:
                 return False
-            if last.step == history.step:
+            beliefs[-1] = last
+            if last[0].step == history.step:
                 return True
             following = self._advance(last, history, adopted)
-            if following is None:
+            if not following:
                 return False
             beliefs.append(following)
 
-    def _advance(self, belief: Belief, history: History, adopted: Explanation) -> Belief | None:
-        """The belief a step later, if what happened there agrees with the explanation."""
+    def _advance(self, last: Beliefs, history: History, adopted: Explanation) -> Beliefs:
+        """The beliefs a step later, if what happened there agrees with the explanation."""
+        found = dict.fromkeys(
+            self._following(belief, state)
+            for belief in last
+            for state in self._after(belief, history, adopted)
+        )
+        if len(found) < 2:
+            return tuple(found)
+        current().take_expansions(len(found))
+        fluents = self.knowledge.description.fluents
+        return tuple(sorted(found, key=lambda belief: place_of(belief.state, fluents)))
+
+    def _after(self, belief: Belief, history: History, adopted: Explanation) -> Sequence[State]:
+        """The states a step later, if what happened there agrees with the explanation."""
         step = belief.step
         record = record_of(history.at(step), self.knowledge)
         events = adopted.happened(record, step)
         if events and step < self.since:
-            return None
-        after = self.transitions.after(belief.state, adopted.executed(record, step), events)
-        if after is None or (record.attempt is not None and record.attempt[1] != after[1]):
-            return None
-        return self._following(belief, after[0])
+            return ()
+        executed = adopted.executed(record, step)
+        states, took_effect = self.transitions.all_after(belief.state, executed, events)
+        if record.attempt is not None and record.attempt[1] != took_effect:
+            return ()
+        return states
 
     def _following(self, belief: Belief, state: State) -> Belief:
         step = belief.step + 1

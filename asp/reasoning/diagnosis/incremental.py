@@ -6,14 +6,14 @@ observation contradicts it; then the whole history is explained anew.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from typing import Generic
 
 from asp.language import Fluent
-from asp.reasoning.diagnosis.belief import Belief, BeliefTracker
+from asp.reasoning.diagnosis.belief import Belief, Beliefs, BeliefTracker
 from asp.reasoning.diagnosis.explanations import (
     Alternatives,
     Diagnoser,
@@ -43,7 +43,8 @@ class DiagnosisSessions:
 
     def __init__(self, knowledge: Knowledge) -> None:
         self.knowledge = knowledge
-        self.transitions = Transitions(knowledge.program, knowledge.description.fluents)
+        fluents, deterministic = knowledge.description.fluents, knowledge.deterministic
+        self.transitions = Transitions(knowledge.program, fluents, deterministic)
         self.explanations = SmallestExplanations(knowledge)
         self.arcs = Arcs(knowledge)
 
@@ -71,16 +72,21 @@ class IncrementalDiagnoser(Generic[H_contra]):
         self._compression = COMPRESSION
         self._tracker = sessions.tracker(goal, since)
         self._frontier: Frontier | None = None
-        self._beliefs: list[Belief] = []
+        self._beliefs: list[Beliefs] = []
         self._under = Explanation()
         self._fewest = (0, 0)
         self._heard = 0
 
     @property
-    def belief(self) -> Belief:
-        """What is believed since the last diagnosis."""
+    def beliefs(self) -> Sequence[Belief]:
+        """What the last diagnosis may have led to: several where actions have several outcomes."""
         assert self._beliefs, "a belief follows a diagnosis"
         return self._beliefs[-1]
+
+    @property
+    def belief(self) -> Belief:
+        """The first of the beliefs."""
+        return self.beliefs[0]
 
     @property
     def frontier(self) -> Frontier | None:
@@ -114,7 +120,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
         if news:
             self._heard += len(news)
             self._fewest = (0, 0)
-            del self._beliefs[min(news) + 1 :]
+            del self._beliefs[max(1, min(news)) :]
             if self._frontier is not None:
                 self._frontier.forget(min(news))
         return bool(news)
@@ -127,7 +133,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
             self._under, first = adopted, self._first(history, adopted)
             if first is None:
                 return False
-            self._beliefs = [first]
+            self._beliefs = [(first,)]
         return self._tracker.carry(self._beliefs, history, adopted)
 
     def _revised(self, history: History, adopted: Explanation) -> Explanation:
@@ -162,11 +168,11 @@ class IncrementalDiagnoser(Generic[H_contra]):
             explanation = self._reference.diagnose(history, adopted).explanation
             start = self._first(history, explanation)
             assert start is not None, "an explanation says how it began"
-            self._beliefs = [start]
+            self._beliefs = [(start,)]
             carried = self._tracker.carry(self._beliefs, history, explanation, trusting=True)
             assert carried, "an explanation explains every step from the first on"
         else:
-            explanation = self._adopt(found, unknown)
+            explanation = self._adopt(found, history, unknown)
         if explanation.proved and explanation.without_start != adopted.without_start:
             self._fewest = (explanation.size, len(explanation.exceptions))
         return explanation
@@ -191,11 +197,17 @@ class IncrementalDiagnoser(Generic[H_contra]):
         except BudgetError:
             return None
 
-    def _adopt(self, found: Interpretation, unknown: Collection[Fluent]) -> Explanation:
-        """The explanation that was found; the belief becomes what it leads to."""
-        self._beliefs = self._tracker.along(found.states)
+    def _adopt(
+        self, found: Interpretation, history: History, unknown: Collection[Fluent]
+    ) -> Explanation:
+        """The explanation that was found; the beliefs become what it leads to."""
         initial = sorted(f if f in found.states[0] else f.complement for f in unknown)
-        return replace(found.explanation, initial=tuple(initial))
+        explanation = replace(found.explanation, initial=tuple(initial))
+        self._beliefs = self._tracker.along(found.states)
+        if not self._knowledge.deterministic:  # other outcomes may agree with it, too
+            self._beliefs = self._beliefs[:1]
+            self._tracker.carry(self._beliefs, history, explanation)
+        return explanation
 
     def _alternatives(self, history: History, adopted: Explanation, most: int) -> Alternatives:
         """At most so many explanations of the size of one, and whether there are more of them."""

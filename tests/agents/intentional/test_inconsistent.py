@@ -2,7 +2,7 @@
 
 import pytest
 
-from agents.intentional.reasoners import History
+from agents.intentional.activities import History
 from asp.language import Literal
 from asp.reasoning import goal_facts
 from asp.reasoning.diagnosis import InconsistentHistoryError, cannot_hold, conflict

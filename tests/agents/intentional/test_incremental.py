@@ -7,11 +7,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional import IntentionalRobot
-from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
+from agents.intentional.activities import History
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.shared import Intention
 from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import SELECT, Compression, Diagnosis, Explanation, incremental
 from benchmarks.offices import book_names, office
+from testbed.protocol import Plans
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, GOAL_LITERALS, STATES, Wish, live
 from tests.literals import parsed
 
@@ -19,9 +21,15 @@ from tests.literals import parsed
 class Both:
     """Reasons in both ways, and insists that they agree."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit)
-        self._reference = ReferenceReasoner(knowledge, goal, plan_limit)
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        plans: Plans = "optimistic",
+    ) -> None:
+        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit, plans)
+        self._reference = ReferenceReasoner(knowledge, goal, plan_limit, plans)
 
     def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
         ours = self._incremental.diagnose(history, adopted)
@@ -39,10 +47,16 @@ class Both:
 class BothCompressed(Both):
     """The incremental way compresses its history after a few steps already."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        plans: Plans = "optimistic",
+    ) -> None:
         compression = Compression(after=4, answers=400)
         with patch.object(incremental, "COMPRESSION", compression):
-            super().__init__(knowledge, goal, plan_limit)
+            super().__init__(knowledge, goal, plan_limit, plans)
 
 
 wishes = st.dictionaries(

@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 from agents.intentional import IntentionalRobot
+from agents.intentional.activities import Activity, History
 from agents.intentional.joint import JointReasoner, StagedJointReasoner
-from agents.intentional.reasoners import Activity, History, ReferenceReasoner
+from agents.intentional.reasoners import ReferenceReasoner
 from agents.shared import Intention
 from asp.language import Literal
 from asp.reasoning import knowledge

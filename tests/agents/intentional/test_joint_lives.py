@@ -4,13 +4,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional import IntentionalRobot
+from agents.intentional.activities import History
 from agents.intentional.joint import JointReasoner, StagedJointReasoner
-from agents.intentional.reasoners import History, ReferenceReasoner
+from agents.intentional.reasoners import ReferenceReasoner
 from agents.shared import Intention
 from asp.language import parse_description
 from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import Diagnosis, Explanation
 from benchmarks.offices import office
+from testbed.protocol import Plans
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
 from tests.literals import parsed
@@ -48,8 +50,14 @@ def _kind(intention: Intention) -> str:
 class BesideAti(StagedJointReasoner):
     """TI that insists, at each decision, on what it has in common with ATI."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        super().__init__(knowledge, goal, min(plan_limit, self.most_actions))
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        plans: Plans = "optimistic",
+    ) -> None:
+        super().__init__(knowledge, goal, min(plan_limit, self.most_actions), plans)
         self._ati = ReferenceReasoner(knowledge, goal, min(plan_limit, self.most_actions))
 
     most_actions = 12
@@ -77,8 +85,14 @@ class BesideTheLetter(BesideAti):
 
     most_actions = MOST_ACTIONS
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        super().__init__(knowledge, goal, plan_limit)
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        plans: Plans = "optimistic",
+    ) -> None:
+        super().__init__(knowledge, goal, plan_limit, plans)
         self._letter = JointReasoner(knowledge, goal, min(plan_limit, MOST_ACTIONS))
 
     def intend(self, history: History, explained: Diagnosis) -> Intention:

@@ -5,7 +5,8 @@ import random
 import pytest
 
 from agents.intentional import IntentionalRobot
-from agents.intentional.reasoners import Activity, History, IncrementalReasoner, ReferenceReasoner
+from agents.intentional.activities import Activity, History
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
 from asp.reasoning import knowledge

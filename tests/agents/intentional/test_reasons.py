@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional import IntentionalRobot
-from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
+from agents.intentional.activities import History
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.intentional.reasons import IntentionalReasons
 from agents.shared import sessions_of
 from asp.language import Literal

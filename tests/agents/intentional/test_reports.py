@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from agents.intentional.reasoners import History, IncrementalReasoner, ReferenceReasoner
+from agents.intentional.activities import History
+from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
 from asp.reasoning import Knowledge, knowledge

@@ -5,13 +5,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from agents.intentional import reasoners
-from agents.intentional.reasoners import History as IntentionalHistory
+from agents.intentional.activities import History as IntentionalHistory
 from agents.shared import Intention
 from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner
 from asp.language import Literal
 from asp.reasoning import Knowledge, knowledge
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History, InconsistentHistoryError
+from testbed.protocol import Plans
 from tests.agents.intentional import test_reports as cart
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
@@ -29,9 +30,15 @@ from tests.literals import parsed
 class Both:
     """Reasons in both ways, and insists that they agree."""
 
-    def __init__(self, knowledge: Knowledge, goal: tuple[str, ...], plan_limit: int) -> None:
-        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit)
-        self._reference = ReferenceReasoner(knowledge, goal, plan_limit)
+    def __init__(
+        self,
+        knowledge: Knowledge,
+        goal: tuple[str, ...],
+        plan_limit: int,
+        plans: Plans = "optimistic",
+    ) -> None:
+        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit, plans)
+        self._reference = ReferenceReasoner(knowledge, goal, plan_limit, plans)
 
     def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
         ours = self._incremental.diagnose(history, adopted)

@@ -18,6 +18,7 @@ from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
+from testbed.protocol import Plans
 from tests.agents.intentional.lives import BOTH_IN_THE_LIBRARY, WORLD, live
 from tests.literals import parsed
 
@@ -59,7 +60,9 @@ class HurriedRobot(TraditionalRobot):
         super().__init__(self._make)
         self._hurried = calls
 
-    def _make(self, knowledge: Knowledge, goal: tuple[str, ...], limit: int) -> Hurried:
+    def _make(
+        self, knowledge: Knowledge, goal: tuple[str, ...], limit: int, _plans: Plans
+    ) -> Hurried:
         self.planner = Hurried(self._hurried, knowledge, goal, limit)
         return self.planner
 

@@ -140,3 +140,31 @@ sees
   R sees awake if robot(R).
 """
 """Who is awake may fall asleep while nothing is done."""
+
+CRATES = """
+sorts
+  robot = {crane}.
+  crate = {small, large}.
+fluents
+  inertial tied(crate).
+  inertial high(crate).
+  inertial whole(crate).
+  inertial tilted(crate).
+actions
+  agent tip(crate).
+  agent tie(crate).
+  agent lower(crate).
+laws
+  tip(C)   causes tilted(C).
+  tie(C)   causes tied(C).
+  lower(C) causes -high(C).
+  -high(C)  if tilted(C), whole(C).
+  -whole(C) if tilted(C), high(C).
+  impossible lower(C) if -tied(C).
+  impossible tip(C)   if tilted(C).
+sees
+  R sees high(C) if robot(R).
+  R sees whole(C) if robot(R).
+  R sees tilted(C) if robot(R).
+"""
+"""A crate that is tipped over may break instead of coming down; one that is lowered does not."""
