@@ -219,14 +219,19 @@ class IncrementalDiagnoser(Generic[H_contra]):
         """The belief at step 0, if the adopted explanation says how it began."""
         if {literal.atom for literal in adopted.initial} != set(self._unknown(history)):
             return None
+        description = self._knowledge.description
         observed = record_of(history.at(0), self._knowledge).observed
         state = frozenset(each for each in observed if each.is_positive)
-        if adopted.initial or self._knowledge.description.defaults:
+        if adopted.initial or description.defaults:
             records = {0: Record(observed=(*observed, *adopted.initial))}
             start = self._sessions.explanations.smallest(Problem(self._goal, records, 0, 0))
             if start is None or start.explanation.exceptions != adopted.exceptions:
                 return None
             state = start.states[0]
+        elif any(state.isdisjoint(some) for some in description.initially):
+            return None
+        elif not self._sessions.transitions.satisfiable(observed):
+            return None
         return self._tracker.start(state)
 
     def _problem(self, history: History) -> Problem:

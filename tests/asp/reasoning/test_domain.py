@@ -214,6 +214,23 @@ def test_a_goal_that_was_seen_not_to_hold_is_explained() -> None:
     assert _domain("cart").explain([steps[0], Step(goal=True)], "at(left), lit").size == 0
 
 
+@pytest.mark.parametrize(
+    "start",
+    [
+        pytest.param("at(left), at(right), -shut, lit, safe", id="no state"),
+        pytest.param("at(left), -at(right), -shut, lit, -safe", id="it follows that it is safe"),
+        pytest.param("-at(left), -at(right), -shut, lit, safe", id="no initial state"),
+    ],
+)
+@pytest.mark.parametrize(
+    "rest", [[], [Step()], [Step(attempted="open", took_effect=False), Step()]]
+)
+def test_what_cannot_have_been_at_the_start_is_not_explained(start: str, rest: list[Step]) -> None:
+    cart = Domain(f"{CART}initially\n  at(S) for some S.\n", "cart.al")
+    with pytest.raises(InconsistentHistoryError):
+        cart.explain([Step(start), *rest])
+
+
 def test_what_follows_need_not_be_given() -> None:
     assert _domain("cart").state("at(left), lit, -shut") == {"at(left)", "lit", "safe"}
     assert _domain("cart").state(["lit", "shut"]) == {"lit", "shut"}
