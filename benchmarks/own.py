@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,10 @@ from testbed.link import InProcessRobot
 
 @dataclass(frozen=True)
 class Own:
-    """A configuration in a folder of its own, with the domain and the refinement that it names."""
+    """A configuration in `folder`, with the domain and the refinement that it names.
+
+    Each two texts have a folder of their own in there: worlds are remembered by their files.
+    """
 
     folder: Path
     domain: str
@@ -25,13 +29,14 @@ class Own:
 
     def write(self, **keys: Any) -> Path:
         """The configuration's file, in which these keys are given."""
-        self.folder.mkdir(parents=True, exist_ok=True)
-        (self.folder / "own.al").write_text(self.domain, encoding="utf-8")
+        place = self.folder / sha256(f"{self.domain}{self.refinement}".encode()).hexdigest()[:12]
+        place.mkdir(parents=True, exist_ok=True)
+        (place / "own.al").write_text(self.domain, encoding="utf-8")
         named: dict[str, Any] = {"name": "own", "domain": "own.al", "link": "inprocess"}
         if self.refinement:
-            (self.folder / "own.fine").write_text(self.refinement, encoding="utf-8")
+            (place / "own.fine").write_text(self.refinement, encoding="utf-8")
             named |= {"refinement": "own.fine", "limit": 1}
-        file = self.folder / "own.yaml"
+        file = place / "own.yaml"
         file.write_text(yaml.safe_dump({**named, "observability": {}, **keys}), encoding="utf-8")
         return file
 
