@@ -228,9 +228,9 @@ class IncrementalDiagnoser(Generic[H_contra]):
             if start is None or start.explanation.exceptions != adopted.exceptions:
                 return None
             state = start.states[0]
-        elif any(state.isdisjoint(some) for some in description.initially):
-            return None
-        elif not self._sessions.transitions.satisfiable(observed):
+        elif not self._sessions.transitions.satisfiable(observed) or any(
+            state.isdisjoint(some) for some in description.initially
+        ):
             return None
         return self._tracker.start(state)
 
