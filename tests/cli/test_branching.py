@@ -5,6 +5,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import clingo
 import pytest
 from typer.testing import CliRunner, Result
 
@@ -24,6 +25,16 @@ scenarios: none
 robots: [intentional, intentional-plain]
 link: inprocess
 limits: {plan: 4, steps: 12}
+"""
+DOOR_PLAYED = """
+name: door
+domain: own.al
+goal: ["outside"]
+initial: ["shut", "loose"]
+scenarios: none
+robots: [intentional]
+link: inprocess
+limits: {plan: 5, steps: 14}
 """
 NAMED = [
     (DIE, "up(one)", ("throw", "up(", "|")),
@@ -137,3 +148,32 @@ def test_a_robot_that_makes_no_conformant_plans_is_not_asked_for_them() -> None:
     result = _call("check", "own.yaml", "plans=hopeful")
     assert result.exit_code == 2
     assert "plans" in result.stderr
+
+
+def test_clingo_alone_solves_the_program_of_each_decision() -> None:
+    """Whether an activity is futile depends on outcomes."""
+    Path("own.al").write_text(DOOR, encoding="utf-8")
+    Path("own.yaml").write_text(DOOR_PLAYED, encoding="utf-8")
+    assert _call("run", "own.yaml", "seed=1", "--out", "run", "--quiet").exit_code == 0
+    record = json.loads(Path("run", "trials.jsonl").read_text(encoding="utf-8"))
+    asked = ("replay", "run", "--trial", record["trial"], "--program", "--step")
+    answers = [_solved(_call(*asked, str(step)).stdout) for step in range(1, record["steps"] + 1)]
+    mental = {each["step"]: each["action"] for each in record["mental"]}
+    physical = {each["step"]: each["action"] for each in record["actions"]}
+    assert answers == [(mental | physical)[step] for step in range(1, record["steps"] + 1)]
+
+
+def _solved(program: str) -> str:
+    """The intended action in the last answer set."""
+    control = clingo.Control(["--warn=none"])
+    control.add("base", [], program)
+    control.ground([("base", [])])
+    found: list[str] = []
+    control.solve(
+        on_model=lambda model: found.extend(
+            str(symbol.arguments[0])
+            for symbol in model.symbols(shown=True)
+            if symbol.match("intended_action", 2)
+        )
+    )
+    return found[-1]
