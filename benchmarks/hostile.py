@@ -5,6 +5,7 @@ that grows with what has to be assumed, and whether the reference assumes the sa
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import product
 from unittest.mock import patch
 
 from asp.reasoning.diagnosis import incremental
@@ -17,17 +18,19 @@ STEPS = {"small": 36, "full": 200}
 COMPARED = {"small": 1, "full": 2}
 WHOLE = {"small": (1, 36), "full": (3, 100)}
 """Games that are played with nothing compressed, and their steps: later ones take minutes."""
+RELEVANCES = ("definition", "published")
+HARDEST = "definition", "complete"
 EARLY = 20
 BIN = 5
 
 
 def main(size: str) -> list[Sheet]:
     """Sheets `hostile` and `hidden`. Raises DisagreementError."""
-    lives: dict[str, list[Life]] = {}
-    rows = gathered(_row(name, lives.setdefault(name, []), size) for name in VARIANTS)
-    number, steps = WHOLE[size]
+    lives: dict[tuple[str, str], list[Life]] = {}
+    kinds = product(RELEVANCES, VARIANTS)
+    rows = gathered(_row(*kind, lives.setdefault(kind, []), size) for kind in kinds)
     with patch.object(incremental, "COMPRESSION", None):
-        whole = [play(spec) for spec in games("complete", number, steps)]
+        whole = [play(spec) for spec in games(*HARDEST, *WHOLE[size])]
     return [
         Sheet(
             "hostile",
@@ -42,21 +45,22 @@ def main(size: str) -> list[Sheet]:
         Sheet(
             "hidden",
             "A decision that explains anew, by how many events nobody told of it assumes",
-            gathered(_growth(lives["complete"], whole)),
+            gathered(_growth(lives[HARDEST], whole)),
             ("whole: with nothing compressed",),
         ),
     ]
 
 
-def _row(variant: str, lives: list[Life], size: str) -> Row:
+def _row(relevance: str, variant: str, lives: list[Life], size: str) -> Row:
     """Plays the games of a variant; their lives are added to the given ones."""
     steps = STEPS[size]
-    specs = games(variant, GAMES[size], steps)
+    specs = games(relevance, variant, GAMES[size], steps)
     lives += (play(spec) for spec in specs)
     compared = [play(spec, compares=True) for spec in specs[: COMPARED[size]]]
     moments = [moment for life in lives for moment in life.moments]
     took = [moment.ms for moment in moments]
     return {
+        "relevance": relevance,
         "variant": variant,
         "games": len(lives),
         "decisions": len(took),

@@ -30,6 +30,8 @@ from testbed.world import load_world, world_of
 
 EVERY = 4
 REFERENCE = Limits(seconds=60.0, conflicts=50_000)
+COMPARED = 64
+"""The last step at which the reference is asked: later on its conflicts do not suffice."""
 
 
 def _told(how: str) -> list[str]:
@@ -159,7 +161,8 @@ class Watched:
     def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
         found = self._fast.diagnose(history, adopted)
         self._explanation = found.explanation
-        if self._compares and found.explanation != adopted.left(history):
+        is_new = found.explanation != adopted.left(history)
+        if self._compares and is_new and history.step <= COMPARED:
             began = time.process_time()
             self._compare(copy.deepcopy(history), adopted)
             self._compared_ms = (time.process_time() - began) * 1e3
@@ -182,7 +185,7 @@ class Watched:
                 raise DisagreementError(f"step {history.step}: {theirs}, {self._explanation}")
 
 
-def games(variant: str, number: int, steps: int) -> list[TrialSpec]:
+def games(relevance: str, variant: str, number: int, steps: int) -> list[TrialSpec]:
     """So many games, which last so many steps, each with a goal and a beginning that are drawn."""
     draw, rooms = random.Random(number), room_names(4)
     world = load_world("office")
@@ -193,6 +196,7 @@ def games(variant: str, number: int, steps: int) -> list[TrialSpec]:
         ]
         overrides = [
             *VARIANTS[variant],
+            f"relevance={relevance}",
             f"goal=[{','.join(goal)}]",
             f"seed={len(found)}",
             f"limits.steps={steps}",

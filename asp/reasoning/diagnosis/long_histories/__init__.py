@@ -1,1 +1,1 @@
-"""History compression: it pays in histories of more than some 100 steps (`COMPRESSION`)."""
+"""History compression: it pays in histories of many hidden events (`COMPRESSION`)."""

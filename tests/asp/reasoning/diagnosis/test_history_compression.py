@@ -3,38 +3,26 @@
 import copy
 import gc
 from dataclasses import replace
-from unittest.mock import patch
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from agents.shared import sessions_of
 from asp.language import Literal
 from asp.reasoning import knowledge
-from asp.reasoning.diagnosis import (
-    SELECT,
-    Compression,
-    Diagnosis,
-    DiagnosisSessions,
-    Explanation,
-    History,
-    IncrementalDiagnoser,
-    incremental,
-)
+from asp.reasoning.diagnosis import SELECT, Compression, DiagnosisSessions, History
 from asp.reasoning.diagnosis.long_histories import arcs
 from asp.reasoning.diagnosis.long_histories.frontier import Frontier
 from asp.reasoning.diagnosis.long_histories.paths import Path
 from asp.reasoning.diagnosis.smallest_explanations import Interpretation
-from tests.agents.intentional.lives import OFFICE, Place, place
+from tests.agents.intentional.lives import OFFICE, place
+from tests.asp.reasoning.diagnosis.minds import TINY, WHOLE, Mind, compare, compare_others
 from tests.asp.reasoning.diagnosis.wandering import Habits, wander
 from tests.literals import parsed
 
 LOCK = Literal.parse("exo_lock(library)")
 
 USUAL = Compression()
-WHOLE = None
-TINY = Compression(after=4, answers=400, late=8)
 GOAL = parsed(["loc(book1,library)", "-in_hand(rob1,book1)"])
 PLACES = {
     "office": OFFICE,
@@ -42,73 +30,6 @@ PLACES = {
     "dark office": place("office", dark=True),
     "dark library": place("library", dark=True),
 }
-
-
-class Unused:
-    """A reference that is never asked."""
-
-    def diagnose(self, history: History, _adopted: Explanation, /) -> Diagnosis:
-        raise AssertionError(f"more events than are counted at step {history.step}")
-
-
-class Mind:
-    """A diagnoser, and what it has adopted."""
-
-    def __init__(
-        self,
-        where: Place,
-        compression: Compression | None,
-        sessions: DiagnosisSessions | None = None,
-    ) -> None:
-        sessions = sessions or sessions_of(knowledge(where.domain, where.source)).diagnosis
-        with patch.object(incremental, "COMPRESSION", compression):
-            self.diagnoser = IncrementalDiagnoser(sessions, GOAL, 1, Unused())
-        self.adopted = Explanation()
-
-    def think(self, history: History) -> tuple[object, ...]:
-        """The explanation, the state, when the goal held."""
-        self.diagnosis = self.diagnoser.diagnose(history, self.adopted)
-        self.adopted, belief = self.diagnosis.explanation, self.diagnoser.belief
-        return self.adopted, belief.step, belief.state, belief.held
-
-    @property
-    def others(self) -> tuple[list[Explanation], bool]:
-        assert self.diagnosis.alternatives is not None
-        return self.diagnosis.alternatives(20)
-
-    @property
-    def compressed(self) -> int:
-        """The step up to which its history is compressed."""
-        known = self.diagnoser.frontier
-        return known.step if known else 0
-
-
-def compare(where: Place, steps: int, seed: int, habits: Habits, compression: Compression) -> int:
-    """How often something was explained anew with a compressed past, equal each time."""
-    compressed, whole = Mind(where, compression), Mind(where, WHOLE)
-    explained = 0
-    for history in wander(where, GOAL, steps, seed, habits):
-        before = whole.adopted
-        theirs = whole.think(copy.deepcopy(history))
-        assert compressed.think(history) == theirs, history.step
-        if whole.adopted != before:
-            explained += compressed.compressed > 0
-            _compare_others(compressed.others, whole.others, whole.adopted)
-    return explained
-
-
-def _compare_others(
-    compressed: tuple[list[Explanation], bool],
-    whole: tuple[list[Explanation], bool],
-    adopted: Explanation,
-) -> None:
-    """All explanations of the size are told, or that there are more."""
-    (some, more), (every, too_many) = compressed, whole
-    assert len(set(some)) == len(some)
-    assert all(a.size == adopted.size for a in some)
-    if not too_many:
-        assert set(some) <= set(every)
-        assert more == (len(some) < len(every))
 
 
 @pytest.mark.parametrize("name", sorted(PLACES))
@@ -134,7 +55,7 @@ def test_short_histories(
 ) -> None:
     habits = Habits(event=event, reported=reported, false_report=false_report, looks=looks)
     compression = replace(TINY, kept=kept, most=most)
-    compare(PLACES[name], 24, seed, habits, compression)
+    compare(PLACES[name], GOAL, 24, seed, habits, compression)
 
 
 LIVELY = Habits(event=0.1, false_report=0.05, looks=0.9)
@@ -159,12 +80,10 @@ LATE = Habits(event=0.1, reported=0.9, false_report=0.0, late=12, looks=0.5)
 def test_long_histories(
     name: str, steps: int, seed: int, habits: Habits, compression: Compression
 ) -> None:
-    assert compare(PLACES[name], steps, seed, habits, compression) > 0
+    assert compare(PLACES[name], GOAL, steps, seed, habits, compression) > 0
 
 
-def test_the_end_of_a_history_is_explained_without_what_was_compressed(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_long_history_is_explained_by_what_is_compressed(monkeypatch: pytest.MonkeyPatch) -> None:
     smallest, found = Frontier.smallest, list[bool]()
 
     def counted(known: Frontier, history: History) -> Interpretation | None:
@@ -173,7 +92,7 @@ def test_the_end_of_a_history_is_explained_without_what_was_compressed(
         return interpretation
 
     monkeypatch.setattr(Frontier, "smallest", counted)
-    assert compare(OFFICE, 40, 13, LIVELY, TINY) > 0
+    assert compare(OFFICE, GOAL, 40, 13, LIVELY, TINY) > 0
     assert any(found)
 
 
@@ -188,7 +107,7 @@ def test_what_could_only_happen_in_the_compressed_past() -> None:
     At last it learns that a book is not in there: it was taken away while the door was open.
     """
     known = parsed(["loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,kitchen)"])
-    minds = Mind(OFFICE, USUAL), Mind(OFFICE, WHOLE)
+    minds = Mind(OFFICE, USUAL, GOAL), Mind(OFFICE, WHOLE, GOAL)
     histories = History(), History()
     for mind, history in zip(minds, histories, strict=True):
         history.observe(OFFICE.world.literals(OFFICE.world.state(known)), 0)
@@ -207,13 +126,13 @@ def test_what_could_only_happen_in_the_compressed_past() -> None:
     ]
     assert compressed.adopted == whole.adopted
     assert compressed.diagnoser.belief == whole.diagnoser.belief
-    _compare_others(compressed.others, whole.others, whole.adopted)
+    compare_others(compressed.others, whole.others, whole.adopted)
 
 
 def test_news_of_the_selection_of_the_goal_stays_false_in_the_compressed_past() -> None:
     """Nothing else happens at step 0, so that the library was locked at another one."""
     known = parsed(["loc(book1,library)", "loc(book2,kitchen)", "loc(rob1,office1)"])
-    minds = Mind(OFFICE, TINY), Mind(OFFICE, WHOLE)
+    minds = Mind(OFFICE, TINY, GOAL), Mind(OFFICE, WHOLE, GOAL)
     for mind in minds:
         history = History()
         history.observe(OFFICE.world.literals(OFFICE.world.state(known)), 0)
@@ -236,7 +155,7 @@ def test_news_of_the_selection_of_the_goal_stays_false_in_the_compressed_past() 
 def test_what_is_forgotten_of_transitions_is_found_again(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(arcs, "REMEMBERED", 3)
     few = DiagnosisSessions(knowledge(OFFICE.domain, OFFICE.source))
-    forgetful, whole = Mind(OFFICE, TINY, few), Mind(OFFICE, WHOLE)
+    forgetful, whole = Mind(OFFICE, TINY, GOAL, few), Mind(OFFICE, WHOLE, GOAL)
     for history in wander(OFFICE, GOAL, 30, 13, LIVELY):
         assert forgetful.think(copy.deepcopy(history)) == whole.think(history), history.step
     assert forgetful.compressed > 20
@@ -244,7 +163,7 @@ def test_what_is_forgotten_of_transitions_is_found_again(monkeypatch: pytest.Mon
 
 def test_a_life_of_a_thousand_steps_keeps_little() -> None:
     """What is kept of the compressed past has a bound."""
-    mind = Mind(OFFICE, USUAL)
+    mind = Mind(OFFICE, USUAL, GOAL)
     for history in wander(OFFICE, GOAL, 1_000, 17, TOLD):
         mind.think(history)
     assert mind.compressed > 900
