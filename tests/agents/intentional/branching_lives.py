@@ -52,18 +52,21 @@ def live(
     *,
     plans: Plans = "optimistic",
     seen: Collection[str] | None = None,
+    known: Collection[str] | None = None,
     events: bool = False,
     seed: int = 0,
     steps: int = 16,
 ) -> Life:
     """A life of at most so many steps, in which the robot sees these fluents, or all.
 
+    At first it knows of those that are `known`, or all.
+
     With `events`, exogenous actions happen at a third of the steps with physical actions. Who
     finishes without the goal is told of it, once in a row.
     """
     world, random, life = world_of(description), Random(seed), Life([initial, initial])
-    known = world.literals(initial)
-    robot.begin(task_of(description, known, goal, plans))
+    told = _visible(world, initial, known)
+    robot.begin(task_of(description, told, goal, plans))
     percept = Percept(trial="life", step=1, visible=_visible(world, initial, seen))
     for step in range(1, steps + 1):
         decision, state = robot.act(percept), life.states[-1]

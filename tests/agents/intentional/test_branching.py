@@ -78,6 +78,7 @@ class BothCompressed(Both):
         unique_by=lambda literal: literal.strip("-"),
     ),
     seen=st.sets(st.sampled_from(FLUENTS)),
+    known=st.none() | st.sets(st.sampled_from(FLUENTS)),
     events=st.booleans(),
     kind=st.sampled_from([Both, BothCompressed]),
     draw=st.data(),
@@ -88,6 +89,7 @@ def test_every_decision_of_a_life_is_the_same(
     description: Description,
     goal: list[str],
     seen: set[str],
+    known: set[str] | None,
     events: bool,
     kind: type[Both],
     draw: st.DataObject,
@@ -99,7 +101,15 @@ def test_every_decision_of_a_life_is_the_same(
     robot = IntentionalRobot(kind)
     try:
         life = live(
-            robot, description, initial, goal, plans=plans, seen=seen, events=events, seed=seed
+            robot,
+            description,
+            initial,
+            goal,
+            plans=plans,
+            seen=seen,
+            known=known,
+            events=events,
+            seed=seed,
         )
     except RobotStops:
         event("inconsistent")
