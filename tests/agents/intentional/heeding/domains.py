@@ -110,6 +110,15 @@ sees
   R sees forged(P)   if robot(R).
 """
 """A helper has to be there for the second of two actions."""
+_NEEDED = "  impossible strike(R, P) if -waits(H, anvil).\n"
+IN_THE_EFFECT = SMITHY.replace(_NEEDED, "").replace(
+    "strike(R, P)  causes forged(P).", "strike(R, P)  causes forged(P) if waits(apprentice, anvil)."
+)
+"""The same where the action is possible without the helper, and has no effect."""
+BY_A_DEFINITION = SMITHY.replace(
+    _NEEDED, "  impossible strike(R, P) if -ready(H).\n  ready(H) if waits(H, anvil).\n"
+).replace("  inertial hot(piece).\n", "  inertial hot(piece).\n  defined  ready(helper).\n")
+"""The same with a defined fluent as the condition."""
 
 PORT = """\
 sorts

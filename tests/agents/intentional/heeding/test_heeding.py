@@ -8,13 +8,21 @@ import pytest
 import yaml
 from typer.testing import CliRunner
 
+from asp.language import Literal
 from testbed.cli import app
 from testbed.config import config_names, load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
-from tests.agents.intentional.heeding.domains import BLOCKS, CANAL, SMITHY, port
+from tests.agents.intentional.heeding.domains import (
+    BLOCKS,
+    BY_A_DEFINITION,
+    CANAL,
+    IN_THE_EFFECT,
+    SMITHY,
+    port,
+)
 
 Event = tuple[int, str]
 
@@ -123,6 +131,7 @@ def test_a_lock_on_the_way_is_heeded_for_the_plan(
     assert _attempts(moments) == [*attempts, "sail(barge,delta)"]
 
 
+@pytest.mark.parametrize("text", [SMITHY, IN_THE_EFFECT, BY_A_DEFINITION])
 @pytest.mark.parametrize(
     ("relevance", "attempts"),
     [
@@ -131,10 +140,10 @@ def test_a_lock_on_the_way_is_heeded_for_the_plan(
     ],
 )
 def test_a_helper_who_walked_off_is_missed_for_the_plan(
-    relevance: str, attempts: list[str]
+    relevance: str, attempts: list[str], text: str
 ) -> None:
     left = [(2, "stroll(apprentice,yard)")]
-    moments = _played(SMITHY, ["waits(apprentice,anvil)"], "forged(blade)", left, relevance)
+    moments = _played(text, ["waits(apprentice,anvil)"], "forged(blade)", left, relevance)
     assert _attempts(moments) == [*attempts, "strike(smith,blade)"]
 
 
@@ -183,9 +192,13 @@ def test_the_baseline_looks_at_its_outcome_whatever_is_relevant() -> None:
 FINE = {
     "name": "fine",
     "levels": ["row"],
-    "level_sizes": {"row": {"rooms": 4, "rows": 1, "columns": 2, "objects": [[1, 1]]}},
+    "level_sizes": {"row": {"rooms": 4, "rows": 1, "columns": 2, "objects": [[2, 1]]}},
     "goal": ["in_hand(rob1,object1)"],
-    "initial": ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room3_1)"],
+    "initial": [
+        "fine_loc(rob1,room1_1)",
+        "fine_loc(object1_1,room3_1)",
+        "fine_loc(object2_1,room4_1)",
+    ],
     "script": [{"at_action": 1, "action": "fine_exo_move(object1_1,room2_1)"}],
     "robots": ["intentional"],
     "limit": 1,
@@ -194,10 +207,19 @@ FINE = {
 
 @pytest.mark.parametrize("relevance", ["published", "definition", "plan", "all"])
 def test_it_is_the_same_at_the_fine_resolution(relevance: str) -> None:
-    """The object comes from the third room into the second one, through which the robot goes."""
+    """The object comes from the third room into the second one, through which the robot goes.
+
+    Only a robot that heeds everything bears the other object in mind.
+    """
     Path("fine.yaml").write_text(yaml.safe_dump(FINE), encoding="utf-8")
     (spec,) = plan_trials(load_config("fine.yaml", [f"relevance={relevance}"]))
-    record = play_trial(spec, InProcessRobot(make_robot)).record
+    beliefs = list[Literal]()
+
+    def tell(moment: Moment) -> None:
+        beliefs.extend(moment.decision.trace.belief)
+
+    record = play_trial(spec, InProcessRobot(make_robot), tell).record
+    assert any("object2" in each.arguments for each in beliefs) == (relevance == "all")
     actions = [attempt.action for attempt in record.actions]
     if relevance == "published":
         assert actions[:2] == ["move(rob1,room2)", "move(rob1,room3)"]
