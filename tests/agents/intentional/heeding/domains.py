@@ -35,7 +35,7 @@ sees
 CANAL = """\
 sorts
   robot = {barge}.
-  pool  = {spring, mill, delta}.
+  pool  = {spring, mill, delta, gulf}.
   gate  = {weir}.
 statics
   joins(pool, pool).
@@ -65,6 +65,7 @@ laws
 facts
   joins(spring, mill).
   joins(mill, delta).
+  joins(delta, gulf).
   shuts(weir, mill, delta).
 initially
   floats(R, P) for some P.
@@ -85,16 +86,19 @@ fluents
   inertial waits(helper, spot).
   inertial hot(piece).
   inertial forged(piece).
+  inertial cracked(spot).
 actions
   agent     heat(robot, piece).
   agent     strike(robot, piece).
   agent     call(robot, helper).
   exogenous stroll(helper, spot).
+  exogenous crack(spot).
 laws
   heat(R, P)    causes hot(P).
   strike(R, P)  causes forged(P).
   call(R, H)    causes waits(H, anvil).
   stroll(H, S)  causes waits(H, S).
+  crack(S)      causes cracked(S).
   -waits(H, S2) if waits(H, S1), S1 != S2.
   impossible heat(R, P)   if hot(P).
   impossible strike(R, P) if -hot(P).
@@ -102,12 +106,14 @@ laws
   impossible strike(R, P) if -waits(H, anvil).
   impossible call(R, H)   if waits(H, anvil).
   impossible stroll(H, S) if waits(H, S).
+  impossible crack(S)     if cracked(S).
 initially
   waits(H, S) for some S.
 sees
   R sees waits(H, S) if robot(R).
   R sees hot(P)      if robot(R).
   R sees forged(P)   if robot(R).
+  R sees cracked(S)  if robot(R).
 """
 """A helper has to be there for the second of two actions."""
 _NEEDED = "  impossible strike(R, P) if -waits(H, anvil).\n"
@@ -159,8 +165,32 @@ sees
   R sees stands(R, B)   if robot(R).
   R sees aboard(R, S)   if robot(R).
   R sees moors({first}) if robot(R), stands(R, B).
+  R sees moors({first}) if robot(R), stands(R, B2), beside(B, B2).
 """
-"""A pilot looks for a ship, which a goal names without its berth."""
+"""A pilot looks for a ship, which a goal names without its berth, and sees the berths beside it."""
+
+DITCHES = """\
+sorts
+  robot = {farmer}.
+  valve = {inlet, outlet}.
+  ditch = {upper, lower}.
+fluents
+  inertial opened(valve).
+  defined  flows(ditch).
+actions
+  agent     unscrew(robot, valve).
+  exogenous clog(valve).
+laws
+  unscrew(R, V) causes opened(V).
+  clog(V)       causes -opened(V).
+  flows(upper)  if opened(inlet).
+  flows(lower)  if flows(upper), opened(outlet).
+  impossible unscrew(R, V) if opened(V).
+  impossible clog(V)       if -opened(V).
+sees
+  R sees opened(V) if robot(R).
+"""
+"""The goal depends by two definitions on a valve that no action of the plan names."""
 
 
 def port(*places: str) -> str:

@@ -19,6 +19,7 @@ from tests.agents.intentional.heeding.domains import (
     BLOCKS,
     BY_A_DEFINITION,
     CANAL,
+    DITCHES,
     IN_THE_EFFECT,
     SMITHY,
     port,
@@ -67,15 +68,14 @@ def _attempts(moments: Sequence[Moment]) -> list[str]:
 
 
 ROBOTS = pytest.mark.parametrize("robot", ["intentional", "intentional-plain"])
-SHIP_LEAVES = [(2, "tow(brig,north)")]
-LOOKING = ["stands(pilot,east)"]
+SHIP_LEAVES = [(1, "tow(brig,east)")]
 
 
 def _looking(places: Sequence[str], relevance: str = "") -> list[Moment]:
-    """The ship is believed in the west, and is brought where the pilot passes on the way."""
-    values = {"S": "brig", "B": "west", "R": "pilot"}
+    """The ship is believed in the south, beyond the west, and is seen to the other side."""
+    values = {"S": "brig", "B": "south", "R": "pilot"}
     moored = f"moors({','.join(values[place] for place in places)})"
-    start = [*LOOKING, moored]
+    start = ["stands(pilot,north)", moored]
     return _played(port(*places), start, "aboard(pilot,brig)", SHIP_LEAVES, relevance)
 
 
@@ -83,21 +83,21 @@ def _looking(places: Sequence[str], relevance: str = "") -> list[Moment]:
 def test_what_the_goal_names_is_heeded_whatever_the_value_and_wherever_it_stands(
     places: str,
 ) -> None:
-    assert _attempts(_looking(places)) == ["walk(pilot,north)", "board(pilot,brig)"]
+    assert _attempts(_looking(places)) == ["walk(pilot,east)", "board(pilot,brig)"]
 
 
 @pytest.mark.parametrize("places", ["SB", "BS", "SBR"])
 def test_the_released_controller_walks_past_what_it_looks_for(places: str) -> None:
     attempts = _attempts(_looking(places, "published"))
-    assert attempts[:3] == ["walk(pilot,north)", "walk(pilot,west)", "board(pilot,brig)"]
+    assert attempts[:3] == ["walk(pilot,west)", "walk(pilot,south)", "board(pilot,brig)"]
     assert len(attempts) > 3
 
 
 def test_what_is_seen_against_the_belief_and_not_heeded_is_on_record() -> None:
     past, found = _looking("SB", "published"), _looking("SB")
     seen = [(m.percept.step, m.decision.trace.unheeded) for m in past if m.decision.trace.unheeded]
-    # It stands in the north, where the ship is; believed in the west, it is seen not to be there.
-    assert seen[:2] == [(3, ["moors(brig,north)"]), (4, ["-moors(brig,west)"])]
+    # Beside it in the north the ship is seen, and from the west that it is not in the south.
+    assert seen[:2] == [(2, ["moors(brig,east)"]), (3, ["-moors(brig,south)"])]
     assert not any(moment.decision.trace.unheeded for moment in found)
 
 
@@ -108,6 +108,14 @@ def test_a_defined_goal_is_changed_by_what_defines_it(robot: str) -> None:
     moments = _played(BLOCKS, start, "above(a,c)", [(1, "knock(b,ground)")], robot=robot)
     assert _attempts(moments) == ["put(a,c)"]
     assert all(moment.decision.trace.no_plan is None for moment in moments)
+
+
+@pytest.mark.parametrize(("relevance", "finishes"), [("published", 2), ("definition", 1)])
+def test_a_goal_depends_on_what_its_definitions_depend_on(relevance: str, finishes: int) -> None:
+    """The inlet is clogged, unseen by a robot that looks at the last definition only."""
+    clogged = [(1, "clog(inlet)")]
+    moments = _played(DITCHES, ["opened(inlet)"], "flows(lower)", clogged, relevance)
+    assert [m.decision.action for m in moments].count("finish") == finishes
 
 
 THROUGH = ["floats(barge,spring)"]
@@ -175,6 +183,23 @@ def test_what_the_last_action_names_is_heeded() -> None:
     assert definition[3] == set()
     assert definition[4] == {"dredged(spring)"}
     assert not any(_against("all").values())
+
+
+def test_what_the_last_action_changed_is_heeded() -> None:
+    """The helper comes to the anvil, which the call does not name, and it is cracked by then."""
+    start = ["waits(apprentice,yard)", "hot(blade)"]
+    for relevance, against in (("published", {"cracked(anvil)"}), ("definition", set[str]())):
+        moments = _played(SMITHY, start, "forged(blade)", [(2, "crack(anvil)")], relevance)
+        assert moments[1].decision.action == "call(smith,apprentice)"
+        assert set(moments[2].decision.trace.unheeded or ()) == against
+
+
+def test_conditions_of_what_is_done_are_not_heeded_for_the_plan() -> None:
+    """The gate is closed behind the robot, that goes on."""
+    closed = [(2, "turn(weir)")]
+    moments = _played(CANAL, ["floats(barge,mill)"], "floats(barge,gulf)", closed, "plan")
+    assert _attempts(moments) == ["sail(barge,delta)", "sail(barge,gulf)"]
+    assert moments[2].decision.trace.unheeded == ["closed(weir)"]
 
 
 def test_the_baseline_looks_at_its_outcome_whatever_is_relevant() -> None:
@@ -253,7 +278,7 @@ def test_a_replay_tells_what_was_not_heeded() -> None:
     told = CliRunner().invoke(app, ["replay", "own", "--trial", json.loads(line)["trial"]])
     assert told.exit_code == 0
     found = [line.split() for line in told.stdout.splitlines() if "unheeded" in line]
-    assert found[:2] == [["unheeded", "moors(brig,north)"], ["unheeded", "-moors(brig,west)"]]
+    assert found[:2] == [["unheeded", "moors(brig,east)"], ["unheeded", "-moors(brig,south)"]]
 
 
 def test_an_unknown_relevance_is_refused_in_one_line() -> None:
