@@ -74,8 +74,9 @@ class IntentionalRobot(ReasoningRobot[History]):
 
     def _attempt(self, intention: Intention) -> None:
         """Step 3 of the loop: the attempt is recorded, and a new activity with it."""
-        history = self._history
-        self._believed = (history.step, intention.believed - {GOAL})
+        history, believed = self._history, intention.believed - {GOAL}
+        self._believed = (history.step, believed)
+        self._expect(believed, self._ahead)
         history.attempt(intention.action, history.step)
         name = len(history.activities) + 1
         if intention.action == start_activity(name):
@@ -106,7 +107,6 @@ class IntentionalRobot(ReasoningRobot[History]):
             ],
             plans=trace.plans + (intention.action == start_activity(trace.plans + 1)),
         )
-        self._expect(intention.believed - {GOAL}, self._ahead)
         return self._reasons.explained(trace, self._history, intention, diagnosis)
 
     def _with_alternatives(self, trace: Trace, diagnosis: Diagnosis) -> Trace:

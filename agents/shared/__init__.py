@@ -16,4 +16,4 @@ from agents.shared.reasoning import sessions_of as sessions_of
 from agents.shared.reasons import Reasons as Reasons
 from agents.shared.robot import MakeReasoner as MakeReasoner
 from agents.shared.robot import ReasoningRobot as ReasoningRobot
-from agents.shared.robot import Thought as Thought
+from agents.shared.thought import Thought as Thought

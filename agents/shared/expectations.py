@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 from agents.shared.reasoning import sessions_of
-from asp.reasoning import Goal, Knowledge
+from asp.reasoning import Goal, Knowledge, satisfied
 from asp.reasoning.diagnosis import Explanation, Happening, History, record_of
-from asp.reasoning.planning import Plan, satisfied
+from asp.reasoning.planning import Plan
 from asp.solving import State
 
 Layer = dict[State, list[State]]

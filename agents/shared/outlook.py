@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
-from asp.reasoning.knowledge import Goal
-from asp.reasoning.planning import ConformantPlanner, Plan, Planner, satisfied
+from asp.reasoning import Goal, satisfied
+from asp.reasoning.planning import ConformantPlanner, Plan, Planner
 from asp.solving import State
 
 

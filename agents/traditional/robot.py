@@ -39,6 +39,10 @@ class TraditionalRobot(ReasoningRobot[History]):
 
     def _attempt(self, intention: Intention) -> None:
         """Step by step through the plan: what is attempted is recorded, the rest remains."""
+        if self._rest is None:
+            believed = intention.believed - {GOAL}
+            self._believed = (self._history.step, believed)
+            self._expect(believed, intention.plan)
         if intention.plan:
             self._history.attempt(intention.action, self._history.step)
             intention = intention_of(intention.plan[1:], intention.believed)
@@ -58,9 +62,6 @@ class TraditionalRobot(ReasoningRobot[History]):
         if intention is None:
             return trace
         believed = intention.believed - {GOAL}
-        if thought.is_new:
-            self._believed = (self._history.step, believed)
-            self._expect(believed, intention.plan)
         self._plans += thought.is_new and bool(intention.plan)
         is_given_up = not intention.plan and GOAL not in intention.believed
         no_plan, given_up = self._reasons.no_plan(believed) if is_given_up else (None, "")

@@ -7,6 +7,7 @@ from asp.reasoning.knowledge import Goal as Goal
 from asp.reasoning.knowledge import Knowledge as Knowledge
 from asp.reasoning.knowledge import goal_facts as goal_facts
 from asp.reasoning.knowledge import knowledge as knowledge
+from asp.reasoning.knowledge import satisfied as satisfied
 from asp.reasoning.relevance import Relevance as Relevance
 from asp.reasoning.relevance import interchangeable as interchangeable
 from asp.reasoning.successors import Transitions as Transitions

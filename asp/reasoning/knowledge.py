@@ -8,7 +8,7 @@ from clingo import Symbol
 
 from asp.language import Action, Description, Literal, parse_description
 from asp.reasoning.determinism import deterministic_by_form
-from asp.solving import fact
+from asp.solving import State, fact
 from asp.translation import translate
 
 # A robot whose domain follows from its goal has as many domains as goals.
@@ -16,6 +16,11 @@ _REMEMBERED = 32
 
 Goal = tuple[Literal, ...]
 """Literals that are to hold together."""
+
+
+def satisfied(goal: Goal, state: State) -> bool:
+    """Whether a state satisfies a goal."""
+    return all((each.atom in state) == each.is_positive for each in goal)
 
 
 @dataclass(frozen=True)

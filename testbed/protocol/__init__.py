@@ -1,5 +1,6 @@
 """The messages between a driver and a robot, and the interface of a robot."""
 
+from asp.reasoning.planning import Plans as Plans
 from testbed.protocol.bounds import MOST_BYTES as MOST_BYTES
 from testbed.protocol.bounds import Count as Count
 from testbed.protocol.bounds import literal_within_bounds as literal_within_bounds
@@ -11,28 +12,27 @@ from testbed.protocol.errors import RobotLost as RobotLost
 from testbed.protocol.errors import RobotStopped as RobotStopped
 from testbed.protocol.errors import RobotStops as RobotStops
 from testbed.protocol.errors import in_one_line as in_one_line
-from testbed.protocol.messages import FINISH as FINISH
-from testbed.protocol.messages import NONE as NONE
 from testbed.protocol.messages import PROTOCOL_VERSION as PROTOCOL_VERSION
-from testbed.protocol.messages import WAIT as WAIT
-from testbed.protocol.messages import Contradiction as Contradiction
 from testbed.protocol.messages import Decision as Decision
-from testbed.protocol.messages import Event as Event
-from testbed.protocol.messages import Explanation as Explanation
-from testbed.protocol.messages import FineTrace as FineTrace
-from testbed.protocol.messages import Minimality as Minimality
-from testbed.protocol.messages import NoPlan as NoPlan
 from testbed.protocol.messages import Percept as Percept
-from testbed.protocol.messages import Plans as Plans
 from testbed.protocol.messages import Question as Question
 from testbed.protocol.messages import Relevance as Relevance
 from testbed.protocol.messages import Task as Task
-from testbed.protocol.messages import Trace as Trace
 from testbed.protocol.messages import decode as decode
 from testbed.protocol.messages import encode as encode
-from testbed.protocol.messages import is_mental as is_mental
+from testbed.protocol.parts import FINISH as FINISH
+from testbed.protocol.parts import NONE as NONE
+from testbed.protocol.parts import WAIT as WAIT
+from testbed.protocol.parts import Event as Event
+from testbed.protocol.parts import is_mental as is_mental
 from testbed.protocol.robot import Capabilities as Capabilities
 from testbed.protocol.robot import Knowledge as Knowledge
 from testbed.protocol.robot import Robot as Robot
 from testbed.protocol.robot import RobotClient as RobotClient
 from testbed.protocol.robot import RobotFactory as RobotFactory
+from testbed.protocol.trace import Contradiction as Contradiction
+from testbed.protocol.trace import Explanation as Explanation
+from testbed.protocol.trace import FineTrace as FineTrace
+from testbed.protocol.trace import Minimality as Minimality
+from testbed.protocol.trace import NoPlan as NoPlan
+from testbed.protocol.trace import Trace as Trace

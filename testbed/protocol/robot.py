@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, get_args
 
-from testbed.protocol.messages import Decision, Percept, Plans, Task
+from asp.reasoning.planning import Plans
+from testbed.protocol.messages import Decision, Percept, Task
 
 Resolution: TypeAlias = Literal["coarse", "fine"]
 Knowledge: TypeAlias = Literal["complete", "seen"]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from asp.language import Literal
 from asp.reasoning.diagnosis.explanations import Explanation
 from asp.reasoning.diagnosis.history import GOAL, History, Moment, record_of
-from asp.reasoning.knowledge import Goal, Knowledge
+from asp.reasoning.knowledge import Goal, Knowledge, satisfied
 from asp.reasoning.successors import Transitions, place_of
 from asp.solving import State, current
 
@@ -44,7 +44,7 @@ class BeliefTracker:
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""
-        return not self.missing(state)
+        return satisfied(self.goal, state)
 
     def surprises(self, moment: Moment, state: State) -> list[Literal]:
         """The literals that were observed at a moment and are not true in a state."""

@@ -8,7 +8,6 @@ from asp.reasoning.planning.conformant import Plans as Plans
 from asp.reasoning.planning.conformant import (
     reference_conformant_planner as reference_conformant_planner,
 )
-from asp.reasoning.planning.conformant import satisfied as satisfied
 from asp.reasoning.planning.incremental import IncrementalPlanner as IncrementalPlanner
 from asp.reasoning.planning.large.operators import Encoding as Encoding
 from asp.reasoning.planning.large.operators import Operator as Operator

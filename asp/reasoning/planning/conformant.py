@@ -9,7 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Literal, TypeAlias
 
 from asp.language import Action
-from asp.reasoning.knowledge import Goal, Knowledge
+from asp.reasoning.knowledge import Goal, Knowledge, satisfied
 from asp.reasoning.planning.incremental import IncrementalPlanner
 from asp.reasoning.planning.reference import Plan
 from asp.reasoning.successors import Transitions
@@ -31,11 +31,6 @@ next(F) :- holds(F,1).
 #show next/1.
 #defined starts/1.
 """
-
-
-def satisfied(goal: Goal, state: State) -> bool:
-    """Whether a state satisfies a goal."""
-    return all((each.atom in state) == each.is_positive for each in goal)
 
 
 class ConformantPlanner:
