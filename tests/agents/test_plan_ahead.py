@@ -48,6 +48,7 @@ def _played(path: Path, robot: str, script: str) -> list[Moment]:
         f"script={script}",
         f"robots=[{robot}]",
         "link=inprocess",
+        "limits={plan: 8, decision_s: null}",
     ]
     (spec,) = plan_trials(load_config("office", overrides))
     moments: list[Moment] = []

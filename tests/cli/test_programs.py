@@ -57,7 +57,7 @@ goal: ["fired(jug)", "fired(bowl)"]
 initial: ["-fired(jug)", "-fired(bowl)", "-hot", "shut"]
 script: [{step: 3, action: open_up}, {step: 9, action: "chill(jug)"}]
 robots: [intentional, intentional-joint, intentional-checking, traditional]
-limits: {plan: 5}
+limits: {plan: 5, decision_s: null}
 link: inprocess
 """
 

@@ -16,7 +16,7 @@ initial: ["loc(rob1,office1)", "loc(book1,office1)", "loc(book2,kitchen)"]
 script: [{step: 2, action: "exo_move(book2,library)"}]
 robots: [intentional, intentional-plain, intentional-joint, intentional-joint-staged]
 link: inprocess
-limits: {plan: 12}
+limits: {plan: 12, decision_s: null}
 observability: {exo_move: {mode: always, delay: 3}}
 """
 

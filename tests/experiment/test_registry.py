@@ -8,6 +8,7 @@ from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from tests.experiment.samples import Configure
 
+LIMITS = ("limits.plan=8", "limits.decision_s=null")
 EVENT = "script=[{step: 1, action: 'exo_lock(library)'}]"
 
 
@@ -23,7 +24,7 @@ COARSE = {
 def test_an_event_at_step_1_is_an_error_beside_those_that_only_start(
     configure: Configure, robot: str, goal: str
 ) -> None:
-    config = configure("scenarios=[1]", f"goal=[{goal}]", f"robots=[{robot}]", EVENT)
+    config = configure("scenarios=[1]", f"goal=[{goal}]", f"robots=[{robot}]", EVENT, *LIMITS)
     (spec,) = plan_trials(config)
     outcome = play_trial(spec, InProcessRobot(lambda _: make_robot(robot))).record.outcome
     nothing_to_do = goal == "loc(rob1,kitchen)"  # then whoever it is finishes at once

@@ -45,6 +45,7 @@ def _spec(configure: Configure, robot: str) -> TrialSpec:
             f"robots=[{robot}]",
             "scenario_settings={}",
             "script=[]",
+            "limits={plan: 8, decision_s: null}",
             f"initial={initial}",
             f'goal=["{UNLOCKED}"]',
         )

@@ -45,6 +45,7 @@ def test_it_achieves_the_six_published_scenarios(tmp_path: Path) -> None:
     """To the letter and in two stages."""
     robots = ("intentional-joint", "intentional-joint-staged")
     given = ["link=inprocess", f"robots=[{','.join(robots)}]", "limits.plan=12"]
+    given.append("limits.decision_s=null")
     play_missing(load_config("quickstart", given), tmp_path, 1, lambda _: None)
     outcomes = {(r.scenario, r.robot): r.outcome for r in read_records(tmp_path)}
     assert outcomes == dict.fromkeys(product("123456", robots), "achieved")
