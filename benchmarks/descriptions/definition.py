@@ -138,6 +138,26 @@ class Definition:
             plan.append(action)
         return tuple(plan)
 
+    def conformant_plan(self, state: State, goal: Goal, most: int) -> Plan | None:
+        """The first shortest sequence of actions that leads to the goal whatever the outcomes.
+
+        Each action is possible after whatever the outcomes before it; None where no sequence of at
+        most so many actions is one.
+        """
+        plans: dict[frozenset[State], Plan] = {frozenset([state]): ()}
+        for _ in range(most + 1):
+            for states, plan in plans.items():
+                if all(self.satisfies(each, goal) for each in states):
+                    return plan
+            longer: dict[frozenset[State], Plan] = {}
+            for states, plan in plans.items():
+                for action in self.own:
+                    outcomes = [self.after(each, frozenset([action])) for each in states]
+                    if all(outcomes):
+                        longer.setdefault(frozenset().union(*outcomes), (*plan, action))
+            plans = longer
+        return None
+
     def _nearer(
         self, now: set[State], goal: Goal, distance: int
     ) -> Iterator[tuple[str, set[State]]]:

@@ -94,7 +94,7 @@ class _Drawing:
 
     def _constraints(self) -> Iterator[Statement]:
         """A constraint, or several that go together."""
-        some = [self._one, self._one, self._functional, self._cycle, self._rivals, self._rivals]
+        some = [self._one, self._one, self._functional, self._cycle, *[self._rivals] * 3]
         yield from self.random.choice(some)()
 
     def _one(self) -> Iterator[Statement]:

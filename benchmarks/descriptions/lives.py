@@ -49,14 +49,6 @@ def check_lives(case: Case) -> None:
             agree(what, incremental=ours, reference=theirs)
 
 
-def is_deterministic(known: Definition) -> bool:
-    """Whether whatever may happen at a step has one outcome at most."""
-    own = [frozenset[str](), *(frozenset([action]) for action in known.own)]
-    others = [frozenset[str](), *(frozenset([action]) for action in known.others)]
-    compounds = [mine | theirs for mine in own for theirs in others]
-    return all(len(known.after(s, actions)) < 2 for s in known.states for actions in compounds)
-
-
 def _beginning(case: Case) -> tuple[State, Goal]:
     """An initial state and a goal: of some pairs the one with the longest plan, if any has one."""
     known, random = case.definition, case.random
@@ -71,6 +63,7 @@ def _setting(known: Definition, random: Random) -> dict[str, Any]:
     """What the robot knows, heeds and is told, and how often something happens."""
     return {
         "knowledge": random.choice(["complete", "seen"]),
+        "plans": random.choice(["optimistic", "conformant"]),
         "relevance": random.choice(["published", "definition", "plan", "all"]),
         "goal_feedback": random.random() < 0.8,
         "exogenous_while_thinking": random.random() < 0.7,

@@ -11,7 +11,7 @@ from benchmarks.descriptions.signatures import ROBOT
 from testbed.world import World, world_of
 
 _STATES, _COMPOUNDS, _PLANS = 6, 8, 4
-_LONGEST_REFERENCE = 4
+_LONGEST_REFERENCE, _LONGEST_CONFORMANT = 4, 5
 
 
 def check_diagram(case: Case) -> None:
@@ -74,13 +74,16 @@ def _compounds(case: Case) -> Iterator[frozenset[str]]:
 
 
 def check_plans(case: Case) -> None:
-    """The first shortest plan, by both planners, against a search of the diagram."""
+    """The first shortest plan, by both planners, and the first conformant one, against a search."""
     reference = ReferencePlanner(case.knowledge)
     for state in case.some_states(_PLANS):
         goal = random_goal(case.description, case.random)
         what = f"plan from {sorted(state)} to {goal}"
         found = case.definition.plan(state, goal)
         agree(what, definition=found, incremental=case.domain.plan(sorted(state), goal))
+        conformant = case.domain.plan(sorted(state), goal, _LONGEST_CONFORMANT, "conformant")
+        expected = case.definition.conformant_plan(state, goal, _LONGEST_CONFORMANT)
+        agree(f"conformant {what}", definition=expected, incremental=conformant)
         if found != () and len(found or ()) <= _LONGEST_REFERENCE:
             limit = len(found) if found else _LONGEST_REFERENCE // 2
             plan = reference.shortest(_parsed(state), tuple(map(Literal.parse, goal)), limit)
