@@ -6,6 +6,7 @@ answers on multi-shot sessions.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain, repeat
 from typing import NamedTuple
 
 from clingo import Symbol
@@ -27,7 +28,7 @@ from asp.reasoning.planning import reference_conformant_planner
 from asp.solving import answer_sets, fact, first_model, ground, literal_of, select, theory
 from testbed.protocol import Plans
 
-BEYOND_LIMIT = (fact("beyond_limit"),)
+BEYOND_LIMIT, HALTING = (fact("beyond_limit"),), (fact("halting"),)
 """What is given where no plan within the limit exists (53)."""
 
 
@@ -65,20 +66,21 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
             outlook = Conformant(reference_conformant_planner(self._knowledge))
             options = self._options(history, diagnosis)
             return intended(options, history, diagnosis, outlook, self._goal, self._plan_limit)
-        for length in self._lengths(history, diagnosis):
-            intention = self._intention(history, diagnosis, length, ())
+        lengths = self._lengths(history, diagnosis)
+        last_resorts = ((1, BEYOND_LIMIT), (lengths[0], HALTING))
+        for length, more in chain(zip(lengths, repeat(())), last_resorts):
+            intention = self._intention(history, diagnosis, length, more)
             if intention is not None:
                 return intention
-        intention = self._intention(history, diagnosis, 1, BEYOND_LIMIT)
-        assert intention is not None, "(53): an agent always has an intention"
-        return intention
+        raise AssertionError("(53): an agent always has an intention")
 
     def phase_two(
         self, history: History, diagnosis: Diagnosis, length: int, more: Sequence[Symbol] = ()
     ) -> Program:
         """The theory of planning where `length` more physical actions are considered.
 
-        `more` is `beyond_limit` where no plan within the limit exists.
+        `more` is `beyond_limit` where no plan within the limit exists, and `halting` where an
+        action of the plan that is carried out cannot be executed though no law says so.
         """
         explanation = diagnosis.explanation
         facts = (
