@@ -14,14 +14,14 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.specs import TrialSpec
 
 SHARES: Mapping[str, int] = {
-    "intentional": 71,
-    "traditional": 19,
+    "intentional": 150,
+    "traditional": 40,
     "intentional-plain": 3,
     "traditional-plain": 3,
     "intentional-joint-staged": 2,
     "intentional-joint": 2,
 }
-"""The robots, with how often of a hundred games each plays."""
+"""The robots, with how often of two hundred games each plays: some solve programs from scratch."""
 JOINT = ("intentional-joint", "intentional-joint-staged")
 SLOW = {
     "intentional-plain": 14,
@@ -163,6 +163,8 @@ def _options(chance: random.Random) -> dict[str, Any]:
         "goal_feedback": chance.random() < 0.75,
         "exogenous_while_thinking": chance.random() < 0.5,
     }
+    if chance.random() < 0.8:
+        options["limits.judge_states"] = 1
     if chance.random() < 0.15:
         options["limits.plan"] = chance.randint(1, 12)
     if chance.random() < 0.06:
