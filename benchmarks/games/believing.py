@@ -6,13 +6,17 @@ from itertools import islice
 from benchmarks.games.explaining import Assumptions
 from benchmarks.games.faults import Fault, Turn
 from benchmarks.games.office import State, complement
+from benchmarks.games.preferring import first
 from benchmarks.games.told import Told
 
 MOST_ALTERNATIVES = 20
 
 
 def explanation_faults(turn: Turn, keeps: bool) -> Iterator[Fault]:
-    """It explains the history, none is smaller, and one that is as good `keeps` its place."""
+    """It explains the history, and none is smaller.
+
+    One that is as good `keeps` its place; else it is the first of the smallest ones.
+    """
     adopted, search = turn.adopted, turn.search
     if not turn.ends:
         yield turn.fault("explanation", f"does not explain the history: {adopted}")
@@ -25,9 +29,12 @@ def explanation_faults(turn: Turn, keeps: bool) -> Iterator[Fault]:
         found = next(search.every(smallest))
         yield turn.fault("explanation", f"{adopted}; smaller is: {found}")
         return
-    is_new = adopted != turn.before
-    if keeps and is_new and turn.before.price == smallest and search.outcomes(turn.before):
+    if not keeps or adopted == turn.before:
+        return
+    if turn.before.price == smallest and search.outcomes(turn.before):
         yield turn.fault("explanation", f"{adopted}; it need not give up: {turn.before}")
+    elif first(search, smallest) not in (adopted, None):
+        yield turn.fault("explanation", f"{adopted}; first is: {first(search, smallest)}")
 
 
 def alternative_faults(turn: Turn) -> Iterator[Fault]:

@@ -171,18 +171,22 @@ class Search:
 
     def outcomes(self, assumed: Assumptions) -> set[Node]:
         """Where a history leads to by an explanation; nowhere: it does not explain it."""
-        nodes = {node for node, own in self.starts.items() if own == assumed.exceptions}
+        return set(self.explained(assumed).values())
+
+    def explained(self, assumed: Assumptions) -> dict[Node, Node]:
+        """The first nodes from which an explanation explains the history, with the last ones."""
+        nodes = {node: node for node, own in self.starts.items() if own == assumed.exceptions}
         for step in range(self.told.step):
             part = assumed.at(step)
             reports = self.told.at(step).reports
             if not part.distrusted <= reports or not part.events.isdisjoint(reports):
-                return set()
+                return {}
             if part.price and step < self.told.rules.since:
-                return set()
-            agreeing = [node for node in nodes if self._agrees(node, step)]
-            nodes = {a for node in agreeing if (a := self.after(node, step, part)) is not None}
-        last = self.told.step
-        return {node for node in nodes if self._agrees(node, last)}
+                return {}
+            agreeing = [(s, node) for s, node in nodes.items() if self._agrees(node, step)]
+            afters = ((start, self.after(node, step, part)) for start, node in agreeing)
+            nodes = {start: after for start, after in afters if after is not None}
+        return {s: node for s, node in nodes.items() if self._agrees(node, self.told.step)}
 
     def every(self, price: Price) -> Iterator[Assumptions]:
         """The smallest explanations, whose price this is."""

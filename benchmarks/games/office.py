@@ -84,6 +84,20 @@ class Office:
         )
 
     @cached_property
+    def defaults(self) -> tuple[str, ...]:
+        """What holds where a default has an exception, in the order of the defaults."""
+        found = [
+            f"-loc({book},{rooms[number]})"
+            for number in range(len(ROOMS))
+            for book, rooms in (self._shelved or {}).items()
+            if number < len(rooms) > 1
+        ]
+        alone = [
+            f"-loc({b},{rooms[0]})" for b, rooms in (self._shelved or {}).items() if not rooms[1:]
+        ]
+        return (*found, *alone, f"locked({SECURE})")
+
+    @cached_property
     def actions(self) -> tuple[str, ...]:
         """The robot's actions in the order of declaration."""
         return (
