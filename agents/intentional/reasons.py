@@ -44,13 +44,25 @@ class IntentionalReasons(Reasons):
             no_plan, text = self.no_plan(state)
             return structs.replace(trace, reason=text, no_plan=no_plan)
         if action.name == "start":
-            return structs.replace(trace, reason=_started(history, intention))
+            return structs.replace(trace, reason=self._started(history, intention))
         left = history.left(diagnosis.indices)
         if action.name == "stop":
             futile_at, text = self._futile(history.step, state, left)
             return structs.replace(trace, reason=text, futile_at=futile_at)
         said = f"activity {trace.activity} still reaches the goal, by step "
         return structs.replace(trace, reason=Narration(said, Step(history.step + len(left))))
+
+    def _started(self, history: History, intention: Intention) -> str:
+        # A new activity is on record only after the decision.
+        again = any(f"start({each.name})" == intention.action for each in history.activities)
+        count, how = len(intention.plan), ""
+        if not self._knowledge.deterministic:
+            how = f" with {'all' if self._is_conformant else 'some'} outcomes"
+        return (
+            f"no activity for the goal; {count} action{'' if count == 1 else 's'} achieve"
+            f"{'s' if count == 1 else ''} it{how}, none fewer"
+            + ("; the plan of an earlier activity" * again)
+        )
 
     def alternatives(
         self, history: History, diagnosis: Diagnosis
@@ -93,14 +105,3 @@ class IntentionalReasons(Reasons):
         failing = listed(each.complement for each in missing)
         how = ("with ", failing) if missing else ("after some outcomes",)
         return end, Narration("futile: its end, at step ", Step(end), ", violates the goal ", *how)
-
-
-def _started(history: History, intention: Intention) -> str:
-    # A new activity is on record only after the decision.
-    again = any(f"start({activity.name})" == intention.action for activity in history.activities)
-    count = len(intention.plan)
-    return (
-        f"no activity for the goal; {count} action{'' if count == 1 else 's'} achieve"
-        f"{'s' if count == 1 else ''} it, none fewer"
-        + ("; the plan of an earlier activity" * again)
-    )

@@ -62,16 +62,6 @@ class Explanation:
         action = record.attempt[0] if record.attempt else None
         return None if (step, action) in self.distrusted else action
 
-    def followed_by(self, suffix: Explanation, first: int) -> Explanation:
-        """This and an explanation of the history from step `first` on."""
-        unobserved, distrusted = (
-            tuple(Happening(first + step, action) for step, action in happenings)
-            for happenings in (suffix.unobserved, suffix.distrusted)
-        )
-        return replace(
-            self, unobserved=self.unobserved + unobserved, distrusted=self.distrusted + distrusted
-        )
-
     def left(self, history: History) -> Explanation:
         """What is left to assume of it where some of its events were reported since."""
         unobserved = (e for e in self.unobserved if not history.at(e.step).happened.get(e.action))

@@ -160,11 +160,6 @@ class Problem:
     step: int
     since: int
 
-    def suffix(self, first: int) -> Problem:
-        """The end of this history, from a step on that becomes step 0."""
-        records = {step - first: r for step, r in self.records.items() if step >= first}
-        return Problem(self.goal, records, self.step - first, max(0, self.since - first))
-
     @property
     def externals(self) -> list[Symbol]:
         """past(I), reported(E,I), attempted(A,I) and failing(I)."""

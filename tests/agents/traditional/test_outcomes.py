@@ -13,7 +13,7 @@ from asp.reasoning import Goal, Knowledge
 from asp.reasoning.diagnosis import Diagnosis, Explanation, History
 from testbed.protocol import Plans, RobotStops
 from testbed.world import world_of
-from tests.agents.intentional.branching_lives import live
+from tests.agents.intentional.branching_lives import diagnosed, live
 from tests.asp.reasoning.branching import DEFINED, INERTIAL, descriptions
 
 FLUENTS = (*INERTIAL, *DEFINED)
@@ -27,8 +27,7 @@ class Both:
         self._reference = ReferenceReasoner(knowledge, goal, plan_limit, plans)
 
     def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
-        ours = self._incremental.diagnose(history, adopted)
-        theirs = self._reference.diagnose(history, adopted)
+        ours, theirs = diagnosed(self._incremental, self._reference, history, adopted)
         assert ours.explanation == theirs.explanation
         return ours
 
