@@ -23,7 +23,7 @@ QUICK = ("reach", "conflict")
 SEED = 1
 
 LETTERED = ("defaults", "diagnosis", "fine_planning")
-"""Theories with paragraphs that have a letter instead of a number."""
+"""Theories with paragraphs that have a letter instead of a number, each with cases of its own."""
 
 Mutant = tuple[int | str, int | None]
 """An axiom's number, or a theory and a letter, and which rule is left out, from 1; None: all."""
@@ -79,7 +79,7 @@ def _lines_of_axioms(theory: str) -> set[int]:
     line = 1
     for block in texts.blocks(theory):
         size = len(block.text.split("\n"))
-        if block.number is not None:
+        if isinstance(block.number, int) or (block.number and theory in LETTERED):
             found.update(range(line, line + size))
         line += size + 1
     return found

@@ -83,6 +83,13 @@ def test_who_may_go_on_does_not_finish() -> None:
     assert _said(story, 5, against="planning.a")[0] != "smash"
 
 
+def test_who_has_no_activity_finishes_rather_than_starts_one() -> None:
+    stopped = lines(did(3, "stop(1)"), intending(4))
+    story = _story(GREEN_OUT, ("throw", "reset"), 1).replace(intending(3), stopped)
+    assert _said(story, 6)[0] == "finish"
+    assert _said(story, 6, against="planning.a")[0] == "start(2)"
+
+
 def test_of_several_states_the_first_in_the_order_of_fluents_is_believed() -> None:
     story = _story("goal(thrown,false).", ("throw",), 1)
     assert _said(story, 4) == ("stop(1)", {"red", "thrown"})
