@@ -87,7 +87,7 @@ def _growth(lives: Sequence[Life], whole: Sequence[Life]) -> Iterator[Row]:
     for least in sorted(ours):
         took, other = ours[least], theirs.get(least, [])
         yield {
-            "assumed": least,
+            "assumed_events": least,
             "measured": len(took),
             "median_ms": median(took),
             "99_ms": quantile(took, 0.99),

@@ -155,6 +155,6 @@ def test_hostile_lives_are_explained_within_their_budgets_as_the_reference_does(
     assert kinds == [(r, v) for r in hostile.RELEVANCES for v in hostile_lives.VARIANTS]
     assert sum(int(str(cut)) for cut in column(rows, "cut")) == 0
     assert all(int(str(answered)) > 0 for answered in column(rows, "answered"))
-    sizes = [int(str(size)) for size in column(sheets["hidden"], "assumed")]
+    sizes = [int(str(size)) for size in column(sheets["hidden"], "assumed_events")]
     assert sizes == sorted(sizes)
     assert sizes[-1] >= hostile.BIN

@@ -33,8 +33,8 @@ from asp.solving import BudgetError, LimitError, State, current, up_to
 COMPRESSION: Compression | None = Compression()
 """How long histories are compressed; None: they are not, with the same answers, only later.
 
-It pays from some 100 steps on, in contradictions: one at step 100 takes 13 ms, and 77 without; at
-step 200 15 and 115. Before, and in lives with an unreported event every 40 steps, it gains nothing.
+It pays in contradictions: one at step 100 takes 2 ms, and 58 without; one that assumes 20 hidden
+events takes 3 ms, and 3 s without, with nothing proved. Other decisions take 0.3 ms more.
 """
 
 
