@@ -1,6 +1,5 @@
 """A decision as one program that clingo alone solves, for people who read and check it."""
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
@@ -34,9 +33,16 @@ _FIRST_PLAN = """\
 
 #minimize { R@n-I,A : occurs(A,I), rank(A,R), paa(A), current_step(I1), I1 < I }.
 
+% Before that, as in (b): of several states the first in the order of the fluents, true before
+% false, and the one in which more of the activity is done.
+#defined fluent_rank/2.
+fluents(N) :- N = #count { F : fluent_rank(F,R) }.
+#maximize { 1@n+2+N-R,F : holds(F,I), fluent_rank(F,R), fluents(N), current_step(I) }.
+#maximize { K@n+1,AN : holds(current_action_index(AN,K),I), current_step(I), K > 0 }.
+
 % Before that, as in (a): no activity is futile that need not be.
-#minimize { 1@n+3,AN : futile_activity(AN,I) }.
-#maximize { 1@n+2 : goes_on; 1@n+1 : finishes }.
+#minimize { 1@n+5+N,AN : futile_activity(AN,I), fluents(N) }.
+#maximize { 1@n+4+N : goes_on, fluents(N); 1@n+3+N : finishes, fluents(N) }.
 """
 
 
@@ -57,11 +63,10 @@ Watcher = Callable[[Decided], None]
 def program_of(decided: Decided) -> str:
     """Phase two of the reference, with the horizon at which it comes to this intention."""
     program = _phase_two(decided)
-    constants = "\n".join(f"#const {name} = {value}." for name, value in program.constants.items())
-    own = re.compile(rf"^#const ({'|'.join(program.constants)}) = .*\n", re.MULTILINE)
+    constants = "\n".join(f"#const {n} = {k}. [override]" for n, k in program.constants.items())
     sections = {
         "Constants: the horizon, names of activities, the length of plans": constants,
-        **{_title(name): own.sub("", text) for name, text in program.texts.items()},
+        **{_title(name): text for name, text in program.texts.items()},
         **dict(_given(program.facts)),
     }
     told = (f"% ==== {title} ====\n\n{text.strip()}\n" for title, text in sections.items())
@@ -74,8 +79,10 @@ def _phase_two(decided: Decided) -> Program:
     gives_up = intention.action == FINISH and GOAL not in intention.believed
     reference = ReferenceReasoner(decided.knowledge, decided.goal, len(intention.plan))
     length = max(1, len(left), len(intention.plan))
-    more = HALTING if intention.action.name == "stop" else BEYOND_LIMIT if gives_up else ()
-    return reference.phase_two(history, diagnosis, length, more)
+    program = reference.phase_two(history, diagnosis, length, BEYOND_LIMIT if gives_up else ())
+    if intention.action.name == "stop" and program.model() is None:
+        return reference.phase_two(history, diagnosis, length, HALTING)
+    return program
 
 
 def _header(decided: Decided) -> str:
@@ -85,7 +92,7 @@ def _header(decided: Decided) -> str:
         f"    intended_action({decided.intention.action},{step})",
         f"The goal: {', '.join(decided.goal)}.",
         f"The adopted explanation: {', '.join(_assumed(explanation)) or 'nothing unobserved'}.",
-        "The horizon n is the first one at which there is an intention; `-c n=K` tries another.",
+        "The constant n, the horizon, is the first at which there is an intention.",
     ]
     return "".join(f"% {line}\n" for line in lines)
 

@@ -39,6 +39,10 @@ class Program(NamedTuple):
     constants: Mapping[str, int]
     facts: Sequence[Symbol]
 
+    def model(self) -> tuple[Symbol, ...] | None:
+        """The shown symbols of the preferred answer set; None: there is none."""
+        return first_model(ground(self.texts.values(), self.constants, self.facts))
+
 
 class ReferenceReasoner(ReferenceDiagnoser[History]):
     """Reasons about one goal in one domain; every call solves its program from scratch."""
@@ -106,8 +110,7 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
         self, history: History, diagnosis: Diagnosis, length: int, more: tuple[Symbol, ...]
     ) -> Intention | None:
         """The intention where `length` more physical actions are considered, if there is one."""
-        program = self.phase_two(history, diagnosis, length, more)
-        model = first_model(ground(program.texts.values(), program.constants, program.facts))
+        model = self.phase_two(history, diagnosis, length, more).model()
         if model is None or self._knowledge.deterministic:
             return None if model is None else read_intention(model)
         under = replace(diagnosis, indices=diagnosis_of(model).indices)

@@ -38,14 +38,18 @@ class Decisions:
 def replay_decisions(folder: Path, trial: str) -> Decisions:
     """Play the trial of a run whose id begins with `trial` again, and keep what is decided.
 
-    Raises StoreError, also for a robot that does not reason with the theory of intentions, and
-    ConfigError where the stored configuration is not valid any more.
+    Raises StoreError, also for a robot that does not reason with the theory of intentions and for
+    conformant plans, which are no part of it; ConfigError where the stored configuration is not
+    valid any more.
     """
     spec, recorded = stored_trial(folder, trial)
     title = f"trial {spec.trial}: {of_place(spec.scenario, spec.level)}, {spec.robot}"
     robot = make_robot(spec.robot)
     if not isinstance(robot, EitherRobot | IntentionalRobot):
         raise StoreError(f"{title}: this robot does not reason with the theory of intentions")
+    if spec.setting.plans == "conformant":
+        search = "conformant plans are found by a search, which no theory states"
+        raise StoreError(f"{title}: {search}; programs have plans: optimistic")
     latest, programs = list[str](), dict[int, str]()
     robot.watcher = lambda decided: latest.append(program_of(decided))
 

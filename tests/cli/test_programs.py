@@ -5,7 +5,6 @@ import sys
 from pathlib import Path
 from shutil import copytree
 
-import clingo
 import pytest
 from click.testing import Result
 from typer.testing import CliRunner
@@ -14,6 +13,7 @@ from testbed.cli import app
 from testbed.experiment.programs import replay_decisions
 from testbed.experiment.record import At, TrialRecord
 from testbed.experiment.store import TrialWriter, read_records
+from tests.solved_programs import found_by_clingo
 
 KILN = """
 % A potter's kiln: somebody may open it, and put the fire out.
@@ -62,24 +62,6 @@ link: inprocess
 """
 
 
-def _intention(text: str) -> str:
-    """That of the last answer set which clingo finds in the text, and nothing else."""
-    said: list[str] = []
-    control = clingo.Control(logger=lambda _, message: said.append(message))
-    control.add("base", [], text)
-    control.ground([("base", [])])
-    found: list[str] = []
-
-    def keep(model: clingo.Model) -> None:
-        shown = [s.arguments for s in model.symbols(shown=True) if s.match("intended_action", 2)]
-        ((action, _),) = shown
-        found.append(str(action))
-
-    control.solve(on_model=keep)
-    assert not said
-    return found[-1]
-
-
 def _recorded(record: TrialRecord) -> dict[int, str]:
     """The intention of each step, by the record."""
     own: list[At] = [*record.actions, *record.mental]
@@ -94,8 +76,11 @@ def _found_again(folder: Path, record: TrialRecord) -> list[str]:
     """The recorded intentions, each of which clingo finds in the program of its step."""
     decisions, intentions = replay_decisions(folder, record.trial), _recorded(record)
     assert set(intentions) == set(range(1, record.steps + 1))
+    plans = {activity.start: [*map(str, activity.plan)] for activity in record.activities}
     for step, intention in intentions.items():
-        assert _intention(decisions.program(step)) == intention
+        found = found_by_clingo(decisions.program(step))
+        assert found.intention == intention
+        assert found.plan == plans.get(step, [])
     return list(intentions.values())
 
 
@@ -161,11 +146,12 @@ def test_a_file_is_all_that_the_command_of_clingo_needs(kiln: Path, tmp_path: Pa
     assert "intended_action(start(1),1)" in answer.stdout
     assert not answer.stderr
     # The horizon is that of a shortest plan: there is no shorter one.
-    (horizon,) = (line for line in printed.stdout.splitlines() if line.startswith("#const n ="))
-    shorter = int(horizon.rstrip(".").rpartition(" ")[2]) - 1
-    answer = subprocess.run(
-        [*command, "-c", f"n={shorter}"], capture_output=True, text=True, check=False, cwd=tmp_path
-    )
+    lines = printed.stdout.splitlines()
+    (horizon,) = (own for own in lines if own.startswith("#const n =") and "override" in own)
+    shorter = int(horizon.split()[3].rstrip(".")) - 1
+    changed = printed.stdout.replace(horizon, f"#const n = {shorter}. [override]")
+    file.write_text(changed, encoding="utf-8")
+    answer = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert "UNSATISFIABLE" in answer.stdout
 
 
@@ -203,3 +189,31 @@ def test_a_trial_that_goes_otherwise_than_on_record_has_no_program(kiln: Path) -
     assert (refused.exit_code, refused.stdout) == (2, "")
     (line,) = refused.stderr.splitlines()
     assert record.trial in line
+
+
+def test_conformant_plans_have_no_program(kiln: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "conformant"
+    given = ("plans=conformant", "robots=[intentional]", "--workers", "1", "--out", str(folder))
+    assert _call("run", str(kiln.parent / "kiln.yaml"), *given).exit_code == 0
+    trial = _record(folder, "intentional").trial
+    refused = _call("replay", str(folder), "--trial", trial, "--step", "1", "--program")
+    assert (refused.exit_code, refused.stdout) == (2, "")
+    (line,) = refused.stderr.splitlines()
+    assert "conformant" in line
+
+
+def test_so_it_does_at_the_fine_resolution(tmp_path: Path) -> None:
+    folder = tmp_path / "fine"
+    given = ("link=inprocess", "levels=[L1]", "limit=1", "robots=[intentional]", "--workers", "1")
+    assert _call("run", "levels", *given, "--quiet", "--out", str(folder)).exit_code == 0
+    record = _record(folder, "intentional")
+    decisions, plan = replay_decisions(folder, record.trial), record.activities[0].plan
+    found = found_by_clingo(decisions.program(1))
+    assert (found.intention, found.plan) == ("start(1)", [*map(str, plan)])
+    last = found_by_clingo(decisions.program(max(decisions.programs)))
+    assert last.intention == "finish"
+    # While an abstract action is carried out nothing is decided at the coarse resolution.
+    between = set(range(1, record.steps)).difference(decisions.programs)
+    asked = ("--trial", record.trial, "--step", str(min(between)), "--program")
+    refused = _call("replay", str(folder), *asked)
+    assert (refused.exit_code, len(refused.stderr.splitlines())) == (2, 1)

@@ -30,7 +30,10 @@ sees
 """
 
 
-@pytest.mark.parametrize("robot", ["intentional", "intentional-plain"])
+ROBOTS = ("intentional", "intentional-plain", "intentional-joint", "intentional-joint-staged")
+
+
+@pytest.mark.parametrize("robot", ROBOTS)
 def test_an_activity_with_one_is_futile(robot: str, tmp_path: Path) -> None:
     """The harbour is closed after the plan was made, before the first action."""
     own = Own(tmp_path, HARBOUR)
