@@ -313,6 +313,7 @@ def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
         unobserved=[Event(step=1, action="e")],
         exceptions=["x"],
         distrusted=[Event(step=2, action="f")],
+        outcomes=[Event(step=1, action="g")],
     )
     plan = list(PUBLISHED)
     traces: dict[int, dict[str, Any]] = {
@@ -351,6 +352,7 @@ def test_the_mind_of_the_robot_is_on_record(configure: Configure) -> None:
             "unobserved": [{"step": 1, "action": "e"}],
             "exceptions": ["x"],
             "distrusted": [{"step": 2, "action": "f"}],
+            "outcomes": [{"step": 1, "action": "g"}],
             "contradictions": [{"step": 2, "observed": "f", "believed": "-f"}],
             "alternatives": 1,
             "more_alternatives": True,
