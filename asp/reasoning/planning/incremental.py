@@ -182,8 +182,9 @@ class _Part:
 
     def succeeds(self, state: State, goal: Goal, plan: Plan) -> bool:
         """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
-        if self._space is not None:
-            return self._space.succeeds(state, goal, plan)
+        found = None if self._space is None else self._space.succeeds(state, goal, plan)
+        if found is not None:
+            return found
         # Few horizons serve all lengths.
         horizon = 1 << (max(len(plan), _LEAST_HORIZON) - 1).bit_length()
         session = self._following.get(horizon, lambda: self._session("follow", horizon))

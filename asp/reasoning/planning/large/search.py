@@ -213,9 +213,14 @@ class StateSpace:
             return None
         return Search(self._space, state, map(self._encoding.assignment, goal))
 
-    def succeeds(self, true: Collection[Fluent], goal: Goal, plan: Plan) -> bool:
-        """Whether the goal holds after some of the plan's actions, all possible until then (36)."""
+    def succeeds(self, true: Collection[Fluent], goal: Goal, plan: Plan) -> bool | None:
+        """Whether the goal holds after some of the plan's actions, all possible until then (36).
+
+        None where the state is none of those that are searched.
+        """
         state = self._encoding.values(true)
+        if state is None:
+            return None
         wanted = [self._encoding.assignment(literal) for literal in goal]
         for action in plan:
             state = None if state is None else self._encoding.after(state, action)

@@ -173,6 +173,20 @@ def _can(world: World, state: int, action: Action) -> bool:
     return world.executable(state, (action,))
 
 
+def test_a_plan_succeeds_from_where_only_others_can_bring_a_thing() -> None:
+    """Somebody took the book away: it is in no room, and no action of the robot leads there."""
+    text = OFFICE.replace(
+        "exogenous exo_lock", "exogenous steal(book, room).\n  exogenous exo_lock"
+    )
+    text = text.replace("laws\n", "laws\n  steal(B, L) causes -loc(B, L).\n", 1)
+    plans, there = IncrementalPlanner(text, "office.al"), parsed(["loc(rob1,kitchen)"])
+    state = frozenset(parsed(["loc(rob1,office2)", "loc(book2,office2)"]))
+    goal = (*there, *parsed(["-loc(book1,office1)"]))
+    plan = plans.shortest(state, goal, 4)
+    assert plan == tuple(parsed(["move(rob1,kitchen)"]))
+    assert plans.succeeds(state, goal, plan)
+
+
 def test_what_cannot_be_searched_is_planned_from_one_action_on() -> None:
     description = parse_description(LAMP, "office.al")
     with pytest.raises(NotEncodableError, match="defined"):
