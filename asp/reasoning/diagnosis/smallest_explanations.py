@@ -170,9 +170,12 @@ class SmallestExplanations:
             horizon *= 2
         return self._question(problem, most, horizon)
 
-    def outcomes(self, problem: Problem) -> Question:
-        """The explanations of a history of a step or none, each with the states it may lead to."""
-        return self._question(problem, MANY, problem.step, "outcomes")
+    def outcomes(self, problem: Problem, most: int) -> Question:
+        """The explanations of a history of a step or none, each with the states it may lead to.
+
+        So many events and distrusted reports are counted at most.
+        """
+        return self._question(problem, most, problem.step, "outcomes")
 
     def _question(self, problem: Problem, most: int, horizon: int, *parts: str) -> Question:
         def made() -> Session:

@@ -3,14 +3,18 @@
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
+from asp.language import Literal
 from asp.reasoning.diagnosis.explanations import Explanation
 from asp.reasoning.diagnosis.history import Happening, Problem, Record
-from asp.reasoning.diagnosis.smallest_explanations import MANY, SmallestExplanations
+from asp.reasoning.diagnosis.smallest_explanations import SmallestExplanations
 from asp.reasoning.knowledge import Knowledge
 from asp.solving import Recent, State
 
 REMEMBERED = 4_000
 """Of how many states and records the arcs are remembered."""
+
+MOST_COUNTED = 64
+"""How many events and distrusted reports of one step are counted at most."""
 
 _MOST_STATES = 10_000
 _ATTEMPT, _END, _REPORT = range(3)
@@ -18,6 +22,18 @@ _LAST = float("inf")
 
 Place = tuple[object, ...]
 """A place in an order, compared with places of the same kind only."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """What is known of one step: what happened, and what was seen a step later.
+
+    Where it is not `is_past`, no event is assumed.
+    """
+
+    happened: Record
+    is_past: bool
+    seen: tuple[Literal, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,28 +60,27 @@ class Arcs:
         self._places = {event: place for place, event in enumerate(events)}
         self._found: Recent[object, Sequence[Arc] | None] = Recent(REMEMBERED)
         self._states: Recent[State, State] = Recent(_MOST_STATES)
-        self.most_assumed = float("inf") if len(events) < MANY else MANY
+        # Every event of a step, and its attempt, may have to be assumed or distrusted.
+        self.counted = min(len(events) + 1, MOST_COUNTED)
+        """How many events and distrusted reports of one step are counted."""
+        self.most_assumed = float("inf") if len(events) < MOST_COUNTED else MOST_COUNTED
         """The greatest size of explanations of one step up to which none is left out."""
 
-    def of(
-        self, state: State, record: Record, is_past: bool, room: int, most: int
-    ) -> Sequence[Arc] | None:
+    def of(self, state: State, step: Step, room: int, most: int) -> Sequence[Arc] | None:
         """The arcs of a state whose explanations have at most the size `room`.
 
         None where they are more than `most`, and where one explanation leads to several states: the
-        order does not say to which. At a step that is not `is_past` no event is assumed. Raises
-        LimitError.
+        order does not say to which. Raises LimitError.
         """
         return self._found.get(
-            (state, record, is_past, room, most),
-            lambda: self._look(state, record, is_past, room, most),
+            (state, step, room, most), lambda: self._look(state, step, room, most)
         )
 
-    def _look(
-        self, state: State, record: Record, is_past: bool, room: int, most: int
-    ) -> Sequence[Arc] | None:
-        problem = Problem((), {0: record}, step=1, since=0 if is_past else 1)
-        found, left_off = self._steps.outcomes(problem).starting(state).all(room, None, most)
+    def _look(self, state: State, step: Step, room: int, most: int) -> Sequence[Arc] | None:
+        records = {0: step.happened, 1: Record(observed=step.seen)}
+        problem = Problem((), records, step=1, since=0 if step.is_past else 1)
+        question = self._steps.outcomes(problem, self.counted).starting(state)
+        found, left_off = question.all(room, None, most)
         several = len({explanation for explanation, _ in found}) < len(found)
         return None if left_off or several else [self._arc(*each) for each in found]
 

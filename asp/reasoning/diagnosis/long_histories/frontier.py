@@ -25,7 +25,7 @@ from asp.reasoning.diagnosis.long_histories.paths import (
     steps_of,
 )
 from asp.reasoning.diagnosis.long_histories.steps import ArcsOfState, Steps
-from asp.reasoning.diagnosis.smallest_explanations import MANY, Interpretation, SmallestExplanations
+from asp.reasoning.diagnosis.smallest_explanations import Interpretation, SmallestExplanations
 from asp.solving import BudgetError, State
 
 _MARGIN = 4
@@ -179,7 +179,7 @@ class Frontier:
     def _begin(self, history: History) -> Layer:
         problem = Problem(self._tracker.goal, {0: self._steps.record(history, 0)}, 0, 0)
         most = self._settings.most
-        found, left_off = self._explanations.outcomes(problem).all(MANY, None, most)
+        found, left_off = self._explanations.outcomes(problem, 0).all(0, None, most)
         if left_off:
             return Layer({}, -1)
         return Layer(beginnings(found, self._tracker.knowledge.description), self._whole)
@@ -224,7 +224,7 @@ class Frontier:
             arcs, agrees = self._steps.arcs(history, step), self._steps.agreeing(history, step + 1)
             following: dict[State, Path] = {}
             for path in alive.values():
-                found = arcs(path.state, MANY if is_whole else wanted.size) or ()
+                found = arcs(path.state, self._whole if is_whole else wanted.size) or ()
                 after = next((arc.after for arc in found if arc.explanation == wanted), None)
                 if after is None or not agrees(after):
                     continue

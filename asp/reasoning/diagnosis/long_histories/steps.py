@@ -5,8 +5,7 @@ from dataclasses import replace
 
 from asp.reasoning.diagnosis.belief import BeliefTracker
 from asp.reasoning.diagnosis.history import History, Record, record_of
-from asp.reasoning.diagnosis.long_histories.arcs import Arc, Arcs
-from asp.reasoning.diagnosis.smallest_explanations import MANY
+from asp.reasoning.diagnosis.long_histories.arcs import Arc, Arcs, Step
 from asp.solving import BudgetError, State
 
 ArcsOfState = Callable[[State, float], Sequence[Arc] | None]
@@ -27,28 +26,41 @@ class Steps:
         self._tracker = tracker
         self._most = most
         self._seen: set[object] = set()
+        self._crowded = False
 
     def record(self, history: History, step: int) -> Record:
         """What the history says of a step."""
         return record_of(history.at(step), self._tracker.knowledge)
 
     def arcs(self, history: History, step: int) -> ArcsOfState:
-        """The arcs of states at a step; BudgetError is raised where too few answers are left."""
+        """The arcs of states at a step; BudgetError is raised where too few answers are left.
+
+        Where a state has too many of them, only those that agree with what was observed a step
+        later are looked for; so it is with all states from then on.
+        """
         happened = replace(self.record(history, step), observed=(), goal=None)
-        is_past, most = step >= self._tracker.since, self._most
+        whole = Step(happened, step >= self._tracker.since)
+        seen = replace(whole, seen=self.record(history, step + 1).observed)
 
         def from_state(state: State, room: float) -> Sequence[Arc] | None:
-            key = state, happened, is_past, int(min(room, MANY)), most
-            if key in self._seen:
-                return self._arcs.of(*key)
-            if self.answers <= 0:
-                raise BudgetError("no more is compressed in this decision")
-            found = self._arcs.of(*key)
-            self.answers -= 2 + (most if found is None else len(found))
-            self._seen.add(key)
+            found = None if self._crowded else self._asked(state, whole, room)
+            if found is None:
+                self._crowded = True
+                found = self._asked(state, seen, room)
             return found
 
         return from_state
+
+    def _asked(self, state: State, step: Step, room: float) -> Sequence[Arc] | None:
+        key = state, step, int(min(room, self._arcs.counted)), self._most
+        if key in self._seen:
+            return self._arcs.of(*key)
+        if self.answers <= 0:
+            raise BudgetError("no more is compressed in this decision")
+        found = self._arcs.of(*key)
+        self.answers -= 2 + (self._most if found is None else len(found))
+        self._seen.add(key)
+        return found
 
     def agreeing(self, history: History, step: int) -> Callable[[State], bool]:
         """Whether a state agrees with what was observed at a step."""
