@@ -6,6 +6,7 @@ from pathlib import Path
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.provenance import modules_of
+from testbed.experiment.run_folder import as_played, is_stored
 from testbed.registry import search_as_told, search_last
 from testbed.studies import study_findings
 
@@ -13,13 +14,15 @@ from testbed.studies import study_findings
 def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
     """The configuration of a file or a packaged name, with overrides. Raises ConfigError.
 
-    What lies beside the file can be imported from then on, but nothing in the place of ours.
+    What lies beside the file can be imported from then on, but nothing in the place of ours. One
+    that is stored in a run folder is read as there.
     """
     if Path(source).is_file():
         search_beside(Path(source))
     else:
         search_as_told()
-    return load_config(source, overrides, (*CHECKS, study_findings))
+    config = load_config(source, overrides, (*CHECKS, study_findings))
+    return as_played(config) if is_stored(Path(source)) else config
 
 
 def search_beside(config: Path) -> None:

@@ -18,6 +18,8 @@ ANY_RESULT = ("link", "limits.answer_s")  # keys on which no logical result depe
 MOST_CHANGES = 8
 OWN_FILES = ("domain", "refinement")
 """Keys that may lead to a file which is not packaged."""
+AS_BEFORE = {"relevance": "published"}
+"""How runs were played that are older than a key with another default."""
 TEXT = " text"
 """After the key of such a file: its text, which is no key of a configuration."""
 
@@ -128,7 +130,18 @@ def read_config(folder: Path) -> ExperimentConfig:
     """The configuration stored in a run folder. Raises StoreError or ConfigError."""
     if not (folder / CONFIG).is_file():
         raise StoreError(f"{folder}: is not a run folder (it has no {CONFIG})")
-    return load_config(folder / CONFIG)
+    return as_played(load_config(folder / CONFIG))
+
+
+def is_stored(path: Path) -> bool:
+    """Whether a configuration is that of a run folder."""
+    return path.name == CONFIG and (path.parent / PROVENANCE).is_file()
+
+
+def as_played(config: ExperimentConfig) -> ExperimentConfig:
+    """A stored configuration; what it does not say is as runs were played without the key."""
+    older = {key: own for key, own in AS_BEFORE.items() if key not in config.model_fields_set}
+    return config.model_copy(update=older)
 
 
 def write_config(folder: Path, config: ExperimentConfig) -> None:

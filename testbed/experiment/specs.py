@@ -56,13 +56,13 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     conflicts: int | None
     ground_rules: int | None
     expansions: int | None
+    relevance: Relevance
     fine: FineSetting | None = None
     strategy: str | None = None
     options: dict[str, Any] | None = None
     judge_states: int = Limits().judge_states
     script_at_actions: tuple[tuple[int, Action], ...] = ()
     script_skips: bool = False
-    relevance: Relevance = "published"  # as long as there was no other, so that ids stay
     plans: Plans = "optimistic"
 
 
@@ -158,4 +158,6 @@ def _without_files(setting: Setting, domain: str) -> object:
     given = {name: value for name, value in values.items() if value != defaults[name]}
     if given.get("strategy") == "random":  # ids are older than other strategies
         given["random_events"] = bool(given.pop("strategy"))
+    if given["relevance"] == "published":  # ids are older than the key
+        del given["relevance"]
     return given
