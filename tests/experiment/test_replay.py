@@ -57,6 +57,25 @@ def test_a_robot_that_was_lost_need_not_be_lost_again(tmp_path: Path, configure:
     assert "need not be lost again" in said[-1]
 
 
+def test_a_run_that_an_older_version_stored_is_told_as_recorded(
+    tmp_path: Path, configure: Configure
+) -> None:
+    """Its configuration and its records lack the keys that came later."""
+    first, _ = _run(tmp_path, configure)  # the configuration has `relevance: published`
+    stored = tmp_path / "config.yaml"
+    lines = stored.read_text(encoding="utf-8").splitlines(keepends=True)
+    older = [line for line in lines if not line.startswith(("relevance:", "plans:"))]
+    assert len(older) == len(lines) - 2
+    stored.write_text("".join(older), encoding="utf-8")
+    first.unproved_steps = first.unheeded_steps = None
+    (tmp_path / "trials.jsonl").unlink()
+    with TrialWriter(tmp_path) as writer:
+        writer.append(first)
+    said: list[str] = []
+    assert replay(tmp_path, first.trial, said.append)
+    assert said[-1] == "as recorded"
+
+
 def _told(world: World, *traces: Trace) -> list[dict[str, str]]:
     """The lines that a narrator has for steps with these traces: by their first word."""
     said: list[str] = []
