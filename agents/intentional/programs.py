@@ -92,7 +92,7 @@ def _header(decided: Decided) -> str:
         f"    intended_action({decided.intention.action},{step})",
         f"The goal: {', '.join(decided.goal)}.",
         f"The adopted explanation: {', '.join(_assumed(explanation)) or 'nothing unobserved'}.",
-        "The constant n, the horizon, is the first at which there is an intention.",
+        "The constant n is the horizon: the end of the plan.",
     ]
     return "".join(f"% {line}\n" for line in lines)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import msgspec
 
 from asp.language import Description, Literal, Trigger
+from asp.reasoning.determinism import deterministic_by_form
 from asp.refinement import Refinement
 from testbed.config import ExperimentConfig, level_size, refinements
 from testbed.environment import RandomGoal, RandomStart
@@ -63,14 +64,14 @@ def _starts(config: ExperimentConfig, scenario: str, world: World) -> Iterator[t
 def _repeats(config: ExperimentConfig, scenario: str, description: Description) -> int:
     """Pairs from each initial state of a scenario.
 
-    What others do, and what the robot is told of it, is what a seed draws; where neither is left
-    open, another pair would be the same trial again. (A domain whose actions have several outcomes
-    is played once, too, unless something else is drawn.)
+    What others do, what the robot is told of it, and which of several outcomes an action has is
+    what a seed draws; where nothing is left open, another pair would be the same trial again.
     """
     own = config.settings(scenario)
     triggers = [t for t in description.triggers if t.scenario == scenario]
     drawn = own.script is None and _events_are_drawn(config, triggers)
-    return own.repeats or 1 if drawn or _news_is_drawn(config) else 1
+    drawn = drawn or _news_is_drawn(config) or not deterministic_by_form(description)
+    return own.repeats or 1 if drawn else 1
 
 
 def _events_are_drawn(config: ExperimentConfig, triggers: Sequence[Trigger]) -> bool:

@@ -11,6 +11,7 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
+from tests.asp.reasoning.branching import DIE
 
 
 def _ids(*overrides: str, name: str = "office") -> list[str]:
@@ -75,6 +76,18 @@ def test_a_script_is_played_once_from_each_state() -> None:
     script = 'script=[{step: 2, action: "exo_lock(library)"}]'
     specs = plan_trials(load_config("office", ["scenarios=[3]", "repeats=3", script, "limit=600"]))
     assert len({spec.pair for spec in specs}) == 192
+
+
+def test_repeats_are_played_where_an_action_has_several_outcomes(tmp_path: Path) -> None:
+    (tmp_path / "die.al").write_text(DIE, encoding="utf-8")
+    path = tmp_path / "die.yaml"
+    path.write_text(
+        "name: die\ndomain: die.al\ngoal: [up(two)]\nscript: []\nrepeats: 3\n"
+        "initial: [up(one), thrown]\nrobots: [intentional]\n",
+        encoding="utf-8",
+    )
+    specs = plan_trials(load_config(path, []))
+    assert len({spec.pair for spec in specs}) == len({spec.seed for spec in specs}) == 3
 
 
 def test_a_smaller_limit_draws_a_part_of_the_repeats() -> None:

@@ -6,6 +6,7 @@ are looked for breadth first, over the sets of states that a plan may have led t
 """
 
 from collections.abc import Callable, Collection, Iterable, Sequence
+from functools import cache
 from typing import Literal, TypeAlias
 
 from asp.language import Action
@@ -87,6 +88,7 @@ class ConformantPlanner:
 def reference_conformant_planner(knowledge: Knowledge) -> ConformantPlanner:
     """A planner that finds every outcome from scratch; what the other one is held equal to."""
 
+    @cache  # a search comes to one state by many plans
     def outcomes(state: State, action: Action) -> Collection[State]:
         facts = [fact("occurs", action, 0), *(fact("starts", fluent) for fluent in sorted(state))]
         found, _ = answer_sets(ground([knowledge.program, _ONE_STEP], {"n": 1}, facts))
