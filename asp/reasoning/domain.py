@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import ClassVar
+from typing import ClassVar, get_args
 
 from asp.language import Action, DomainError, Literal, analyse, read_domain, unknown_atom
 from asp.language import parse_description as parsed
@@ -122,8 +122,10 @@ class Domain:
 
         None says that no plan has at most `limit` actions. Where actions have several outcomes,
         some of them reach the goal; in a plan that is conformant, all do, and each action is
-        possible in every state that may be reached by then. Raises LimitError.
+        possible in every state that may be reached by then. Raises DomainError, LimitError.
         """
+        if plans not in get_args(Plans):
+            raise DomainError(f"{plans!r} is none of: {', '.join(get_args(Plans))}", "plans")
         start, wanted = self.state(state), self._literals(goal, "goal")
         if all((each.atom in start) == each.is_positive for each in wanted):
             return ()

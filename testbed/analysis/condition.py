@@ -11,15 +11,21 @@ from testbed.text import listed
 NO_RESULT = {"answer_s"}
 """Limits on which no logical result depends."""
 UNSEEN = Observability()
+_KNOWN = {
+    "complete": "complete knowledge of the initial state",
+    "seen": "of the initial state only what is seen is known",
+}
 
 
 def condition(config: ExperimentConfig) -> str:
-    """One line: observability, feedback, adversary, knowledge, limits and statistics."""
+    """One line: what robots know and heed, what others do, limits and statistics."""
     parts = [
         _observability(config),
         _of_scenarios(config, lambda own: f"{'' if own.goal_feedback else 'no '}goal feedback"),
         _of_scenarios(config, lambda own: _adversary(config, own)),
-        f"{config.knowledge} knowledge of the initial state",
+        _KNOWN[config.knowledge],
+        f"relevance: {config.relevance}",
+        "" if config.plans == "optimistic" else f"plans: {config.plans}",
         "limits: " + ", ".join(_limit(key, value) for key, value in _limits(config).items()),
         ", ".join(f"{name} comes out with {p}" for name, p in config.statistics.items()),
     ]
@@ -49,6 +55,8 @@ def _rules(config: ExperimentConfig, robots: Collection[str]) -> Mapping[str, ob
         "observability": {n: o for n, o in config.observability.items() if o != UNSEEN},
         "goal feedback": {own.goal_feedback for own in played},
         "knowledge": config.knowledge,
+        "relevance": config.relevance,
+        "plans": config.plans,
         "adversary": (
             {(own.script, own.exogenous_while_thinking) for own in played},
             adversary.model_copy(update={"strategy": strategy}),

@@ -10,7 +10,7 @@ from testbed.cli.common import DONE, FAILED, Folder, emit, examples, input_error
 EPILOG = examples(
     "testbed replay runs/quickstart",
     "testbed replay runs/quickstart --trial TRIAL_ID",
-    "testbed replay runs/quickstart --trial TRIAL_ID --step 5 --program | clingo",
+    "testbed replay runs/quickstart --trial TRIAL_ID --step 5 --program | python -m clingo",
 )
 
 

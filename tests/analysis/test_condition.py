@@ -25,6 +25,8 @@ SAME = ("seed=7", "limit=2", "scenarios=[1]", "repeats=2", "limits.answer_s=5", 
         ("table1", ["goal_feedback=false"], ("goal feedback",)),
         ("table1", ["scenario_settings.2.goal_feedback=false"], ("goal feedback",)),
         ("table1", ["knowledge=seen"], ("knowledge",)),
+        ("table1", ["relevance=definition"], ("relevance",)),
+        ("table1", ["plans=conformant"], ("plans",)),
         ("table1", ["adversary.rate=0.5"], ("adversary",)),
         ("table1", ["adversary.strategy=random"], ("adversary",)),
         ("table1", ["script=[]"], ("adversary",)),
@@ -99,8 +101,17 @@ def _values(part: object, key: str) -> set[object]:
 def test_the_condition_names_what_the_robot_is_told_of_and_what_others_do() -> None:
     told = "observability={exo_lock: {mode: always, delay: 2}}"
     rules = [told, "knowledge=seen", "adversary.rate=0.25", "limits.decision_s=7"]
+    rules += ["relevance=plan", "plans=conformant"]
     said = condition(load_config("table1", rules))
-    words = ("exo_lock (always, delay 2)", "seen", "0.25", "steps 100", "decision 7.0 s")
+    words = (
+        "exo_lock (always, delay 2)",
+        "seen",
+        "0.25",
+        "steps 100",
+        "decision 7.0 s",
+        ": plan",
+        "conformant",
+    )
     assert all(word in said for word in words)
     script = "scenario_settings.1.script=[]"
     assert "in 1" in condition(load_config("table1", ["scenarios=[1, 2]", script]))

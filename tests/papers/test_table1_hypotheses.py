@@ -184,7 +184,7 @@ def test_the_page_lists_commands_and_digests_of_all_its_runs(tmp_path: Path) -> 
     later = _folder(tmp_path / "later", 1, "name=later", "adversary.rate=0.3")
     near = _folder(tmp_path / "near", 1, "name=near-first", f"domain={NEAR_FIRST}")
     runs = [read_run(folder) for folder in (main, later, other, near)]
-    page = document(Sources(runs[0], None, runs[1], (runs[2],), (runs[3],)))
+    page = document(Sources(runs[0], later=runs[1], told=(runs[2],), variants=(runs[3],)))
     for folder, name in (
         (main, "table1"),
         (other, "told-library-kitchen-office2-office1"),

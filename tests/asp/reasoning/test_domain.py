@@ -246,6 +246,7 @@ def test_what_follows_need_not_be_given() -> None:
         (lambda d: d.state("lit, -lit"), "lit"),
         (lambda d: d.plan("lit", "at(lef)"), "left"),
         (lambda d: d.plan("lit", "at(left"), "at(left"),
+        (lambda d: d.plan("lit", "at(left)", plans="conform"), "conform"),
         (lambda d: d.successors("lit", "lit"), "action"),
         (lambda d: d.successors("lit", "-open"), "-open"),
         (lambda d: d.explain([Step("lit"), Step(attempted="push(left)")]), "history.1.attempted"),
