@@ -65,10 +65,13 @@ class IntentionalRobot(ReasoningRobot[History]):
             history.observe([GOAL if percept.goal_holds else GOAL.complement], history.step)
 
     def _relevant(self, percept: Percept) -> Iterable[Literal]:
-        """Step 1 of the loop: what is relevant to the goal, or to the action at hand (P 3.2)."""
+        """Step 1 of the loop: what is relevant to the goal, or to the action at hand (P 3.2).
+
+        Raises LimitError.
+        """
         at_hand = percept.attempted or next(iter(self._ahead), None)
         scene = Scene(percept.visible, self._believed[1], at_hand, self._ahead)
-        heeded = frozenset([*super()._relevant(percept), *self._heeding.heeded(scene)])
+        heeded = frozenset([*self._outcome(percept), *self._heeding.heeded(scene)])
         self._unheeded = [literal for literal in percept.visible if literal not in heeded]
         return [literal for literal in percept.visible if literal in heeded]
 

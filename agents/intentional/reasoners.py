@@ -167,6 +167,7 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
         self._plan_limit = plan_limit
         self._active: int | None = None
         self._executed: list[tuple[int, Action]] = []
+        self._followed = 0
 
     def diagnose(self, history: History, adopted: Explanation, /) -> Diagnosis:
         """Phase one. Raises InconsistentHistoryError."""
@@ -182,17 +183,20 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
         return intended(options, history, diagnosis, self._outlook, self._goal, limit)
 
     def _follow(self, history: History) -> None:
-        """Which activity is active after the last step (1), and what took effect since it is."""
-        last = history.at(history.step - 1)
-        for action in last.attempted:
-            if action.name == "start":
-                self._active, self._executed = int(action.arguments[0]), []
-            elif action.name == "stop":
-                self._active = None
-            elif self._active and action in self._actions and last.happened.get(action):
-                done = (history.step - 1, action)
-                if done not in self._executed:  # a step may be diagnosed twice
-                    self._executed.append(done)
+        """Which activity is active (1), and what took effect since it is.
+
+        A step may be diagnosed twice, or, where a limit is reached before, not at all.
+        """
+        for step in range(self._followed, history.step):
+            moment = history.at(step)
+            for action in moment.attempted:
+                if action.name == "start":
+                    self._active, self._executed = int(action.arguments[0]), []
+                elif action.name == "stop":
+                    self._active = None
+                elif self._active and action in self._actions and moment.happened.get(action):
+                    self._executed.append((step, action))
+        self._followed = history.step
 
     def _indices(self, history: History, belief: Belief) -> dict[int, int]:
         """The index of the active activity (3), which stood still where the goal held (7)-(9)."""

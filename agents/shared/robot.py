@@ -65,9 +65,9 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """
         with deciding() as decision:
             thought = Thought(self._explanation)
-            self._observe(percept)
             try:
                 with deciding(self._limits):
+                    self._observe(percept)
                     self._think(thought)
             except LimitError as limit:
                 thought.ended, thought.limit = reasoning_clock(), str(limit)
@@ -96,7 +96,11 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """Adds to the history the result of the last attempt."""
 
     def _relevant(self, percept: Percept) -> Iterable[Literal]:
-        """The visible literals that enter the history: the outcome of the last attempt (P 3.2).
+        """The visible literals that enter the history (P 3.2). Raises LimitError."""
+        return self._outcome(percept)
+
+    def _outcome(self, percept: Percept) -> list[Literal]:
+        """The outcome of the last attempt, which is relevant whatever else is.
 
         An action's `shows` statements say what that is, those whose condition is seen.
         """
@@ -117,14 +121,21 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         """Records what is attempted."""
 
     def _observe(self, percept: Percept) -> None:
-        """Adds to the history the result of the last attempt, news, and what is observed."""
+        """Adds to the history the result of the last attempt, news, and what is observed.
+
+        Raises LimitError, after which nothing is observed beside the outcome of the attempt.
+        """
         history = self._history
         self._hear(percept)
         for event in percept.events:
             history.happened(event.action, True, event.step)
         history.step = percept.step
-        history.observe(self._relevant(percept), percept.step)
-        history.doubt(percept.doubtful, percept.step)
+        observed: Iterable[Literal] = self._outcome(percept)
+        try:
+            observed = self._relevant(percept)
+        finally:
+            history.observe(observed, percept.step)
+            history.doubt(percept.doubtful, percept.step)
 
     def _prepare(self) -> Reasoner[H_contra]:
         """What the domain is reasoned with, made in a decision so that its limits hold for it."""

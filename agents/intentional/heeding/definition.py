@@ -4,11 +4,11 @@ from collections.abc import Iterable
 
 from agents.intentional.heeding.laws import laws_of
 from agents.intentional.heeding.scene import Scene
-from agents.shared import limits_of, sessions_of
+from agents.shared import sessions_of
 from asp.language import Fluent, Literal
 from asp.reasoning import knowledge
 from asp.refinement import Transition, relevant
-from asp.solving import LimitError, State, deciding
+from asp.solving import State
 from testbed.protocol import Task
 
 
@@ -22,7 +22,6 @@ class Definition:
 
     def __init__(self, task: Task) -> None:
         self._goal = tuple(task.goal)
-        self._limits = limits_of(task)
         self._knowledge = knowledge(task.domain, task.source)
         self._laws = laws_of(task.domain, task.source)
         self._bearing = self._laws.bearing_on(literal.atom for literal in self._goal)
@@ -50,9 +49,4 @@ class Definition:
         """The states to which the action at hand may lead; where none is found, that before it."""
         assert scene.action is not None
         transitions = sessions_of(self._knowledge).transitions
-        try:
-            with deciding(self._limits):
-                found = transitions.outcomes(scene.believed, {scene.action}, ())
-        except LimitError:
-            found = set()
-        return found or {scene.believed}
+        return transitions.outcomes(scene.believed, {scene.action}, ()) or {scene.believed}

@@ -27,4 +27,7 @@ class Heeding(Protocol):
     """Chooses what a robot heeds while it pursues one goal in one domain."""
 
     def heeded(self, scene: Scene, /) -> Iterable[Literal]:
-        """The visible literals that are heeded, beside the outcome of the last attempt."""
+        """The visible literals that are heeded, beside the outcome of the last attempt.
+
+        Raises LimitError.
+        """

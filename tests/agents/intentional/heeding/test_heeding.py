@@ -3,12 +3,15 @@
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 import yaml
 from typer.testing import CliRunner
 
 from asp.language import Literal
+from asp.reasoning.successors import Transitions
+from asp.solving import LimitError, State
 from testbed.cli import app
 from testbed.config import config_names, load_config
 from testbed.experiment.plan import plan_trials
@@ -200,6 +203,27 @@ def test_conditions_of_what_is_done_are_not_heeded_for_the_plan() -> None:
     moments = _played(CANAL, ["floats(barge,mill)"], "floats(barge,gulf)", closed, "plan")
     assert _attempts(moments) == ["sail(barge,delta)", "sail(barge,gulf)"]
     assert moments[2].decision.trace.unheeded == ["closed(weir)"]
+
+
+def test_a_limit_is_reached_there_as_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the robot cannot find out what its action leads to, it waits a step and says why."""
+    asked = Transitions.outcomes
+    reasons = [LimitError("used up")]
+
+    def limited(own: Transitions, *given: Any) -> set[State]:
+        if reasons:
+            raise reasons.pop()
+        return asked(own, *given)
+
+    life = (CANAL, THROUGH, "floats(barge,delta)", [], "definition")
+    unlimited = _played(*life)
+    monkeypatch.setattr(Transitions, "outcomes", limited)
+    moments = _played(*life)
+    assert not reasons
+    (waits,) = (m.decision for m in moments if m.decision.trace.reason == "used up")
+    assert waits.action == "wait"
+    assert len(moments) == len(unlimited) + 1
+    assert _attempts(moments) == _attempts(unlimited)
 
 
 def test_the_baseline_looks_at_its_outcome_whatever_is_relevant() -> None:
