@@ -3,6 +3,7 @@
 from dataclasses import replace
 from random import Random
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,7 +17,8 @@ from tests.agents.intentional.lives import Place
 from tests.asp.reasoning.diagnosis.minds import TINY, Mind, compare
 from tests.asp.reasoning.diagnosis.wandering import Habits, wander
 
-STEPS, FEW_STEPS = 20, 9
+STEPS, FEWER_STEPS, FEW_STEPS = 20, 16, 9
+HARSH = Habits(0.25, 0.5, false_report=0.2, late=6, looks=0.5, fails=0.3, doubts=0.3)
 
 domains = st.integers(0, 10**6).map(lambda seed: random_domain(Random(seed)))
 habits = st.builds(
@@ -26,6 +28,8 @@ habits = st.builds(
     false_report=st.sampled_from([0.0, 0.1]),
     late=st.sampled_from([0, 6]),
     looks=st.sampled_from([0.4, 1.0]),
+    fails=st.sampled_from([0.0, 0.3]),
+    doubts=st.sampled_from([0.0, 0.3]),
 )
 
 
@@ -47,6 +51,30 @@ def test_what_is_compressed_gives_the_answers_of_the_whole_history(
     domain: Domain, habits: Habits, seed: int, dark: bool, usual: bool
 ) -> None:
     compare(_place(domain, dark, usual), _goal(domain), STEPS, seed, habits, TINY)
+
+
+@pytest.mark.parametrize("kept", [1, 3])
+@pytest.mark.parametrize(
+    ("seed", "arcs", "most"),
+    [
+        (0, 2, 64),
+        (2, 4, 64),
+        (3, 2, 4),
+        (7, 3, 64),
+        (8, 4, 64),
+        (14, 4, 64),
+        (15, 2, 4),
+        (21, 2, 4),
+    ],
+)
+def test_little_room_gives_the_answers_of_the_whole_history(
+    seed: int, arcs: int, most: int, kept: int
+) -> None:
+    """Together they need every part of the order, of late news and of what is left out."""
+    where = random_domain(Random(seed))
+    place = _place(where, dark=seed % 2 == 0, usual=seed % 3 == 0)
+    compression = replace(TINY, arcs=arcs, most=most, kept=kept)
+    compare(place, _goal(where), FEWER_STEPS, seed, HARSH, compression)
 
 
 @settings(max_examples=6)

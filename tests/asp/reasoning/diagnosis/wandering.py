@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from random import Random
 
-from asp.language import Action, Literal
+from asp.language import Action, Fluent, Literal
 from asp.reasoning.diagnosis import GOAL, SELECT, History
 from testbed.world import World
 from tests.agents.intentional.lives import Place
@@ -14,7 +14,12 @@ Report = tuple[int, Action]
 
 @dataclass(frozen=True)
 class Habits:
-    """How likely things are at each step, and how many steps late a report may come."""
+    """How likely things are at each step, and how many steps late a report may come.
+
+    `fails`: an attempt is not executed, or said to have failed in execution though it was
+    impossible. `doubts`: one observation rests on a test, which is taken for wrong at once, as it
+    is, or so many steps late, though it is right; no history is inconsistent.
+    """
 
     event: float = 0.1
     reported: float = 0.5
@@ -23,6 +28,8 @@ class Habits:
     looks: float = 0.7
     waits: float = 0.3
     told: float = 0.1
+    fails: float = 0.0
+    doubts: float = 0.0
 
 
 def wander(
@@ -32,11 +39,12 @@ def wander(
     draw, world = Random(seed), where.world
     state = draw.choice(list(world.initial_states()))
     history, news = History(), list[tuple[int, Report]]()
+    tests = list[tuple[int, tuple[int, Fluent]]]()
     history.observe(where.known(state), 0)
     history.happened(SELECT, True, 0)
     for step in range(steps):
         attempt = _attempt(world, state, draw, habits) if step else None
-        actions = _recorded(history, world, state, attempt, step)
+        actions = _recorded(history, world, state, attempt, draw, habits)
         events = _events(world, state, actions, draw, habits) if step else ()
         news += _news(world, events, step, draw, habits)
         state = world.successor(state, (*actions, *events))
@@ -46,7 +54,11 @@ def wander(
                 history.happened(event, True, time)
         history.step = step + 1
         if draw.random() < habits.looks:
-            history.observe(world.visible(state, where.robot), history.step)
+            visible = world.visible(state, where.robot)
+            history.observe(visible, history.step)
+            if visible and _befalls(draw, habits.doubts):
+                tests.append(_test(history, draw.choice(visible), draw, habits))
+        history.distrust(test for due, test in tests if due <= history.step)
         if draw.random() < habits.told:
             history.observe(
                 [GOAL if world.satisfies(state, goal) else GOAL.complement], history.step
@@ -63,15 +75,33 @@ def _attempt(world: World, state: int, draw: Random, habits: Habits) -> Action |
 
 
 def _recorded(
-    history: History, world: World, state: int, attempt: Action | None, step: int
+    history: History, world: World, state: int, attempt: Action | None, draw: Random, habits: Habits
 ) -> tuple[Action, ...]:
     """The attempt if it takes effect; it is recorded with its result."""
     if attempt is None:
         return ()
-    success = world.executable(state, [attempt])
-    history.attempt(attempt, step)
-    history.happened(attempt, success, step)
+    failing = _befalls(draw, habits.fails)
+    success = world.executable(state, [attempt]) and not failing
+    history.attempt(attempt, history.step)
+    history.happened(attempt, success, history.step)
+    if failing:
+        history.failed(attempt, history.step)
     return (attempt,) if success else ()
+
+
+def _test(
+    history: History, literal: Literal, draw: Random, habits: Habits
+) -> tuple[int, tuple[int, Fluent]]:
+    """When an observation will be taken for wrong, and which."""
+    step, late = history.step, draw.randint(0, habits.late)
+    history.doubt([literal], step)
+    if not late:
+        history.observe([literal.complement], step)
+    return step + late, (step, literal.atom)
+
+
+def _befalls(draw: Random, chance: float) -> bool:
+    return chance > 0 and draw.random() < chance
 
 
 def _events(
