@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from textwrap import fill
+from typing import Protocol, runtime_checkable
 
 from clingo import Symbol
 
@@ -58,6 +59,13 @@ class Decided:
 
 
 Watcher = Callable[[Decided], None]
+
+
+@runtime_checkable
+class Watched(Protocol):
+    """A robot whose decisions can be had as programs: it tells each before it is attempted."""
+
+    watcher: Watcher | None
 
 
 def program_of(decided: Decided) -> str:

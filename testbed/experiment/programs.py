@@ -4,8 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from agents.intentional import IntentionalRobot, program_of
-from agents.intentional.refined import EitherRobot
+from agents.intentional import Watched, program_of
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.replay import stored_trial
@@ -45,7 +44,7 @@ def replay_decisions(folder: Path, trial: str) -> Decisions:
     spec, recorded = stored_trial(folder, trial)
     title = f"trial {spec.trial}: {of_place(spec.scenario, spec.level)}, {spec.robot}"
     robot = make_robot(spec.robot)
-    if not isinstance(robot, EitherRobot | IntentionalRobot):
+    if not isinstance(robot, Watched):
         raise StoreError(f"{title}: this robot does not reason with the theory of intentions")
     if spec.setting.plans == "conformant":
         search = "conformant plans are found by a search, which no theory states"

@@ -50,6 +50,22 @@ shows
 scenarios
   quiet: nothing.
 """
+RELAY = """
+from agents.intentional import IntentionalRobot
+
+
+class Relay:
+    capabilities = IntentionalRobot.capabilities
+    watcher = None
+
+    def begin(self, task):
+        self._own = IntentionalRobot()
+        self._own.watcher = self.watcher
+        self._own.begin(task)
+
+    def act(self, percept):
+        return self._own.act(percept)
+"""
 CONFIG = """
 name: kiln
 domain: kiln.al
@@ -123,6 +139,17 @@ def test_so_it_does_in_any_domain_and_of_any_intentional_robot(kiln: Path, robot
     record = _record(kiln, robot)
     assert record.explanations
     assert _found_again(kiln, record)
+
+
+def test_so_it_does_of_a_robot_of_ones_own_that_is_watched(kiln: Path, tmp_path: Path) -> None:
+    (kiln.parent / "potters_relay.py").write_text(RELAY, encoding="utf-8")
+    folder = tmp_path / "relayed"
+    given = ("robots=[potters_relay:Relay]", "--workers", "1", "--quiet", "--out", str(folder))
+    assert _call("run", str(kiln.parent / "kiln.yaml"), *given).exit_code == 0
+    trial = _record(folder, "potters_relay:Relay").trial
+    asked = _call("replay", str(folder), "--trial", trial, "--step", "1", "--program")
+    assert asked.exit_code == 0
+    assert found_by_clingo(asked.stdout).intention == "start(1)"
 
 
 def test_a_robot_that_gives_up_has_a_program_too(kiln: Path, tmp_path: Path) -> None:
