@@ -85,7 +85,7 @@ def test_a_thing_without_components_is_drawn_in_its_cell(tmp_path: Path) -> None
 def test_what_nobody_can_test_is_refused_with_its_place(command: str, tmp_path: Path) -> None:
     untested, _, _ = ROWS.partition("tests\n")
     config = Own(tmp_path, RAKED, untested).write(goal=GOAL)
-    arguments = [command, str(tmp_path / "own.fine" if command == "translate" else config)]
+    arguments = [command, str(config.with_name("own.fine") if command == "translate" else config)]
     if command == "run":
         arguments += ["--out", str(tmp_path / "out")]
     done = CliRunner().invoke(app, arguments)

@@ -42,7 +42,8 @@ class FineTracker:
         """Begins with what is known of both resolutions.
 
         Of the coarse one it tells what the robot does not have, or where it is not; where things
-        are is another matter: that is looked for.
+        are is another matter: that is looked for. What is defined changes with what it follows
+        from, and is not remembered.
         """
         magnified = frozenset(filter(self.is_magnified, coarse))
         self.belief = FineBelief(self.model, literals)
@@ -52,7 +53,8 @@ class FineTracker:
             if self.robot in literal.arguments
             for parts in self.refinement.counterpart(literal)
             for part in parts
-            if not part.is_positive or self.belief.is_false(part)
+            if self.refinement.weak_signature.kind(part.name) == "inertial"
+            and (not part.is_positive or self.belief.is_false(part))
         ]
         self.belief.see(fluent.complement for fluent in fluents)
         self._suppose(frozenset(each for each in coarse if each.is_positive) - magnified)
