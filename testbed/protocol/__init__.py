@@ -1,6 +1,5 @@
 """The messages between a driver and a robot, and the interface of a robot."""
 
-from asp.reasoning.planning import Plans as Plans
 from testbed.protocol.bounds import MOST_BYTES as MOST_BYTES
 from testbed.protocol.bounds import Count as Count
 from testbed.protocol.bounds import literal_within_bounds as literal_within_bounds
@@ -15,6 +14,7 @@ from testbed.protocol.errors import in_one_line as in_one_line
 from testbed.protocol.messages import PROTOCOL_VERSION as PROTOCOL_VERSION
 from testbed.protocol.messages import Decision as Decision
 from testbed.protocol.messages import Percept as Percept
+from testbed.protocol.messages import Plans as Plans
 from testbed.protocol.messages import Question as Question
 from testbed.protocol.messages import Relevance as Relevance
 from testbed.protocol.messages import Task as Task

@@ -13,7 +13,6 @@ from typing import Literal as Choice
 import msgspec
 
 from asp.language import Action, Literal
-from asp.reasoning.planning import Plans
 from testbed.protocol.bounds import Count, Text, literal_within_bounds
 from testbed.protocol.errors import LinkError
 from testbed.protocol.parts import Event, Part
@@ -28,6 +27,8 @@ Relevance: TypeAlias = Choice["published", "definition", "plan", "all"]
 or to the goal by Definition 1 (P 3.3); `plan`: the conditions of the rest of its plan, too; `all`:
 all that it sees.
 """
+Plans: TypeAlias = Choice["optimistic", "conformant"]
+"""Whether some outcomes of a plan's actions have to reach the goal, or all."""
 
 
 class Message(Part, frozen=True, kw_only=True):

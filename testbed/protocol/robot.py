@@ -4,8 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias, get_args
 
-from asp.reasoning.planning import Plans
-from testbed.protocol.messages import Decision, Percept, Task
+from testbed.protocol.messages import Decision, Percept, Plans, Task
 
 Resolution: TypeAlias = Literal["coarse", "fine"]
 Knowledge: TypeAlias = Literal["complete", "seen"]
