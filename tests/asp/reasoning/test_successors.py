@@ -10,7 +10,7 @@ from asp.language import parse_description
 from asp.reasoning import Transitions, knowledge
 from asp.reasoning.diagnosis import Happening
 from asp.reasoning.diagnosis.history import Problem, Record
-from asp.reasoning.diagnosis.smallest_explanations import Question, SmallestExplanations
+from asp.reasoning.diagnosis.smallest_explanations import MANY, Question, SmallestExplanations
 from asp.translation import translate
 from testbed.world import world_of
 
@@ -98,7 +98,7 @@ def _question(
     explanations: SmallestExplanations, state: int, record: Record, size: int
 ) -> Question:
     problem = Problem((), {0: record}, step=1, since=0 if size >= 0 else 1)
-    return explanations.outcomes(problem).starting(_true(state))
+    return explanations.outcomes(problem, MANY).starting(_true(state))
 
 
 def _outcomes(
