@@ -127,6 +127,8 @@ class Domain:
         if plans not in get_args(Plans):
             raise DomainError(f"{plans!r} is none of: {', '.join(get_args(Plans))}", "plans")
         start, wanted = self.state(state), self._literals(goal, "goal")
+        if not wanted:
+            raise DomainError("should not be empty; a goal is literals such as f(a,b)", "goal")
         if all((each.atom in start) == each.is_positive for each in wanted):
             return ()
         planner, reachability = self._planning

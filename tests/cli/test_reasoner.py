@@ -81,6 +81,8 @@ def test_no_plan_within_the_limit_is_an_exit_code() -> None:
         (("cart.al", "--from", "lit", "--goal", "at(left"), "--goal: "),
         (("cart.al", "--from", "at(left), at(right)", "--goal", "lit"), "at(right)"),
         (("cart.al", "--from", "lit", "--goal", "lit, -lit"), "lit"),
+        (("cart.al", "--from", "lit", "--goal", ""), "--goal: "),
+        (("cart.al", "--from", "lit", "--goal", " , "), "--goal: "),
         (("missing.al", "--from", "lit", "--goal", "lit"), "missing.al"),
     ],
 )
