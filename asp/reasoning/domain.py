@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
-from typing import ClassVar, get_args
+from typing import get_args
 
 from asp.language import Action, DomainError, Literal, analyse, read_domain, unknown_atom
 from asp.language import parse_description as parsed
@@ -51,8 +51,6 @@ class Step:
     `attempted` is the agent's action in that state, `took_effect` whether it was seen to, and
     `reported` are the exogenous actions that are said to have happened at the same time.
     """
-
-    __pydantic_config__: ClassVar = {"extra": "forbid"}  # where steps are read from a file
 
     observed: Sequence[str] = ()
     attempted: str | None = None
@@ -224,6 +222,9 @@ class Domain:
 
     def _diagnosis(self, history: diagnosis.History, goal: Given) -> diagnosis.Diagnosis:
         wanted, known = self._literals(goal, "goal"), self._knowledge
+        core = diagnosis.never_together(known.program, wanted) if wanted else None
+        if core is not None:
+            raise DomainError(f"no state has all of this: {diagnosis.cannot_hold(core)}", "goal")
         with_goal = replace(known, program=known.program + _REACHED)
         reference = diagnosis.ReferenceDiagnoser[diagnosis.History](with_goal, wanted)
         diagnoser = diagnosis.IncrementalDiagnoser(self._sessions, wanted, 0, reference)

@@ -46,9 +46,9 @@ def command(
         domain = load(source)
         told, places = read_history(history)
         try:
-            first = [domain.explain(told.history, told.goal)]
+            first = [domain.explain(told.steps, told.goal)]
             others, more = (
-                domain.explanations(told.history, told.goal, MOST) if every else ([], False)
+                domain.explanations(told.steps, told.goal, MOST) if every else ([], False)
             )
         except DomainError as error:
             raise ConfigError(places.lines([(error.key, error.message)])) from None

@@ -1,22 +1,43 @@
 """Histories that users write down: YAML in, checked for its form."""
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Annotated
 
-from pydantic import ValidationError
+from pydantic import Field, ValidationError
 
 from asp.language import read_text
 from asp.reasoning import Step
 from testbed.config.composing import compose
-from testbed.config.models import Section
+from testbed.config.models import GOAL, Section
 from testbed.config.places import ConfigError, Places
-from testbed.config.values import Literals
+from testbed.config.values import Flag, Literals, LiteralText
+from testbed.config.wording import refusal
+
+HISTORY = 'history: [{observed: ["f(a,b)"], attempted: "act(a)"}]'
+"""How a history is written."""
+
+
+class ToldStep(Section):
+    """One step, as `Step` has it."""
+
+    observed: Literals = ()
+    attempted: LiteralText | None = None
+    took_effect: Flag = True
+    reported: Literals = ()
+    goal: Flag | None = None
 
 
 class ToldHistory(Section):
     """Steps, and the goal that some of them tell of."""
 
-    goal: Literals = ()
-    history: tuple[Step, ...]
+    goal: Annotated[Literals, Field(examples=[GOAL])] = ()
+    history: Annotated[tuple[ToldStep, ...], Field(examples=[HISTORY])]
+
+    @property
+    def steps(self) -> Sequence[Step]:
+        """The steps, to be explained."""
+        return [Step(**dict(told)) for told in self.history]
 
 
 def read_history(path: Path) -> tuple[ToldHistory, Places]:
@@ -27,7 +48,11 @@ def read_history(path: Path) -> tuple[ToldHistory, Places]:
     text = read_text(path)
     places = Places(path, text, (), "")
     try:
-        return ToldHistory.model_validate(compose(text, (), places)), places
+        told = ToldHistory.model_validate(compose(text, (), places))
     except ValidationError as error:
-        found = [(each["loc"], each["msg"].lower()) for each in error.errors(include_url=False)]
-        raise ConfigError(places.lines(found)) from None
+        raise refusal(error, places, ToldHistory) from None
+    telling = (i for i, step in enumerate(told.history) if step.goal is not None)
+    if not told.goal and (first := next(telling, None)) is not None:
+        missing = f"tells of a goal, and none is given; add one, as in {GOAL}"
+        raise ConfigError(places.lines([(("history", first, "goal"), missing)]))
+    return told, places

@@ -1,44 +1,26 @@
 """Read a configuration: OmegaConf composes file and overrides, pydantic validates the result."""
 
 import inspect
-import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, TypeVar, get_type_hints
+from typing import TypeVar, get_type_hints
 
-from pydantic import BaseModel, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic import ValidationError
 
-from asp.language import load_description, nearest, suggestion
+from asp.language import load_description, suggestion
 from testbed.config import models
 from testbed.config.checking import Check, check
 from testbed.config.composing import compose
 from testbed.config.models import ExperimentConfig, Section
-from testbed.config.places import ConfigError, Key, Places
+from testbed.config.places import ConfigError, Places
 from testbed.config.scenarios import with_scenarios
+from testbed.config.wording import refusal
 
 F = TypeVar("F", bound=Callable[..., object])
 
-LONGEST = 80
-"""How much of a value a line shows."""
-
-FORMS = {
-    "int_type": "; write it in decimal digits alone, without quotes",
-    "float_type": "; write it in decimal, without quotes",
-    "bool_type": "; write true or false",
-    "string_type": "; put it in quotes",
-}
-"""How the values of a type are written, by the error that they are not of it."""
-
-LIKE_A_VALUE = re.compile(r"^[-+.]*\d|^\.(inf|nan)$|^(y|n|yes|no|on|off)$", re.IGNORECASE)
-"""Texts that YAML 1.1 reads as a number or a truth value."""
-
 SECTION = re.compile(rf"{re.escape(models.__name__)}\.(\w+)")
 """A section, as types are written."""
-
-FINE_KEYS = ("levels", "level_sizes", "refinement", "draw", "statistics")
-"""Keys that only configurations of the fine resolution have."""
 
 
 def load_config(
@@ -69,100 +51,11 @@ def load_config(
     try:
         config = _located(ExperimentConfig.model_validate(composed), path)
     except ValidationError as error:
-        found = error.errors(include_url=False)
-        cut = {item["loc"][:-1] for item in found if _is_rest_of_literal(item)}
-        kept = (item for item in found if item["type"] != "literal" or item["loc"][:-1] not in cut)
-        meant = set(map(_meant_key, found))
-        told = (item for item in kept if item["type"] != "missing" or item["loc"] not in meant)
-        raise ConfigError([_describe(item, places) for item in told]) from None
+        raise refusal(error, places, ExperimentConfig) from None
     check(config, places, checks)
     if config.is_fine:
         return config
     return with_scenarios(config, load_description(config.domain).scenarios)
-
-
-def _is_rest_of_literal(error: ErrorDetails) -> bool:
-    """Whether a key is what YAML cut off from an unquoted literal, at a comma."""
-    return error["type"] == "extra_forbidden" and ")" in str(error["loc"][-1])
-
-
-def _meant_key(error: ErrorDetails) -> Key | None:
-    """The key that an unknown one is a misspelling of; None: none, or it is known."""
-    if error["type"] != "extra_forbidden":
-        return None
-    *section, name = error["loc"]
-    near = nearest(str(name), _fields_of(section))
-    return None if near is None else (*section, near)
-
-
-def _describe(error: ErrorDetails, places: Places) -> str:
-    key = error["loc"]
-    where = places.of(key)
-    if error["type"] == "extra_forbidden":
-        return f"{where}: unknown key; {_known_key(key)}"
-    if error["input"] == "":
-        return f"{where}: has no value; give one, or null for none"
-    if error["type"] == "missing":
-        return f"{where}: is missing{_example(key)}{_or_level(key, error['input'])}"
-    if error["type"] == "too_short":
-        return f"{where}: should not be empty{_example(key)}"
-    if error["type"] == "tuple_type":
-        return f"{where}: should be a list such as [{_shown(error['input'])}]"
-    message = error["msg"].removeprefix("Input ").replace("a valid integer", "an integer")
-    message = message.replace("a valid ", "a ").replace("dictionary", "mapping")
-    message = message[0].lower() + message[1:].partition(" or instance of")[0]
-    return f"{where}: {message}, not {_shown(error['input'])}{_hint(error)}"
-
-
-def _shown(value: object) -> str:
-    """A value as YAML writes it, of a long one the beginning."""
-    if value is None or isinstance(value, bool):
-        return json.dumps(value)
-    text = repr(value)
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]}..."
-
-
-def _example(key: Key) -> str:
-    field = ExperimentConfig.model_fields.get(str(key[0])) if len(key) == 1 else None
-    return f"; for example {field.examples[0]}" if field and field.examples else ""
-
-
-def _or_level(key: Key, given: Any) -> str:
-    """Of a goal that is missing beside what belongs to levels: these may be what is."""
-    if key != ("goal",) or not any(name in given for name in FINE_KEYS):
-        return ""
-    return "; or give levels, as in levels: [L1], or a refinement: there goals are drawn"
-
-
-def _hint(error: ErrorDetails) -> str:
-    """What would be right: the form that the type has in YAML, or the nearest choice."""
-    given = error["input"]
-    if error["type"] in FORMS and (
-        isinstance(given, float | int) or LIKE_A_VALUE.search(str(given))
-    ):
-        return FORMS[error["type"]]
-    expected = error.get("ctx", {}).get("expected")
-    if expected is None or not isinstance(given, str):
-        return ""
-    choices = str(expected).replace("'", "").replace(" or ", ", ").split(", ")
-    near = suggestion(given, choices, otherwise="")
-    return near and f"; {near}"
-
-
-def _known_key(key: Key) -> str:
-    """What an unknown key should be: in quotes, or one of its section."""
-    if "(" in str(key[-1]) or ")" in str(key[-1]):
-        return "put quotes around an action or a literal with a comma in it"
-    return suggestion(str(key[-1]), _fields_of(key[:-1]))
-
-
-def _fields_of(key: Iterable[str | int]) -> Iterable[str]:
-    """The keys of the section that a key leads to."""
-    section: type[BaseModel] = ExperimentConfig
-    for part in key:
-        inner = SECTION.search(str(get_type_hints(section).get(str(part))))
-        section = getattr(models, inner[1]) if inner else section
-    return section.model_fields
 
 
 def _located(config: ExperimentConfig, path: Path) -> ExperimentConfig:

@@ -119,6 +119,11 @@ def test_all_explanations_are_told_on_request() -> None:
         (TOLD + "- seen: [shut]\n", "told.yaml:3: history[1].seen"),
         (TOLD + "- shut\n", "told.yaml:3: history[1]"),
         (TOLD + "goal: [lid]\n", "told.yaml:3: goal"),
+        (TOLD + "goal: [lit, -lit]\n", "told.yaml:3: goal"),
+        (TOLD + 'goal: ["at(left)", "at(right)"]\n', "told.yaml:3: goal"),
+        (TOLD + "- {goal: true}\n", "told.yaml:3: history[1].goal"),
+        ("goal: [lit]\n" + TOLD + "  goal: 1\n", "told.yaml:4: history[0].goal"),
+        (TOLD + "  took_effect: 'no'\n", "told.yaml:3: history[0].took_effect"),
         ("{}\n", "told.yaml: history"),
         ("", "told.yaml"),
         ("history: [\n", "told.yaml:"),
@@ -126,6 +131,25 @@ def test_all_explanations_are_told_on_request() -> None:
 )
 def test_mistakes_in_a_history_are_one_line_with_file_and_key(history: str, place: str) -> None:
     assert _refusal(_explained(history)).startswith(place)
+
+
+@pytest.mark.parametrize(
+    ("history", "place", "right"),
+    [
+        (TOLD.replace("history", "histroy"), "told.yaml:1: histroy", "history"),
+        (TOLD.replace("observed", "observd"), "told.yaml:2: history[0].observd", "observed"),
+        (TOLD + "  took_efect: false\n", "told.yaml:3: history[0].took_efect", "took_effect"),
+        ("goal: [lit]\n" + TOLD + "  goal: yes\n", "told.yaml:4: history[0].goal", "true"),
+        (TOLD + "  goal: false\n", "told.yaml:3: history[0].goal", "goal: ["),
+        (TOLD + "goal: lit\n", "told.yaml:3: goal", "['lit']"),
+    ],
+)
+def test_a_mistake_in_the_form_of_a_history_is_one_line_that_says_what_would_be_right(
+    history: str, place: str, right: str
+) -> None:
+    line = _refusal(_explained(history))
+    assert line.startswith(f"{place}: ")
+    assert right in line.removeprefix(f"{place}: ")
 
 
 def test_a_history_that_is_no_text_is_one_line() -> None:
