@@ -5,7 +5,8 @@ from itertools import islice
 
 from benchmarks.games.explaining import Assumptions
 from benchmarks.games.faults import Fault, Turn
-from benchmarks.games.office import State, complement
+from benchmarks.games.literals import complement
+from benchmarks.games.office import State
 from benchmarks.games.preferring import first
 from benchmarks.games.told import Told
 
@@ -62,7 +63,7 @@ def belief_faults(turn: Turn) -> Iterator[Fault]:
     """The belief is a state to which the history leads by the explanation."""
     trace = turn.decision.trace
     belief = frozenset(map(str, trace.belief))
-    if turn.ends and turn.state not in {node.state for node in turn.ends}:
+    if turn.ends and turn.state is None:
         expected = " or ".join(str(sorted(turn.office.fluents(n.state))) for n in turn.ends)
         yield turn.fault("belief", f"{sorted(belief)}; by the explanation: {expected}")
 

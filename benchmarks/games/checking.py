@@ -14,6 +14,7 @@ from benchmarks.games.explaining import Assumptions, Search
 from benchmarks.games.faults import Fault, Turn
 from benchmarks.games.intending import Intentions, PlanInHand
 from benchmarks.games.office import State
+from benchmarks.games.sure import CheckedOffice
 from benchmarks.games.told import Rules, Told
 from testbed.protocol import Decision, Percept
 
@@ -23,8 +24,11 @@ class Checker:
 
     def __init__(self, game: Game) -> None:
         self._game = game
-        start = game.state
-        rules = Rules(game.office, game.goal, game.knows_all, game.has_intentions, game.relevance)
+        office, goal, start = game.office, game.goal, game.state
+        if game.robot == "intentional-checking":
+            office = CheckedOffice(office, goal)
+            goal, start = (*goal, *office.sure), office.from_start(start)
+        rules = Rules(office, goal, game.knows_all, game.has_intentions, game.relevance)
         self._told = Told.beginning(rules, start)
         self._search = Search(self._told)
         self._adopted, self._is_proved = Assumptions(), True
@@ -53,7 +57,7 @@ class Checker:
             plan_limit=self._game.plan_limit,
         )
         faults = [*(self._decided(turn) if trace.intention else self._waited(turn))]
-        self._told.decide(decision)
+        self._told.decide(decision, turn.state)
         return faults
 
     def _decided(self, turn: Turn) -> Iterator[Fault]:

@@ -7,27 +7,29 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
-from benchmarks.games.office import OFFICES, ROBOT, ROOMS, SECURE, Office, State
+from benchmarks.games.literals import ROBOT, ROOMS, SECURE
+from benchmarks.games.office import OFFICES, Office, State
 from benchmarks.games.relevance import RELEVANT
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.specs import TrialSpec
 
 SHARES: Mapping[str, int] = {
-    "intentional": 150,
-    "traditional": 40,
+    "intentional": 140,
+    "traditional": 38,
+    "intentional-checking": 10,
     "intentional-plain": 3,
     "traditional-plain": 3,
-    "intentional-joint-staged": 2,
-    "intentional-joint": 2,
+    "intentional-joint-staged": 3,
+    "intentional-joint": 3,
 }
 """The robots, with how often of two hundred games each plays: some solve programs from scratch."""
 JOINT = ("intentional-joint", "intentional-joint-staged")
 SLOW = {
     "intentional-plain": 14,
     "traditional-plain": 20,
-    "intentional-joint-staged": 10,
-    "intentional-joint": 5,
+    "intentional-joint-staged": 12,
+    "intentional-joint": 12,
 }
 """The most steps of games of robots that solve large programs from scratch."""
 TIGHT: Sequence[Mapping[str, int]] = (
@@ -138,7 +140,7 @@ def draw(number: int, robots: Mapping[str, int] = SHARES) -> Game:
     steps = chance.randint(min(4, most), most)
     options = _options(chance)
     if robot == "intentional-joint":
-        options["limits.plan"] = 2
+        options["limits.plan"] = chance.randint(2, 6)  # whose horizon is always as long
     first = 1 if options["exogenous_while_thinking"] or not robot.startswith("intentional") else 2
     rate = chance.choice((0.15, 0.4, 0.7))
     goal = _goal(chance, office)

@@ -52,8 +52,14 @@ class Turn:
 
     @property
     def state(self) -> State | None:
-        """The state that the robot believes in; None: its belief is none, or is not told."""
-        return self.office.by_fluents.get(frozenset(map(str, self.decision.trace.belief)))
+        """The state that the robot believes in; None: its belief is none, or is not told.
+
+        It is as unsure as it may be: what was not known at the start it is not sure of.
+        """
+        belief = frozenset(map(str, self.decision.trace.belief))
+        states = (node.state for node in self.ends)
+        believed = (state for state in states if self.office.fluents(state) - state.sure == belief)
+        return min(believed, key=lambda state: len(state.sure), default=None)
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 
 from benchmarks.games.explaining import Node
 from benchmarks.games.faults import Fault, Turn
-from benchmarks.games.office import Plan, State
+from benchmarks.games.literals import Plan
+from benchmarks.games.office import State
 
 _IMPOSSIBLE = re.compile(r"futile: (\S+) is impossible at step \d+(?: with (.*))?")
 _COMMA = re.compile(r", ?(?![^(]*\))")

@@ -1,51 +1,29 @@
 """The office by hand: states, transitions, sights and defaults, in Python.
 
 It is written from the documents (D 1.1, 1.2; P 3.1.2) and reads no description, so that neither a
-parser, nor a translation, nor a solver can be wrong in the same way. Fluents, literals and actions
-are texts, as users see them.
+parser, nor a translation, nor a solver can be wrong in the same way.
 """
 
 from collections import deque
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 from itertools import combinations, product
 from typing import NamedTuple
 
-ROBOT, SECURE = "rob1", "library"
-ROOMS = ("kitchen", "office1", "office2", SECURE)
-DOORS = frozenset({("office1", "office2"), ("office2", "kitchen"), ("kitchen", SECURE)})
-Literals = Collection[str]
-Plan = tuple[str, ...]
+from benchmarks.games.literals import ROBOT, ROOMS, SECURE, Literals, Plan, atom, next_to, parts
 
 
 class State(NamedTuple):
-    """Where the robot and each book are, the book in its hand, whether the library is locked."""
+    """Where the robot and each book are, the book in its hand, whether the library is locked.
+
+    `sure` is what a checking robot is sure of (`CheckedOffice`).
+    """
 
     robot: str
     places: tuple[str, ...]
     held: str | None
     locked: bool
-
-
-def parts(action: str) -> tuple[str, list[str]]:
-    """The name of a fluent or an action, and its arguments."""
-    name, _, inside = action.rstrip(")").partition("(")
-    return name, inside.split(",")
-
-
-def atom(literal: str) -> str:
-    """The literal without its sign."""
-    return literal.removeprefix("-")
-
-
-def complement(literal: str) -> str:
-    """The same atom with the other sign."""
-    return atom(literal) if literal.startswith("-") else f"-{literal}"
-
-
-def next_to(one: str, other: str) -> bool:
-    """Whether a door connects two rooms."""
-    return (one, other) in DOORS or (other, one) in DOORS
+    sure: frozenset[str] = frozenset()
 
 
 class Office:
@@ -59,10 +37,11 @@ class Office:
     ) -> None:
         self.books = tuple(books)
         self._number = {book: number for number, book in enumerate(books)}
-        self._shelved = shelved
+        self.shelved = shelved
         self.after = lru_cache(200_000)(self._after)
         self.fluents = lru_cache(10_000)(self._fluents)
         self.compounds = lru_cache(20_000)(self._compounds)
+        self._distances = lru_cache(256)(self._distances_to)
 
     @cached_property
     def states(self) -> tuple[State, ...]:
@@ -89,11 +68,11 @@ class Office:
         found = [
             f"-loc({book},{rooms[number]})"
             for number in range(len(ROOMS))
-            for book, rooms in (self._shelved or {}).items()
+            for book, rooms in (self.shelved or {}).items()
             if number < len(rooms) > 1
         ]
         alone = [
-            f"-loc({b},{rooms[0]})" for b, rooms in (self._shelved or {}).items() if not rooms[1:]
+            f"-loc({b},{rooms[0]})" for b, rooms in (self.shelved or {}).items() if not rooms[1:]
         ]
         return (*found, *alone, f"locked({SECURE})")
 
@@ -137,7 +116,7 @@ class Office:
         """Whether no executability condition forbids the action."""
         name, arguments = parts(action)
         last = arguments[-1]
-        robot, _, held, locked = state
+        robot, held, locked = state.robot, state.held, state.locked
         if name == "move":
             shut = locked and SECURE in (last, robot)
             return next_to(robot, last) and not shut
@@ -197,13 +176,19 @@ class Office:
             seen.append(f"locked({SECURE})")
         return frozenset(each if each in true else f"-{each}" for each in seen)
 
+    def known(self, state: State, knows_all: bool) -> Literals:
+        """What is known of the initial state: all of it, or what the robot sees."""
+        true = self.fluents(state)
+        whole = [each if each in true else f"-{each}" for each in self.atoms]
+        return whole if knows_all else self.visible(state)
+
     def exceptions(self, state: State) -> frozenset[str]:
         """What holds at the start against a default."""
-        if self._shelved is None:
+        if self.shelved is None:
             return frozenset()
         found = {f"locked({SECURE})"} if state.locked else set()
         for book, place in zip(self.books, state.places, strict=True):
-            for room in () if book == state.held else self._shelved[book]:
+            for room in () if book == state.held else self.shelved[book]:
                 if place == room:
                     break
                 found.add(f"-loc({book},{room})")
@@ -213,8 +198,7 @@ class Office:
         """The fewest actions of the robot that lead from a state to the goal; without: none do."""
         return self._distances(frozenset(goal))
 
-    @lru_cache(256)  # noqa: B019  # there are two offices
-    def _distances(self, goal: frozenset[str]) -> Mapping[State, int]:
+    def _distances_to(self, goal: frozenset[str]) -> Mapping[State, int]:
         found = {state: 0 for state in self.states if self.agrees(state, goal)}
         waiting = deque(found)
         while waiting:

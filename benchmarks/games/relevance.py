@@ -1,9 +1,14 @@
-"""Which visible fluents of an office a robot heeds, by the configuration's `relevance`, by hand."""
+"""Which visible fluents of an office a robot heeds, by the configuration's `relevance`, by hand.
+
+Where the robot is itself it always knows, whether or not that is relevant: nobody else moves it. So
+what a checking robot heeds beside the others, where it would have to look from, is left out.
+"""
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 
-from benchmarks.games.office import ROBOT, ROOMS, SECURE, Office, Plan, State, atom, parts
+from benchmarks.games.literals import ROBOT, ROOMS, SECURE, Plan, atom, parts
+from benchmarks.games.office import Office, State
 
 Fluents = set[str]
 

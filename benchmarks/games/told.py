@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from benchmarks.games.office import Literals, Office, Plan, State, atom
+from benchmarks.games.literals import Literals, Plan, atom
+from benchmarks.games.office import Office, State
 from benchmarks.games.relevance import RELEVANT, Scene, shown
 from testbed.protocol import Decision, Percept
 
@@ -64,9 +65,7 @@ class Told:
     @classmethod
     def beginning(cls, rules: Rules, state: State) -> "Told":
         """With what is known of the state at step 0: all of it, or what is seen."""
-        office, true = rules.office, rules.office.fluents(state)
-        whole = [each if each in true else f"-{each}" for each in office.atoms]
-        return cls(rules, whole if rules.knows_all else office.visible(state))
+        return cls(rules, rules.office.known(state, rules.knows_all))
 
     def at(self, step: int) -> Moment:
         """What is recorded of a step; made when it is first asked for."""
@@ -87,8 +86,8 @@ class Told:
         self.step = percept.step
         self.at(self.step).observed = self._heeded(percept)
 
-    def decide(self, decision: Decision) -> None:
-        """What a decision adds; one that reached a limit adds nothing."""
+    def decide(self, decision: Decision, believed: State | None) -> None:
+        """What a decision in a believed state adds; one that reached a limit adds nothing."""
         trace, moment = decision.trace, self.at(decision.step)
         if trace.mental is not None and trace.mental.name == "start":
             moment.started = tuple(map(str, trace.plan))
@@ -96,8 +95,7 @@ class Told:
         if decision.action not in ("wait", "finish"):
             moment.attempt = str(decision.action)
         if trace.intention is not None:
-            belief = frozenset(map(str, trace.belief))
-            self.believed = self.rules.office.by_fluents.get(belief)
+            self.believed = believed
             self.ahead = tuple(map(str, trace.plan))
 
     def plan_at(self, step: int) -> Plan:

@@ -1,6 +1,6 @@
 """Random games against brute force: nothing is found, and each kind of lie is."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -10,20 +10,19 @@ from asp.language import Action, Literal
 from benchmarks import games
 from benchmarks.games.__main__ import main
 from benchmarks.games.drawing import SHARES, draw
-from benchmarks.games.playing import play, shortened
-from testbed.experiment.robots import make_robot
+from benchmarks.games.playing import MakeRobot, Story, play, shortened
+from testbed.experiment.robots import ROBOTS, make_robot
 from testbed.protocol import Decision, Event, Percept, Task, Trace
 
 Lie = Callable[[Decision], Decision]
-ONLY = {"intentional": 1}
 MOST_GAMES = 40
 
 
 class Liar:
     """An intentional robot that does not say what it thinks."""
 
-    def __init__(self, lie: Lie) -> None:
-        self._robot = make_robot("intentional")
+    def __init__(self, lie: Lie, robot: str = "intentional") -> None:
+        self._robot = make_robot(robot)
         self._lie = lie
 
     def begin(self, task: Task) -> None:
@@ -126,20 +125,48 @@ def test_nothing_is_found_in_a_sample_of_games() -> None:
         assert int(str(total[key])) > 0, key
 
 
-@pytest.mark.parametrize("lie", LIES)
-def test_a_lie_is_caught_by_the_check_that_is_there_for_it(lie: str) -> None:
+def test_every_robot_of_ours_plays_that_acts_at_the_coarse_resolution() -> None:
+    able = {name: ROBOTS.find(name).capabilities.resolutions for name in ROBOTS.built_in}
+    assert set(SHARES) == {name for name, resolutions in able.items() if "coarse" in resolutions}
+
+
+@pytest.mark.parametrize(
+    ("lie", "robot"),
+    [
+        *((lie, "intentional") for lie in LIES),
+        ("the lock is otherwise", "intentional-checking"),
+        ("nothing happened", "intentional-checking"),
+        ("the plan has a gap", "intentional-checking"),
+        ("the goal is believed otherwise", "intentional-checking"),
+    ],
+)
+def test_a_lie_is_caught_by_the_check_that_is_there_for_it(lie: str, robot: str) -> None:
     check, change = LIES[lie]
-    stories = (play(draw(seed, ONLY), lambda _: Liar(change)) for seed in range(MOST_GAMES))
-    found = next(story for story in stories if story.faults)
+    found = next(
+        story for story in _stories(robot, lambda name: Liar(change, name)) if story.faults
+    )
     assert found.faults[0].check == check
+
+
+def test_a_robot_that_is_not_sure_of_its_goal_is_caught_finishing() -> None:
+    stories = _stories("intentional-checking", lambda _: make_robot("intentional"))
+    faults = (s.faults for s in stories if s.faults and s.moments[-1].decision.action == "finish")
+    assert next(faults)[0].check == "reason"
+
+
+def _stories(robot: str, make: MakeRobot) -> Iterator[Story]:
+    return (play(draw(seed, {robot: 1}), make) for seed in range(MOST_GAMES))
 
 
 def test_the_story_of_a_fault_is_made_shorter_and_can_be_played_again() -> None:
     def make(_: str) -> Liar:
         return Liar(LIES["nothing happened"][1])
 
-    stories = (play(draw(seed, ONLY), make) for seed in range(MOST_GAMES))
-    found = next(story for story in stories if story.faults and len(story.game.script) > 1)
+    found = next(
+        story
+        for story in _stories("intentional", make)
+        if story.faults and len(story.game.script) > 1
+    )
     short = shortened(found, make)
     assert len(short.game.script) < len(found.game.script)
     assert len(short.moments) <= len(found.moments)
