@@ -76,6 +76,8 @@ class IncrementalDiagnoser(Generic[H_contra]):
         self._under = Explanation()
         self._fewest = (0, 0)
         self._heard = 0
+        self._is_late = False
+        self._diagnosed = 0
 
     @property
     def beliefs(self) -> Sequence[Belief]:
@@ -102,20 +104,24 @@ class IncrementalDiagnoser(Generic[H_contra]):
 
         Raises InconsistentHistoryError and LimitError.
         """
-        is_late = self._hear(history)
+        self._hear(history)
         # Where the time ran out after late news, the caller holds what it held before the news.
         adopted = adopted.left(history)
         self._compress(history)
-        reported = self._knowledge.actions[1] & history.at(history.step - 1).happened.keys()
-        if is_late or (reported and not adopted.proved):
+        if self._is_late or (self._is_told(history) and not adopted.proved):
             adopted = self._revised(history, adopted)
         if not self._carried(history, adopted):
             adopted = self._explain(history, adopted)
-        self._under = adopted
+        self._under, self._is_late, self._diagnosed = adopted, False, history.step
         return Diagnosis(adopted, alternatives=partial(self._alternatives, history, adopted))
 
-    def _hear(self, history: History) -> bool:
-        """Takes back what late news of the past may change. Returns whether there is any."""
+    def _is_told(self, history: History) -> bool:
+        """Whether an event was reported since the last diagnosis that came to an end."""
+        since, events = min(self._diagnosed, history.step - 1), self._knowledge.actions[1]
+        return any(events & history.at(i).happened.keys() for i in range(since, history.step))
+
+    def _hear(self, history: History) -> None:
+        """Takes back what late news of the past may change."""
         news = history.late_news[self._heard :]
         if news:
             self._heard += len(news)
@@ -123,7 +129,7 @@ class IncrementalDiagnoser(Generic[H_contra]):
             del self._beliefs[max(1, min(news)) :]
             if self._frontier is not None:
                 self._frontier.forget(min(news))
-        return bool(news)
+            self._is_late = True  # until a diagnosis comes to an end
 
     def _carried(self, history: History, adopted: Explanation) -> bool:
         """Whether what is adopted agrees with all that was observed; it is believed if it does."""

@@ -9,7 +9,7 @@ from agents.intentional.activities import History
 from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
 from agents.shared import Reasoner
 from asp.language import Literal
-from asp.reasoning import Knowledge, knowledge
+from asp.reasoning import Knowledge, diagnosis, knowledge
 from asp.reasoning.diagnosis import SELECT, Explanation
 from asp.solving import LimitError, Limits, deciding
 from tests.literals import parsed
@@ -161,6 +161,21 @@ def test_late_news_is_not_forgotten_where_the_time_for_it_ran_out(reasoner: Make
 
 
 @both
+def test_a_report_is_not_forgotten_where_the_time_for_it_ran_out(reasoner: Make) -> None:
+    """What is held was the best that there was time to find: it is larger than it need be."""
+    mind = Mind(reasoner)
+    for seen in ((), (), ("shut",)):
+        mind.next(seen=seen)
+    found = [(1, "push(right)"), (2, "push(left)"), (2, "shut_gate")]
+    events = tuple(diagnosis.Happening(step, Literal.parse(event)) for step, event in found)
+    mind.held = Explanation(events, proved=False)
+    with pytest.raises(LimitError), deciding(Limits(0)):
+        mind.next(news=[(3, "push(right)")])
+    mind.next()
+    assert mind.assumed == ([(2, "shut_gate")], [])
+
+
+@both
 def test_late_news_of_another_time_makes_the_assumption_needless(reasoner: Make) -> None:
     mind = Mind(reasoner)
     mind.next()
@@ -256,9 +271,10 @@ laws
 
 
 @both
+@pytest.mark.parametrize("in_time", [False, True])
 @pytest.mark.parametrize("unknown", [False, True])
 def test_an_invention_is_given_up_where_late_news_explains_everything(
-    unknown: bool, reasoner: Make
+    unknown: bool, in_time: bool, reasoner: Make
 ) -> None:
     """The guest left the hall for another place than was supposed: nothing needs be supposed."""
     text = (
@@ -274,9 +290,13 @@ def test_an_invention_is_given_up_where_late_news_explains_everything(
     invented = mind.diagnose(history, Explanation()).explanation
     assert [(e.step, e.action) for e in invented.unobserved] == [(2, "stroll(terrace)")]
     history.happened(Literal.parse("stroll(cellar)"), True, 1)
-    diagnosis = mind.diagnose(history, invented)
-    assert (diagnosis.explanation.unobserved, diagnosis.explanation.distrusted) == ((), ())
-    assert "in(cellar)" in mind.intend(history, diagnosis).believed
+    if not in_time:
+        with pytest.raises(LimitError), deciding(Limits(0)):
+            mind.diagnose(history, invented)
+        history.step = 4
+    explained = mind.diagnose(history, invented)
+    assert (explained.explanation.unobserved, explained.explanation.distrusted) == ((), ())
+    assert "in(cellar)" in mind.intend(history, explained).believed
 
 
 @both
