@@ -11,7 +11,7 @@ from benchmarks import (
     driver,
     growth,
     hostile,
-    hostile_lives,
+    hostile_settings,
     memory,
     mutation,
     peers,
@@ -151,10 +151,14 @@ def test_worlds_have_a_row_a_level() -> None:
 def test_hostile_lives_are_explained_within_their_budgets_as_the_reference_does() -> None:
     sheets = rows_of(hostile.main("small"))
     rows = sheets["hostile"]
-    kinds = list(zip(column(rows, "relevance"), column(rows, "variant"), strict=True))
-    assert kinds == [(r, v) for r in hostile.RELEVANCES for v in hostile_lives.VARIANTS]
+    columns = (column(rows, name) for name in ("setting", "relevance", "variant"))
+    assert [hostile_settings.Kind(*map(str, kind)) for kind in zip(*columns, strict=True)] == [
+        *hostile.KINDS
+    ]
+    assert {kind.setting for kind in hostile.KINDS} == hostile_settings.SETTINGS.keys()
     assert sum(int(str(cut)) for cut in column(rows, "cut")) == 0
-    assert all(int(str(answered)) > 0 for answered in column(rows, "answered"))
+    assert all(int(str(ended)) > 0 for ended in column(rows, "ended"))
+    assert column(rows, "equal") == column(rows, "ended")
     sizes = [int(str(size)) for size in column(sheets["hidden"], "assumed_events")]
     assert sizes == sorted(sizes)
     assert sizes[-1] >= hostile.BIN

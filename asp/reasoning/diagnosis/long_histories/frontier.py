@@ -40,10 +40,14 @@ class Compression:
     From step `after` on; to at most `most` states of a step, with `arcs` from each and `kept`
     explanations of each; with so many `answers` of the solver in a decision that can do without.
     Late news of the last `late` steps leaves what is known of the steps before it.
+
+    An office of four books, whose robot sees one room, has up to 162 states of a step. With room
+    for 64 a life of 100 steps took 55 s there and used up 20 budgets, with room for 256 it took 11
+    s and used up none. Where there are fewer states the room costs nothing.
     """
 
     after: int = 32
-    most: int = 64
+    most: int = 256
     arcs: int = 256
     kept: int = 3
     answers: int = 1_000

@@ -98,3 +98,20 @@ def test_what_is_seen_of_some_is_explained_as_in_the_whole_history(
         theirs = whole.diagnose(history, adopted).explanation
         adopted = ours.diagnose(history, adopted).explanation
         assert adopted == theirs, history.step
+
+
+def test_more_than_a_hundred_possible_states_are_compressed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Seven lamps are never seen, so that any of them may be lit: there are 128 states."""
+    domain, fluents = _lamps(8)
+    diagnoser, adopted = _diagnoser(domain, SETTINGS, monkeypatch), Explanation()
+    history, seen = History(), fluents[0]
+    history.observe((each.complement for each in fluents), 0)
+    for history.step in range(1, 14):
+        history.observe([seen if history.step % 2 else seen.complement], history.step)
+        adopted = diagnoser.diagnose(history, adopted).explanation
+    assert adopted.proved
+    assert adopted.size == history.step
+    assert diagnoser.frontier is not None
+    assert diagnoser.frontier.least(history) == (history.step, 0)
