@@ -6,6 +6,7 @@
 import sys
 from collections.abc import Iterable
 
+from benchmarks.games import fine
 from benchmarks.games.drawing import draw
 from benchmarks.games.playing import MakeRobot, Story, Tally, play, shortened
 from benchmarks.sheets import DisagreementError, Sheet
@@ -18,9 +19,13 @@ _TOLD_EVERY = 250
 def main(size: str) -> list[Sheet]:
     """Sheet `games`, with a row per robot. Raises DisagreementError, which has the stories."""
     tally = run(range(GAMES[size]))
-    if tally.found:
-        raise DisagreementError("\n\n".join(map(str, tally.found)))
-    notes = ("each decision was held against brute force: belief, explanation, plan and reason;",)
+    found = [*map(str, tally.found), *fine.found(range(fine.GAMES[size]))]
+    if found:
+        raise DisagreementError("\n\n".join(found))
+    notes = (
+        "each decision was held against brute force: belief, explanation, plan and reason;",
+        f"so were the coarse ones of {fine.GAMES[size]} games at the fine resolution",
+    )
     return [Sheet("games", "Random games", tally.rows, notes)]
 
 

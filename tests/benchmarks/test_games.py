@@ -8,6 +8,7 @@ from msgspec import structs
 
 from asp.language import Action, Literal
 from benchmarks import games
+from benchmarks.games import fine
 from benchmarks.games.__main__ import main
 from benchmarks.games.drawing import SHARES, draw
 from benchmarks.games.playing import MakeRobot, Story, play, shortened
@@ -128,6 +129,17 @@ def test_nothing_is_found_in_a_sample_of_games() -> None:
 def test_every_robot_of_ours_plays_that_acts_at_the_coarse_resolution() -> None:
     able = {name: ROBOTS.find(name).capabilities.resolutions for name in ROBOTS.built_in}
     assert set(SHARES) == {name for name, resolutions in able.items() if "coarse" in resolutions}
+
+
+def test_nothing_is_found_at_the_fine_resolution() -> None:
+    assert [*fine.found(range(fine.GAMES["small"]))] == []
+
+
+def test_a_lie_is_caught_at_the_fine_resolution() -> None:
+    games_of_liar = (
+        fine.play(seed, Liar(LIES["nothing happened"][1])) for seed in range(MOST_GAMES)
+    )
+    assert next(filter(None, games_of_liar))[0].check == "explanation"
 
 
 @pytest.mark.parametrize(
