@@ -3,6 +3,7 @@
 Nothing here has a part in a decision.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from msgspec import structs
@@ -44,7 +45,7 @@ class IntentionalReasons(Reasons):
             no_plan, text = self.no_plan(state)
             return structs.replace(trace, reason=text, no_plan=no_plan)
         if action.name == "start":
-            return structs.replace(trace, reason=self._started(history, intention))
+            return structs.replace(trace, reason=self._started(history, intention, state))
         left = history.left(diagnosis.indices)
         if action.name == "stop":
             futile_at, text = self._futile(history.step, state, left)
@@ -52,17 +53,28 @@ class IntentionalReasons(Reasons):
         said = f"activity {trace.activity} still reaches the goal, by step "
         return structs.replace(trace, reason=Narration(said, Step(history.step + len(left))))
 
-    def _started(self, history: History, intention: Intention) -> str:
+    def _started(self, history: History, intention: Intention, state: State) -> str:
         # A new activity is on record only after the decision.
         again = any(f"start({each.name})" == intention.action for each in history.activities)
         count, how = len(intention.plan), ""
-        if not self._knowledge.deterministic:
-            how = f" with {'all' if self._is_conformant else 'some'} outcomes"
+        if self._is_conformant:  # fewer may do with some
+            how = " with all outcomes"
+        elif self._branches(state, intention.plan):
+            how = " with some outcomes"
         return (
             f"no activity for the goal; {count} action{'' if count == 1 else 's'} achieve"
             f"{'s' if count == 1 else ''} it{how}, none fewer"
             + ("; the plan of an earlier activity" * again)
         )
+
+    def _branches(self, state: State, plan: Sequence[Action]) -> bool:
+        """Whether an action of a plan has several outcomes, from a state on."""
+        for action in () if self._knowledge.deterministic else plan:
+            after, _ = self._sessions.transitions.all_after(state, action, ())
+            if len(after) > 1:
+                return True
+            state = next(iter(after), state)
+        return False
 
     def alternatives(
         self, history: History, diagnosis: Diagnosis

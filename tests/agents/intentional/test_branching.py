@@ -177,6 +177,28 @@ def test_the_reason_and_the_contradiction_are_about_the_outcome() -> None:
     assert contradictions == [(3, "shut"), (3, "-loose")]
 
 
+@pytest.mark.parametrize(
+    ("true", "goal", "plan", "several"),
+    [
+        (("shut",), "loose", ["oil"], False),
+        (("shut",), "pulled", ["pull"], False),
+        (("shut", "loose"), "pulled", ["pull"], True),
+        (("shut", "loose"), "outside", ["pull", "leave"], True),
+        (("loose", "pulled"), "outside", ["leave"], False),
+    ],
+)
+def test_some_outcomes_are_told_of_plans_with_an_action_that_has_several(
+    true: tuple[str, ...], goal: str, plan: list[str], several: bool
+) -> None:
+    description, initial = _initial(DOOR, *true)
+    trace = live(IntentionalRobot(), description, initial, [goal]).decisions[0].trace
+    assert trace.plan == plan
+    assert ("some" in trace.reason.split()) == several
+    life = live(IntentionalRobot(), description, initial, [goal], plans="conformant")
+    if life.actions:  # with some outcomes fewer actions may do
+        assert "all" in life.decisions[0].trace.reason.split()
+
+
 @pytest.mark.parametrize("kind", [IntentionalRobot, Reference])
 def test_an_outcome_that_was_not_seen_is_explained_when_it_is(kind: type[IntentionalRobot]) -> None:
     """Who throws without a look believes in success until told that there is none."""
