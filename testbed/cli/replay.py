@@ -56,7 +56,7 @@ def command(
             return
         search_beside(folder / "config.yaml")
         if program and step is not None:
-            from testbed.experiment.programs import replay_decisions
+            from testbed.cli.programs import replay_decisions
 
             text = replay_decisions(folder, trial).program(step)
             if output is None:

@@ -10,7 +10,7 @@ from click.testing import Result
 from typer.testing import CliRunner
 
 from testbed.cli import app
-from testbed.experiment.programs import replay_decisions
+from testbed.cli.programs import replay_decisions
 from testbed.experiment.record import At, TrialRecord
 from testbed.experiment.store import TrialWriter, read_records
 from tests.solved_programs import found_by_clingo
