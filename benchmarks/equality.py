@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 from benchmarks.descriptions.case import Case
 from benchmarks.descriptions.histories import check_explanations, check_histories
 from benchmarks.descriptions.lives import check_lives
-from benchmarks.descriptions.transitions import check_diagram, check_plans
+from benchmarks.descriptions.transitions import check_diagram, check_plans, check_qualifications
 from benchmarks.sheets import DisagreementError, Row, Sheet
 
 DESCRIPTIONS = {"small": 10, "full": 2_000}
@@ -16,6 +16,7 @@ REFUSED, AGREED, LEFT_OUT = "refused", "agreed", "left out"
 
 CHECKS: Mapping[str, Callable[[Case], None]] = {
     "transitions": check_diagram,
+    "qualifications": check_qualifications,
     "plans": check_plans,
     "explanations": check_explanations,
     "growing histories": check_histories,
@@ -58,7 +59,7 @@ def verdicts(seed: int, folder: Path) -> Iterator[tuple[str, str]]:
 def _verdict(case: Case, check: Callable[[Case], None]) -> str:
     if not case.is_of_the_language:
         return REFUSED
-    if check is not check_diagram and not case.definition.initial:
+    if check not in (check_diagram, check_qualifications) and not case.definition.initial:
         return LEFT_OUT
     check(case)
     return AGREED

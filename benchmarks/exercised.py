@@ -58,6 +58,7 @@ EXERCISED: Mapping[str, tuple[str, ...]] = {
     "misreadings": ("tests/asp/reasoning/diagnosis/test_misreadings.py",),
     "order": (_EXPLANATIONS, "tests/asp/theories/test_order.py"),
     "planning": (_REPORTS, _OUTCOMES, _PREFERENCES, _PLANS, _LIVES),
+    "qualifications": ("tests/asp/reasoning/test_qualifications.py",),
     "reach": (
         f"{_REASONS}::test_where_states_are_too_many_to_look_at_there_are_shorter_proofs",
         f"{_REASONS}::test_what_holds_by_definition_may_cease_to",

@@ -10,7 +10,7 @@ from clingo import Symbol
 
 from agents.intentional.activities import History
 from agents.intentional.controller import IntentionalRobot
-from agents.intentional.reasoners import HALTING, ReferenceReasoner, read_intention
+from agents.intentional.reasoners import ReferenceReasoner, read_intention
 from agents.shared import Intention
 from asp.reasoning.diagnosis import Diagnosis, Explanation, diagnosis_of, event_limits
 from asp.solving import fact, first_model, ground, optimal_model, theory
@@ -41,12 +41,11 @@ class JointReasoner(ReferenceReasoner):
         constants["plan_limit"] = self._plan_limit
 
         def best(most: int) -> Intention | None:
-            for more in ((), HALTING):
-                counting = {**constants, "max_unobserved": most}
-                model, proved = optimal_model(ground(texts, counting, [*facts, *more]))
-                if model is not None:
-                    return replace(read_intention(model), under=diagnosis_of(model, proved))
-            return None
+            counting = {**constants, "max_unobserved": most}
+            model, proved = optimal_model(ground(texts, counting, facts))
+            if model is None:
+                return None
+            return replace(read_intention(model), under=diagnosis_of(model, proved))
 
         limits = event_limits(self._base[0], facts, history.step, diagnosis.explanation.size)
         return next(filter(None, map(best, limits)))

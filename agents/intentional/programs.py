@@ -9,7 +9,7 @@ from typing import Protocol, runtime_checkable
 from clingo import Symbol
 
 from agents.intentional.activities import History
-from agents.intentional.reasoners import BEYOND_LIMIT, HALTING, Program, ReferenceReasoner
+from agents.intentional.reasoners import BEYOND_LIMIT, Program, ReferenceReasoner
 from agents.shared import Intention
 from asp.reasoning import Knowledge
 from asp.reasoning.diagnosis import GOAL, Diagnosis, Explanation
@@ -26,7 +26,6 @@ HEADING = {
     **dict.fromkeys(("explanation", "explained", "explained_distrusted"), _EXPLANATION),
     **dict.fromkeys(("explained_exception", "explained_initial"), _EXPLANATION),
     "beyond_limit": "No plan within the limit achieves the goal",
-    "halting": "What cannot be executed does not occur, whether or not a law says so",
 }
 """What stands above the facts of a predicate, of others `_ORDER`."""
 _FIRST_PLAN = """\
@@ -87,10 +86,7 @@ def _phase_two(decided: Decided) -> Program:
     gives_up = intention.action == FINISH and GOAL not in intention.believed
     reference = ReferenceReasoner(decided.knowledge, decided.goal, len(intention.plan))
     length = max(1, len(left), len(intention.plan))
-    program = reference.phase_two(history, diagnosis, length, BEYOND_LIMIT if gives_up else ())
-    if intention.action.name == "stop" and program.model() is None:
-        return reference.phase_two(history, diagnosis, length, HALTING)
-    return program
+    return reference.phase_two(history, diagnosis, length, BEYOND_LIMIT if gives_up else ())
 
 
 def _header(decided: Decided) -> str:

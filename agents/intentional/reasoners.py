@@ -28,7 +28,7 @@ from asp.reasoning.planning import reference_conformant_planner
 from asp.solving import answer_sets, fact, first_model, ground, literal_of, select, theory
 from testbed.protocol import Plans
 
-BEYOND_LIMIT, HALTING = (fact("beyond_limit"),), (fact("halting"),)
+BEYOND_LIMIT = (fact("beyond_limit"),)
 """What is given where no plan within the limit exists (53)."""
 
 
@@ -71,8 +71,7 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
             options = self._options(history, diagnosis)
             return intended(options, history, diagnosis, outlook, self._goal, self._plan_limit)
         lengths = self._lengths(history, diagnosis)
-        last_resorts = ((1, BEYOND_LIMIT), (lengths[0], HALTING))
-        for length, more in chain(zip(lengths, repeat(())), last_resorts):
+        for length, more in chain(zip(lengths, repeat(())), [(1, BEYOND_LIMIT)]):
             intention = self._intention(history, diagnosis, length, more)
             if intention is not None:
                 return intention
@@ -83,8 +82,7 @@ class ReferenceReasoner(ReferenceDiagnoser[History]):
     ) -> Program:
         """The theory of planning where `length` more physical actions are considered.
 
-        `more` is `beyond_limit` where no plan within the limit exists, and `halting` where an
-        action of the plan that is carried out cannot be executed though no law says so.
+        `more` is `beyond_limit` where no plan within the limit exists.
         """
         explanation = diagnosis.explanation
         facts = (

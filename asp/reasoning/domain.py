@@ -97,7 +97,7 @@ class Domain:
         """`text` is an AL_d text, `file` its name in errors. Raises SourceError."""
         self._source, self._signature = (text, file), analyse(text, file)[1]
         self.description = parsed(text, file)
-        self._knowledge = Knowledge(self.description, translate(text, file))
+        self._knowledge = Knowledge.of(self.description, translate(text, file))
 
     def state(self, given: Given) -> State:
         """The state with these literals; of fluents left out those are true that follow."""
@@ -148,9 +148,7 @@ class Domain:
 
     def outcomes(self, state: State, actions: frozenset[Action]) -> tuple[State, ...]:
         """The same of a complete state and actions of the domain, which are not checked."""
-        own = self._knowledge.actions[0]
-        transitions = self._sessions.transitions
-        return self._sorted(transitions.outcomes(state, actions & own, actions - own))
+        return self._sorted(self._sessions.transitions.outcomes(state, actions))
 
     def explain(self, history: Iterable[Step], goal: Given = ()) -> Explanation:
         """The smallest explanation of a history, the first of these in the stated order.

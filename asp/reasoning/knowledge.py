@@ -1,5 +1,7 @@
 """The input of a reasoner: a description, its program, the order of its actions."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -8,6 +10,7 @@ from clingo import Symbol
 
 from asp.language import Action, Description, Literal, parse_description
 from asp.reasoning.determinism import deterministic_by_form
+from asp.reasoning.qualifications import qualifications
 from asp.solving import State, fact
 from asp.translation import translate
 
@@ -25,10 +28,21 @@ def satisfied(goal: Goal, state: State) -> bool:
 
 @dataclass(frozen=True)
 class Knowledge:
-    """A domain as reasoning uses it; `program` is the translation of its description."""
+    """A domain as reasoning uses it.
+
+    `program` is the translation of its description, with rules that say where an action has no
+    successor though no law forbids it.
+    """
 
     description: Description
     program: str
+
+    @staticmethod
+    def of(description: Description, translation: str) -> Knowledge:
+        """The knowledge of a description and its translation. Raises LimitError."""
+        rules = [each.rule for each in qualifications(description, translation)]
+        more = ["", "% What no state can follow, though no law says so.", *rules] if rules else []
+        return Knowledge(description, "\n".join([translation, *more]))
 
     @cached_property
     def ranks(self) -> tuple[Symbol, ...]:
@@ -69,7 +83,7 @@ class Knowledge:
 def knowledge(name: str, source: str) -> Knowledge:
     """The knowledge that an AL_d text holds. Raises asp.SourceError."""
     description = parse_description(source, f"{name}.al")
-    return Knowledge(description, translate(source, f"{name}.al"))
+    return Knowledge.of(description, translate(source, f"{name}.al"))
 
 
 def goal_facts(goal: Iterable[Literal]) -> Iterator[Symbol]:

@@ -1,6 +1,6 @@
 """Successor states: the outcomes of an action, by clingo."""
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
 import clingo
 
@@ -72,34 +72,26 @@ class Transitions:
             return (), False
         if self.deterministic:
             return (after[0],), after[1]
-        return in_order(self._reached(state, ()), self._fluents), after[1]
+        return in_order(self._reached(state), self._fluents), after[1]
 
     def successors(self, state: State) -> set[State]:
         """The states that actions of the agent's own may lead to. Raises LimitError."""
         self._session.switch_on(_CHOOSING)
-        return self._reached(state, ())
+        return self._reached(state)
 
-    def outcomes(
-        self, state: State, own: Collection[Action], others: Collection[Action]
-    ) -> set[State]:
-        """The states that actions of the agent and exogenous ones, all at once, may lead to.
+    def outcomes(self, state: State, actions: Iterable[Action]) -> set[State]:
+        """The states that actions of the agent's and of others, all at once, may lead to.
 
         None where they cannot occur together in the state. Raises LimitError.
         """
-        session = self._session
-        attempted, reported = (
-            [fact(predicate, action) for action in actions]
-            for predicate, actions in (("attempted", own), ("reported", others))
-        )
-        session.switch_on(*attempted, *reported)
-        return self._reached(state, [session.literal("occurs", a, 0) for a in (*own, *others)])
+        self._session.switch_on(*(fact("reported", action) for action in actions))
+        return self._reached(state)
 
-    def _reached(self, state: State, occurring: Iterable[int | None]) -> set[State]:
+    def _reached(self, state: State) -> set[State]:
         start = self._session.assume_state(state, 0)
-        occur = assumptions((literal, True) for literal in occurring)
-        if start is None or occur is None:
+        if start is None:
             return set()
-        found, _ = answer_sets(self._session.control, [*start, *occur])
+        found, _ = answer_sets(self._session.control, start)
         return {state_of(shown) for shown in found}
 
     def hindrance(self, state: State, action: Action) -> tuple[Literal, ...]:

@@ -51,7 +51,7 @@ class Case:
     @cached_property
     def knowledge(self) -> Knowledge:
         """The same as reasoners have it. Raises SourceError."""
-        return Knowledge(self.domain.description, translate(self.description.text, FILE))
+        return Knowledge.of(self.domain.description, translate(self.description.text, FILE))
 
     def some_states(self, most: int) -> list[State]:
         """At most so many states."""

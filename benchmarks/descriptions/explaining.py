@@ -89,7 +89,7 @@ class Explaining:
         known = self._definition
         own = {step.attempted} if step.attempted else set[str]()
         if own:
-            took_effect = not known.forbidden(state, frozenset(own), alone=True)
+            took_effect = bool(known.after(state, frozenset(own)))
             if took_effect != step.took_effect:
                 return
             own = own if took_effect else set()

@@ -1,10 +1,13 @@
-"""The program, both worlds, and both planners, against the definition."""
+"""The program, both worlds, both planners and derived conditions, against the definition."""
 
 from collections.abc import Iterable, Iterator
+from itertools import product
 
 from asp.language import Literal, analyse
 from asp.reasoning.planning import ReferencePlanner
-from benchmarks.descriptions.case import Case, agree
+from asp.reasoning.qualifications import qualifications
+from asp.translation import translate
+from benchmarks.descriptions.case import FILE, Case, agree
 from benchmarks.descriptions.definition import State
 from benchmarks.descriptions.drawing import random_goal
 from benchmarks.descriptions.signatures import ROBOT
@@ -50,6 +53,20 @@ def check_diagram(case: Case) -> None:
                     for name, world in worlds.items()
                 },
             )
+
+
+def check_qualifications(case: Case) -> None:
+    """Where an action of the agent's has no successor, and where a law or a condition says so."""
+    known, domain = case.definition, case.domain
+    found = qualifications(domain.description, translate(case.description.text, FILE))
+    for state, action in product(known.states, known.own):
+        conditions = [one.body for one in found if one.action == action]
+        agree(
+            f"whether {action} is impossible in {sorted(state)}",
+            definition=not known.after(state, frozenset([action])),
+            derived=known.forbidden(state, frozenset([action]))
+            or any(known.satisfies(state, body) for body in conditions),
+        )
 
 
 def _number(world: World, state: State) -> int:

@@ -49,4 +49,4 @@ class Definition:
         """The states to which the action at hand may lead; where none is found, that before it."""
         assert scene.action is not None
         transitions = sessions_of(self._knowledge).transitions
-        return transitions.outcomes(scene.believed, {scene.action}, ()) or {scene.believed}
+        return transitions.outcomes(scene.believed, {scene.action}) or {scene.believed}

@@ -110,7 +110,7 @@ class IncrementalConformantPlanner(ConformantPlanner):
 
         def outcomes(state: State, action: Action) -> Collection[State]:
             def found() -> Collection[State]:
-                return transitions.outcomes(state, (action,), ())
+                return transitions.outcomes(state, (action,))
 
             return remembered.get((state, action), found)
 

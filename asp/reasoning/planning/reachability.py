@@ -1,11 +1,8 @@
 """Goals that no plan of any length achieves."""
 
-from collections.abc import Iterator
-
-from clingo import Symbol
-
-from asp.language import Causal, Constraint, Description, Literal
+from asp.language import Description
 from asp.reasoning.knowledge import Goal
+from asp.reasoning.laws import laws, term
 from asp.reasoning.planning.incremental import IncrementalPlanner
 from asp.reasoning.successors import Transitions
 from asp.solving import Answers, State, fact, first_model, ground, theory
@@ -30,7 +27,7 @@ class Reachability:
     ) -> None:
         """`plans` are of the description, too."""
         self._fluents = description.fluents
-        self._laws = list(_laws(description))
+        self._laws = list(laws(description))
         self._transitions = transitions
         self._plans = plans
         self._answers: Answers[object, bool | None] = Answers(MOST_ANSWERS)
@@ -50,9 +47,9 @@ class Reachability:
 
     def _relaxed(self, state: State, goal: Goal) -> bool:
         """Whether some literal of a goal can never become true, however little laws ask for."""
-        facts = [fact("wanted", _term(literal)) for literal in goal]
+        facts = [fact("wanted", term(literal)) for literal in goal]
         facts += (
-            fact("initially", _term(fluent if fluent in state else fluent.complement))
+            fact("initially", term(fluent if fluent in state else fluent.complement))
             for fluent in self._fluents
         )
         return bool(first_model(ground([theory("reach")], {}, [*self._laws, *facts])))
@@ -67,25 +64,3 @@ class Reachability:
             if len(found) > _MOST_STATES:
                 return None
         return any(all((each.atom in one) == each.is_positive for each in goal) for one in found)
-
-
-def _laws(description: Description) -> Iterator[Symbol]:
-    yield from (fact("fluent", fluent) for fluent in description.fluents)
-    yield from (fact("defined", fluent) for fluent in description.defined)
-    laws: list[Causal | Constraint] = [*description.causal, *description.constraints]
-    for number, law in enumerate(laws):
-        yield fact("law", number, _term(law.head))
-        yield from (fact("needs", number, _term(literal)) for literal in law.body)
-    own = frozenset(description.agent_actions)
-    for number, causal in enumerate(description.causal):
-        # What others do is no part of a plan: their laws have an action that cannot occur.
-        yield fact("causes", causal.action if causal.action in own else "nobody", number)
-    yield fact("hinders", -1, "nobody")
-    for number, condition in enumerate(description.executability):
-        for action in condition.actions if len(condition.actions) == 1 else ():
-            yield fact("hinders", number, action)
-            yield from (fact("while", number, _term(literal)) for literal in condition.body)
-
-
-def _term(literal: Literal) -> Symbol:
-    return fact("yes" if literal.is_positive else "no", literal.atom)

@@ -179,6 +179,15 @@ CASES = (
         condition="not distrusted(AA,I)",
     ),
     Case(
+        20,
+        "what was attempted did not occur if no state can follow it",
+        lines(_OPEN, "current_step(1). disqualified(switch_on,0).", failed(0, "switch_on")),
+        Always("-holds(lit,1)"),
+        n=1,
+        rule=1,
+        condition="not disqualified(AA,I)",
+    ),
+    Case(
         25,
         "no event is assumed where nothing is being explained",
         lines(_OPEN, "current_step(1)."),

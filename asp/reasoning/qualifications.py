@@ -1,0 +1,126 @@
+"""Qualifications: executability conditions that no law states, but that follow from the laws.
+
+An action has no successor in a state where its effects contradict a state constraint, together with
+what is kept of that state. Such a case is looked for, its reason is generalised to a condition, and
+so on until the conditions cover every case.
+"""
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from itertools import chain
+from typing import NamedTuple
+
+from clingo import Symbol
+
+from asp.language import Action, Description, Literal
+from asp.reasoning.contradictions import suspects
+from asp.reasoning.laws import laws, term
+from asp.reasoning.successors import Transitions, in_order
+from asp.solving import State, fact, first_model, ground, literal_of, select, theory
+
+_FIRST_STRATEGY = 3
+
+
+class Qualification(NamedTuple):
+    """An action of the agent's that has no successor in the states with these literals."""
+
+    action: Action
+    body: tuple[Literal, ...]
+
+    @property
+    def rule(self) -> str:
+        """The rule that says so of every step."""
+        body = (f"{'' if f.is_positive else '-'}holds({f.atom},I)" for f in self.body)
+        return f"disqualified({self.action},I) :- {', '.join((*body, 'step(I)'))}."
+
+
+def qualifications(description: Description, program: str) -> list[Qualification]:
+    """Conditions that together say in which states an action of the agent's has no successor.
+
+    Every state is looked at, whatever the size of the diagram, but those in which a law says that
+    the action is impossible. No literal of a condition can be left out. `program` is the
+    translation of the description. Raises LimitError.
+    """
+    suspected = suspects(description)
+    if not suspected:
+        return []
+    search = _Search(description, program, suspected)
+    while (case := search.next()) is not None:
+        search.learn(case)
+    return search.found
+
+
+class _Case(NamedTuple):
+    """A state and an action without a known successor; literals that are certain of any."""
+
+    state: State
+    action: Action
+    certain: frozenset[Literal]
+
+
+class _Search:
+    """The cases of a description that neither a condition nor a strategy covers."""
+
+    def __init__(self, description: Description, program: str, suspected: Iterable[Action]) -> None:
+        self.found: list[Qualification] = []
+        self._description = description
+        self._program = program
+        self._facts = [*laws(description), *(fact("suspect", action) for action in suspected)]
+        self._strategies = _FIRST_STRATEGY
+        self._try(())
+
+    @cached_property
+    def _transitions(self) -> Transitions:
+        return Transitions(self._program, self._description.fluents)
+
+    def next(self) -> _Case | None:
+        """One of the cases; None: there is none left. Raises LimitError."""
+        model = first_model(self._control)
+        if model is None:
+            return None
+        ((action,),) = select(model, "attempted", 1)
+        now, certain = (
+            frozenset(map(_literal, chain.from_iterable(select(model, name, 1))))
+            for name in ("now", "certain")
+        )
+        return _Case(frozenset(f for f in now if f.is_positive), literal_of(action), certain)
+
+    def learn(self, case: _Case) -> None:
+        """Covers a case: by a strategy where there is a successor, else by a condition."""
+        outcomes = self._transitions.outcomes(case.state, (case.action,))
+        if outcomes:
+            after = in_order(outcomes, self._description.fluents)[0]
+            self._try(self._given_up(case, after))
+            return
+        self.found.append(
+            Qualification(case.action, self._transitions.hindrance(case.state, case.action))
+        )
+        name = f"condition{len(self.found)}"
+        self._control.add(name, [], _excluded(self.found[-1]))
+        self._control.ground([(name, [])])
+
+    def _given_up(self, case: _Case, after: State) -> Iterator[Symbol]:
+        """The literals that are given up for a successor, beside those that have to be."""
+        for fluent in self._description.fluents:
+            opposite = fluent if fluent in after else fluent.complement
+            if opposite not in case.certain:
+                yield fact("given_up", self._strategies, term(opposite.complement))
+
+    def _try(self, given_up: Iterable[Symbol]) -> None:
+        """One more strategy."""
+        self._facts += [*given_up, fact("strategy", self._strategies)]
+        self._strategies += 1
+        texts = [self._program, theory("qualifications"), *map(_excluded, self.found)]
+        self._control = ground(texts, {"n": 0}, self._facts)
+
+
+def _literal(symbol: Symbol) -> Literal:
+    """The literal of yes(F) or no(F)."""
+    fluent = literal_of(symbol.arguments[0])
+    return fluent if symbol.name == "yes" else fluent.complement
+
+
+def _excluded(known: Qualification) -> str:
+    """The constraint by which no further case of a condition is found."""
+    body = (f"now({term(each)})" for each in known.body)
+    return f":- {', '.join((f'attempted({known.action})', *body))}."
