@@ -40,8 +40,10 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the configurations of the project and a run."""
     folder = tmp_path_factory.mktemp("home")
     (folder / "configs").symlink_to(ROOT / "configs")
-    run = ["run", "quickstart", "scenarios=[1]", "link=inprocess", "--quiet", "--out"]
-    assert CliRunner().invoke(app, [*run, str(folder / "runs" / "quickstart")]).exit_code == 0
+    run = ["run", "quickstart", "scenarios=[1]", "link=inprocess", "limits.decision_s=null"]
+    arguments = [*run, "--out", str(folder / "runs" / "quickstart")]
+    done = CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert done.exit_code == 0, done.output
     return folder
 
 
