@@ -220,9 +220,6 @@ class Domain:
 
     def _diagnosis(self, history: diagnosis.History, goal: Given) -> diagnosis.Diagnosis:
         wanted, known = self._literals(goal, "goal"), self._knowledge
-        core = diagnosis.never_together(known.program, wanted) if wanted else None
-        if core is not None:
-            raise DomainError(f"no state has all of this: {diagnosis.cannot_hold(core)}", "goal")
         with_goal = replace(known, program=known.program + _REACHED)
         reference = diagnosis.ReferenceDiagnoser[diagnosis.History](with_goal, wanted)
         diagnoser = diagnosis.IncrementalDiagnoser(self._sessions, wanted, 0, reference)

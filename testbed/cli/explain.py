@@ -44,7 +44,7 @@ def command(
 
     with input_errors():
         domain = load(source)
-        told, places = read_history(history)
+        told, places = read_history(history, domain.description)
         try:
             first = [domain.explain(told.steps, told.goal)]
             others, more = (

@@ -135,13 +135,17 @@ def _domain_findings(
         yield ("domain",), NO_ROBOT
     if not config.goal:
         yield ("goal",), f"should not be empty; for example {GOAL}"
-    goals = Diction(signature, partial(_check_goal, world))
-    states = Diction(signature, world.state)
+    goals, states = goals_of(world, signature), Diction(signature, world.state)
     yield from _said((), config, goals, states)
     played = scenarios_of(config, known)
     for scenario, own in config.scenario_settings.items():
         if scenario in played:  # what is said of others is left alone
             yield from _said(("scenario_settings", scenario), own, goals, states)
+
+
+def goals_of(world: World, signature: Signature) -> Diction:
+    """What goals of a domain are given in."""
+    return Diction(signature, partial(_check_goal, world))
 
 
 def _check_goal(world: World, literals: Sequence[Literal]) -> None:
@@ -181,11 +185,16 @@ def _drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:
     yield from findings
 
 
+def goal_findings(key: Key, goal: Sequence[Literal] | None, goals: Diction) -> Iterator[Finding]:
+    """What is wrong with a goal; nothing, where none is given."""
+    yield from unfit_literals(key, goal or None, goals, "no state has all of this")
+
+
 def _said(
     key: Key, owner: ExperimentConfig | ScenarioSettings, goals: Diction, states: Diction
 ) -> Iterator[Finding]:
     """What is wrong with a goal, an initial state, and a script."""
-    yield from unfit_literals((*key, "goal"), owner.goal or None, goals, "no state has all of this")
+    yield from goal_findings((*key, "goal"), owner.goal, goals)
     yield from unfit_literals((*key, "initial"), owner.initial, states, "no such initial state")
     yield from script_findings((*key, "script"), owner.script or (), states.signature)
 

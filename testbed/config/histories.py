@@ -1,4 +1,4 @@
-"""Histories that users write down: YAML in, checked for its form."""
+"""Histories that users write down: YAML in, checked for its form and its goal."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,13 +6,15 @@ from typing import Annotated
 
 from pydantic import Field, ValidationError
 
-from asp.language import read_text
+from asp.language import Description, analyse, read_text
 from asp.reasoning import Step
+from testbed.config.checking import goal_findings, goals_of
 from testbed.config.composing import compose
 from testbed.config.models import GOAL, Section
 from testbed.config.places import ConfigError, Places
 from testbed.config.values import Flag, Literals, LiteralText
 from testbed.config.wording import refusal
+from testbed.world import world_of
 
 HISTORY = 'history: [{observed: ["f(a,b)"], attempted: "act(a)"}]'
 """How a history is written."""
@@ -40,8 +42,8 @@ class ToldHistory(Section):
         return [Step(**dict(told)) for told in self.history]
 
 
-def read_history(path: Path) -> tuple[ToldHistory, Places]:
-    """The history of a file, and where everything stands in it.
+def read_history(path: Path, description: Description) -> tuple[ToldHistory, Places]:
+    """The history of a file, and where everything stands in it; some state satisfies its goal.
 
     Raises ConfigError, SourceError for what is no text, and OSError.
     """
@@ -55,4 +57,8 @@ def read_history(path: Path) -> tuple[ToldHistory, Places]:
     if not told.goal and (first := next(telling, None)) is not None:
         missing = f"tells of a goal, and none is given; add one, as in {GOAL}"
         raise ConfigError(places.lines([(("history", first, "goal"), missing)]))
+    signature = analyse(description.source, f"{description.name}.al")[1]
+    goals = goals_of(world_of(description), signature)
+    if lines := places.lines(goal_findings(("goal",), told.goal, goals)):
+        raise ConfigError(lines)
     return told, places

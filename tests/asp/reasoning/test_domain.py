@@ -214,6 +214,15 @@ def test_a_goal_that_was_seen_not_to_hold_is_explained() -> None:
     assert _domain("cart").explain([steps[0], Step(goal=True)], "at(left), lit").size == 0
 
 
+def test_a_goal_that_no_state_has_never_holds() -> None:
+    start, goal = Step("at(left), -shut, lit"), "at(left), at(right)"
+    assert _domain("cart").explain([start, Step(goal=False)], goal).size == 0
+    every, more = _domain("cart").explanations([start, Step(goal=False)], goal)
+    assert ([each.size for each in every], more) == ([0], False)
+    with pytest.raises(InconsistentHistoryError):
+        _domain("cart").explain([start, Step(goal=True)], goal)
+
+
 @pytest.mark.parametrize(
     "start",
     [
