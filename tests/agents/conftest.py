@@ -5,6 +5,9 @@ from collections.abc import Iterator
 
 import pytest
 
+# What differs is shown where the two ways of reasoning do.
+pytest.register_assert_rewrite("tests.agents.both_ways")
+
 
 @pytest.fixture
 def uncollected() -> Iterator[None]:

@@ -4,32 +4,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from random import Random
 
-import pytest
-
-from agents.shared import Reasoner
 from asp.language import Description, Literal
-from asp.reasoning.diagnosis import Diagnosis, Explanation, H_contra, InconsistentHistoryError
 from testbed.protocol import FINISH, WAIT, Decision, Event, Percept, Plans, Robot, Task
 from testbed.world import World, world_of
-
-
-def diagnosed(
-    incremental: Reasoner[H_contra],
-    reference: Reasoner[H_contra],
-    history: H_contra,
-    adopted: Explanation,
-) -> tuple[Diagnosis, Diagnosis]:
-    """What both find; where one finds nothing that explains the history, so must the other."""
-    try:
-        ours = incremental.diagnose(history, adopted)
-    except InconsistentHistoryError:
-        with pytest.raises(InconsistentHistoryError):
-            reference.diagnose(history, adopted)
-        raise
-    try:
-        return ours, reference.diagnose(history, adopted)
-    except InconsistentHistoryError as error:
-        raise AssertionError(f"only the incremental way explains the history: {error}") from error
 
 
 @dataclass

@@ -1,8 +1,5 @@
 """Where actions have several outcomes: both ways of reasoning agree, and the robot recovers."""
 
-from dataclasses import replace
-from unittest.mock import patch
-
 import pytest
 from hypothesis import assume, event, given, settings
 from hypothesis import strategies as st
@@ -12,16 +9,15 @@ from agents.intentional.activities import History
 from agents.intentional.controller import Reference
 from agents.intentional.joint import Joint, StagedJoint
 from agents.intentional.reasoners import IncrementalReasoner, ReferenceReasoner
-from agents.shared import Intention
+from agents.shared import MakeReasoner
 from agents.traditional import TraditionalRobot
 from agents.traditional.robot import TraditionalReference
 from asp import parse_description
 from asp.language import Description
-from asp.reasoning import Goal, Knowledge
-from asp.reasoning.diagnosis import Compression, Diagnosis, Explanation, incremental
 from testbed.protocol import Plans, RobotStops
 from testbed.world import world_of
-from tests.agents.intentional.branching_lives import diagnosed, live
+from tests.agents.both_ways import EARLY, both_ways
+from tests.agents.intentional.branching_lives import live
 from tests.asp.reasoning.branching import DEFINED, DIE, DOOR, INERTIAL, descriptions
 from tests.literals import parsed
 
@@ -31,39 +27,8 @@ SHOWN = """shows
 """
 PLANS = ("optimistic", "conformant")
 FLUENTS = (*INERTIAL, *DEFINED)
-
-
-class Both:
-    """Reasons in both ways, and insists that they agree.
-
-    Which index an activity has may depend on outcomes, so that only the intention tells.
-    """
-
-    def __init__(self, knowledge: Knowledge, goal: Goal, plan_limit: int, plans: Plans) -> None:
-        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit, plans)
-        self._reference = ReferenceReasoner(knowledge, goal, plan_limit, plans)
-
-    def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
-        ours, theirs = diagnosed(self._incremental, self._reference, history, adopted)
-        assert ours.explanation == theirs.explanation
-        assert ours.indices.keys() == theirs.indices.keys()
-        return ours
-
-    def intend(self, history: History, explained: Diagnosis) -> Intention:
-        ours = self._incremental.intend(history, explained)
-        theirs = self._reference.intend(history, explained)
-        indices = explained.indices if ours.under is None else ours.under.indices
-        assert theirs.under is None or theirs.under.indices == indices
-        assert replace(ours, under=None) == replace(theirs, under=None)
-        return ours
-
-
-class BothCompressed(Both):
-    """The incremental way compresses its history after a few steps already."""
-
-    def __init__(self, knowledge: Knowledge, goal: Goal, plan_limit: int, plans: Plans) -> None:
-        with patch.object(incremental, "COMPRESSION", Compression(after=4, answers=400)):
-            super().__init__(knowledge, goal, plan_limit, plans)
+BOTH = both_ways(IncrementalReasoner, ReferenceReasoner)
+BOTH_COMPRESSED = both_ways(IncrementalReasoner, ReferenceReasoner, EARLY)
 
 
 @pytest.mark.parametrize("plans", PLANS)
@@ -79,7 +44,7 @@ class BothCompressed(Both):
     seen=st.sets(st.sampled_from(FLUENTS)),
     known=st.none() | st.sets(st.sampled_from(FLUENTS)),
     events=st.booleans(),
-    kind=st.sampled_from([Both, BothCompressed]),
+    reasoner=st.sampled_from([BOTH, BOTH_COMPRESSED]),
     draw=st.data(),
     seed=st.integers(0, 99),
 )
@@ -90,14 +55,14 @@ def test_every_decision_of_a_life_is_the_same(
     seen: set[str],
     known: set[str] | None,
     events: bool,
-    kind: type[Both],
+    reasoner: MakeReasoner[History],
     draw: st.DataObject,
     seed: int,
 ) -> None:
     states = list(world_of(description).states())
     assume(states)
     initial = draw.draw(st.sampled_from(states))
-    robot = IntentionalRobot(kind)
+    robot = IntentionalRobot(reasoner)
     try:
         life = live(
             robot,

@@ -10,9 +10,9 @@ from agents.shared import Intention
 from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner
 from asp.language import Literal
-from asp.reasoning import Knowledge, knowledge
-from asp.reasoning.diagnosis import Diagnosis, Explanation, History, InconsistentHistoryError
-from testbed.protocol import Plans
+from asp.reasoning import knowledge
+from asp.reasoning.diagnosis import Explanation, History, InconsistentHistoryError
+from tests.agents.both_ways import both_ways
 from tests.agents.intentional import test_reports as cart
 from tests.agents.intentional.lives import (
     BOTH_IN_THE_LIBRARY,
@@ -26,30 +26,7 @@ from tests.agents.intentional.lives import (
 )
 from tests.literals import parsed
 
-
-class Both:
-    """Reasons in both ways, and insists that they agree."""
-
-    def __init__(
-        self,
-        knowledge: Knowledge,
-        goal: tuple[str, ...],
-        plan_limit: int,
-        plans: Plans = "optimistic",
-    ) -> None:
-        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit, plans)
-        self._reference = ReferenceReasoner(knowledge, goal, plan_limit, plans)
-
-    def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
-        ours = self._incremental.diagnose(history, adopted)
-        assert ours == self._reference.diagnose(history, adopted)
-        return ours
-
-    def intend(self, history: History, diagnosis: Diagnosis) -> Intention:
-        ours = self._incremental.intend(history, diagnosis)
-        assert ours == self._reference.intend(history, diagnosis)
-        return ours
-
+BOTH = both_ways(IncrementalReasoner, ReferenceReasoner)
 
 wishes = st.dictionaries(
     st.integers(1, 20), st.builds(Wish, st.integers(0, 8), st.booleans()), max_size=4
@@ -59,7 +36,7 @@ wishes = st.dictionaries(
 @settings(max_examples=15)
 @given(initial=st.sampled_from(STATES), wishes=wishes)
 def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wish]) -> None:
-    live(TraditionalRobot(Both), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
+    live(TraditionalRobot(BOTH), initial, BOTH_IN_THE_LIBRARY, wishes, steps=30)
 
 
 @settings(max_examples=10)
@@ -69,7 +46,7 @@ def test_every_decision_of_a_life_is_the_same(initial: int, wishes: dict[int, Wi
     wishes=wishes,
 )
 def test_whatever_the_goal(initial: int, goal: list[str], wishes: dict[int, Wish]) -> None:
-    live(TraditionalRobot(Both), initial, goal, wishes, steps=15)
+    live(TraditionalRobot(BOTH), initial, goal, wishes, steps=15)
 
 
 def test_what_only_an_event_at_step_0_explains_is_explained_where_no_goal_is_selected() -> None:

@@ -4,37 +4,18 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from agents.shared import Intention
 from agents.traditional import TraditionalRobot
 from agents.traditional.reasoners import IncrementalReasoner, ReferenceReasoner
 from asp import parse_description
 from asp.language import Description
-from asp.reasoning import Goal, Knowledge
-from asp.reasoning.diagnosis import Diagnosis, Explanation, History
 from testbed.protocol import Plans, RobotStops
 from testbed.world import world_of
-from tests.agents.intentional.branching_lives import diagnosed, live
+from tests.agents.both_ways import both_ways
+from tests.agents.intentional.branching_lives import live
 from tests.asp.reasoning.branching import DEFINED, INERTIAL, descriptions
 
 FLUENTS = (*INERTIAL, *DEFINED)
-
-
-class Both:
-    """Reasons in both ways, and insists that they agree."""
-
-    def __init__(self, knowledge: Knowledge, goal: Goal, plan_limit: int, plans: Plans) -> None:
-        self._incremental = IncrementalReasoner(knowledge, goal, plan_limit, plans)
-        self._reference = ReferenceReasoner(knowledge, goal, plan_limit, plans)
-
-    def diagnose(self, history: History, adopted: Explanation) -> Diagnosis:
-        ours, theirs = diagnosed(self._incremental, self._reference, history, adopted)
-        assert ours.explanation == theirs.explanation
-        return ours
-
-    def intend(self, history: History, explained: Diagnosis) -> Intention:
-        ours = self._incremental.intend(history, explained)
-        assert ours == self._reference.intend(history, explained)
-        return ours
+BOTH = both_ways(IncrementalReasoner, ReferenceReasoner)
 
 
 @pytest.mark.parametrize("plans", ["optimistic", "conformant"])
@@ -62,7 +43,7 @@ def test_every_decision_of_a_life_is_the_same(
     states = list(world_of(description).states())
     assume(states)
     initial = draw.draw(st.sampled_from(states))
-    robot = TraditionalRobot(Both)
+    robot = TraditionalRobot(BOTH)
     try:
         live(robot, description, initial, [goal], plans=plans, seen=seen, events=events, seed=seed)
     except RobotStops:
