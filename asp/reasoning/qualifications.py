@@ -5,20 +5,25 @@ what is kept of that state. Such a case is looked for, its reason is generalised
 so on until the conditions cover every case.
 """
 
-from collections.abc import Iterable, Iterator
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain
 from typing import NamedTuple
 
 from clingo import Symbol
 
-from asp.language import Action, Description, Literal
+from asp.language import Action, Description, Literal, analyse
 from asp.reasoning.contradictions import suspects
 from asp.reasoning.laws import laws, term
+from asp.reasoning.relevance import interchangeable
 from asp.reasoning.successors import Transitions, in_order
 from asp.solving import State, fact, first_model, ground, literal_of, select, theory
 
 _FIRST_STRATEGY = 3
+_Names = Mapping[str, str]
+"""What constants are called instead."""
 
 
 class Qualification(NamedTuple):
@@ -26,6 +31,11 @@ class Qualification(NamedTuple):
 
     action: Action
     body: tuple[Literal, ...]
+
+    def renamed(self, names: _Names) -> Qualification:
+        """The same of the actions and fluents that are alike under a renaming of constants."""
+        body = tuple(_renamed(literal, names) for literal in self.body)
+        return Qualification(_renamed(self.action, names), body)
 
     @property
     def rule(self) -> str:
@@ -39,15 +49,42 @@ def qualifications(description: Description, program: str) -> list[Qualification
 
     Every state is looked at, whatever the size of the diagram, but those in which a law says that
     the action is impossible. No literal of a condition can be left out. `program` is the
-    translation of the description. Raises LimitError.
+    translation of the description. Of actions that differ only in constants which no law tells
+    apart one is looked at. Raises LimitError.
     """
     suspected = suspects(description)
     if not suspected:
         return []
-    search = _Search(description, program, suspected)
+    alike = _alike(suspected, interchangeable(*analyse(description.source, description.name)))
+    search = _Search(description, program, alike)
     while (case := search.next()) is not None:
         search.learn(case)
-    return search.found
+    return [found.renamed(names) for found in search.found for names in alike[found.action]]
+
+
+def _alike(
+    actions: Iterable[Action], classes: Iterable[Sequence[str]]
+) -> dict[Action, list[_Names]]:
+    """One of each set of actions that are alike, with the renamings that lead to all of them."""
+    class_of = {constant: tuple(own) for own in classes for constant in own}
+    found: dict[Action, list[_Names]] = {}
+    for action in actions:
+        used: dict[tuple[str, ...], list[str]] = {}
+        for constant in dict.fromkeys(action.arguments):
+            if constant in class_of:
+                used.setdefault(class_of[constant], []).append(constant)
+        names: dict[str, str] = {}
+        for own, constants in used.items():
+            rest = (constant for constant in own if constant not in constants)
+            names |= dict(zip(own, (*constants, *rest), strict=True))
+        back = {name: constant for constant, name in names.items()}
+        found.setdefault(_renamed(action, back), []).append(names)
+    return found
+
+
+def _renamed(literal: Literal, names: _Names) -> Literal:
+    arguments = (names.get(constant, constant) for constant in literal.arguments)
+    return Literal.of(literal.name, arguments, literal.is_positive)
 
 
 class _Case(NamedTuple):

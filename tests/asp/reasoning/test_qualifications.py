@@ -38,6 +38,37 @@ def test_a_condition_has_what_is_needed_and_no_more() -> None:
     assert _conditions(DOOR) == {("push", frozenset({"locked", "oiled"}))}
 
 
+def test_actions_that_are_alike_have_conditions_that_are_alike() -> None:
+    doors = """
+sorts
+  door = {north, south, east}.
+  bolt = {upper, lower}.
+fluents
+  inertial open(door).
+  inertial shut(door, bolt).
+  inertial jammed(door).
+actions
+  agent push(door, bolt).
+laws
+  push(D, B) causes open(D).
+  push(D, B) causes -shut(D, B).
+  -open(D) if shut(D, B).
+  -open(D1) if jammed(D2), D1 != D2.
+"""
+    other, doors_of = {"upper": "lower", "lower": "upper"}, {"north", "south", "east"}
+    expected = {
+        (f"push({door},{bolt})", frozenset({literal}))
+        for door in doors_of
+        for bolt in other
+        for literal in (f"shut({door},{other[bolt]})", *(f"jammed({d})" for d in doors_of - {door}))
+    }
+    assert _conditions(doors) == expected
+    told_apart = doors + "  impossible push(north, upper) if jammed(south).\n"
+    assert _conditions(told_apart) == expected - {
+        ("push(north,upper)", frozenset({"jammed(south)"}))
+    }
+
+
 def test_there_is_none_where_a_law_says_it() -> None:
     assert _conditions(DOOR + "  impossible push if locked.\n") == set()
 
