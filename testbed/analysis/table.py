@@ -15,10 +15,12 @@ from testbed.config import ExperimentConfig
 from testbed.experiment import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import PROVENANCE, naming, read_config
-from testbed.experiment.specs import TrialSpec
+from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import read_records
 from testbed.protocol import literal_within_bounds
 
+CONDITION = "condition"
+"""The key of a record with the rules that its trial was played under."""
 PARQUET, CSV = "trials.parquet", "trials.csv"
 BATCH = 1000
 """Records that are Python objects at the same time."""
@@ -77,22 +79,67 @@ def table_of(records: Iterable[TrialRecord]) -> pl.DataFrame:
     """Records as a table; every column has its type, also where it is always empty."""
     source, columns = iter(records), schema()
     frames = [pl.DataFrame(schema=columns)]
-    while batch := [msgspec.to_builtins(own, enc_hook=str) for own in islice(source, BATCH)]:
+    while batch := [_row(own) for own in islice(source, BATCH)]:
         frames.append(pl.DataFrame(batch, schema=columns, orient="row"))
     return pl.concat(frames)
 
 
 def records_of(trials: pl.DataFrame) -> Iterator[TrialRecord]:
     """The rows of a table as records."""
-    rows = trials.iter_rows(named=True)
+    rows = map(_nested, trials.iter_rows(named=True))
     return (msgspec.convert(row, TrialRecord, dec_hook=literal_within_bounds) for row in rows)
 
 
 def schema() -> dict[str, pl.DataType]:
-    """The columns of the table with their types, which follow from those of a record."""
-    shape = inspect.type_info(TrialRecord)
+    """The columns of the table with their types, which follow from those of a record.
+
+    What a trial was played under has a column per key, `condition.KEY`; lists and parts of it are
+    JSON text.
+    """
+    columns = {field.name: field.type for field in _fields(TrialRecord) if field.name != CONDITION}
+    return {
+        **{name: _column(kind) for name, kind in columns.items()},
+        **{f"{CONDITION}.{own.name}": _scalar(own.type) or pl.String() for own in _fields(Setting)},
+    }
+
+
+def _fields(struct: type[msgspec.Struct]) -> tuple[inspect.Field, ...]:
+    shape = inspect.type_info(struct)
     assert isinstance(shape, inspect.StructType)
-    return {field.name: _column(field.type) for field in shape.fields}
+    return shape.fields
+
+
+def _row(record: TrialRecord) -> dict[str, Any]:
+    """A record as a row of the table."""
+    row: dict[str, Any] = msgspec.to_builtins(record, enc_hook=str)
+    own = {field.name: getattr(record.condition, field.name, None) for field in _fields(Setting)}
+    del row[CONDITION]
+    told = {f"{CONDITION}.{name}": _told(value) for name, value in own.items()}
+    return row | told
+
+
+def _told(value: object) -> object:
+    return value if isinstance(value, bool | int | float | str | None) else _json(value)
+
+
+def _nested(row: dict[str, Any]) -> dict[str, Any]:
+    """A row of the table with the parts of a record, as these are nested there."""
+    own = {f.name: (row.pop(f"{CONDITION}.{f.name}", None), f.type) for f in _fields(Setting)}
+    if own["domain"][0] is None:
+        return row
+    told = {
+        name: value if value is None or _scalar(kind) else msgspec.json.decode(value)
+        for name, (value, kind) in own.items()
+    }
+    return row | {CONDITION: told}
+
+
+def _scalar(kind: inspect.Type) -> pl.DataType | None:
+    """The type of the column of a value without parts; None of others."""
+    if isinstance(kind, inspect.UnionType):
+        kinds = [item for item in kind.types if not isinstance(item, inspect.NoneType)]
+        return _scalar(kinds[0]) if len(kinds) == 1 else None
+    return SCALARS[type(kind)]() if type(kind) in SCALARS else None
 
 
 def _column(kind: inspect.Type) -> pl.DataType:

@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from testbed.config import ExperimentConfig, load_config
+from testbed.config import ConfigError, ExperimentConfig, dotted, load_config
 from testbed.experiment.checks import CHECKS
+from testbed.experiment.plan import sweep_findings
 from testbed.experiment.provenance import modules_of
 from testbed.experiment.run_folder import as_played, is_stored
 from testbed.registry import search_as_told, search_last
@@ -22,6 +23,8 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
     else:
         search_as_told()
     config = load_config(source, overrides, (*CHECKS, study_findings))
+    if twins := [f"{source}: {dotted(key)}: {told}" for key, told in sweep_findings(config)]:
+        raise ConfigError(twins)
     return as_played(config) if is_stored(Path(source)) else config
 
 

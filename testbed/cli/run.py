@@ -11,6 +11,7 @@ from testbed.text import warn
 EPILOG = examples(
     "testbed run quickstart",
     "testbed run office limit=5 robots=[intentional] --workers 2",
+    "testbed run office limit=5 -m adversary.strategy=random adversary.rate=0:0.4:0.1",
     "testbed run office --out runs/office --resume --retry-failed",
 )
 
@@ -18,6 +19,15 @@ EPILOG = examples(
 def command(
     config: Config,
     overrides: Overrides = None,
+    sweep: Annotated[
+        bool,
+        typer.Option(
+            "-m",
+            "--sweep",
+            help="Run every combination of overrides with several values, KEY=V1,V2, or a range, "
+            "KEY=FIRST:LAST:STEP.",
+        ),
+    ] = False,
     out: Annotated[
         Path | None, typer.Option(help="Run folder; without it runs/NAME, numbered if taken.")
     ] = None,
@@ -48,11 +58,12 @@ def command(
 ) -> None:
     """Run every trial of a configuration and print a table of what came out."""
     from testbed.cli.loading import load
+    from testbed.config import with_sweep
 
     if retry_failed and not resume:
         refuse(["--retry-failed: needs --resume; it plays trials of a run folder again"])
     with input_errors():
-        loaded = load(config, overrides or [])
+        loaded = load(config, with_sweep(overrides or []) if sweep else overrides or [])
         if not quiet:
             warn(f"preparing {loaded.name}: statistics, the plan of its trials, robots")
         from testbed.cli.session import run_session

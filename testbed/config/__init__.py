@@ -1,6 +1,8 @@
 """Configurations: YAML with dotted overrides in, a validated `ExperimentConfig` out."""
 
 from testbed.config.composing import write_yaml as write_yaml
+from testbed.config.conditions import conditions_of as conditions_of
+from testbed.config.conditions import with_sweep as with_sweep
 from testbed.config.levels import SCENARIO_KEYS as SCENARIO_KEYS
 from testbed.config.levels import level_size as level_size
 from testbed.config.levels import refinement_of_files as refinement_of_files

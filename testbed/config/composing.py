@@ -174,7 +174,7 @@ def _resolved(given: Mapping[str, Any], places: Places) -> Any:
     fine = given.get("levels") or given.get("refinement")
     limits = Limits(steps=FINE_STEPS) if fine else Limits()
     blank = ExperimentConfig.model_construct(name="", goal=(), limits=limits)
-    defaults = blank.model_dump(mode="json", exclude={"name", "goal"})
+    defaults = blank.model_dump(mode="json", exclude={"name", "goal", "sweep"})
     try:
         everything = OmegaConf.merge(defaults, given)
         return OmegaConf.to_container(everything, resolve=True, throw_on_missing=True)

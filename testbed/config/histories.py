@@ -10,9 +10,9 @@ from asp.language import Description, analyse, read_text
 from asp.reasoning import Step
 from testbed.config.checking import goal_findings, goals_of
 from testbed.config.composing import compose
-from testbed.config.models import GOAL, Section
+from testbed.config.models import GOAL
 from testbed.config.places import ConfigError, Places
-from testbed.config.values import Flag, Literals, LiteralText
+from testbed.config.values import Flag, Literals, LiteralText, Section
 from testbed.config.wording import refusal
 from testbed.world import world_of
 

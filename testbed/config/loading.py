@@ -2,24 +2,26 @@
 
 import inspect
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TypeVar, get_type_hints
+from typing import Any, TypeVar, get_type_hints
 
 from pydantic import ValidationError
 
 from asp.language import load_description, suggestion
 from testbed.config import models
 from testbed.config.checking import Check, check
-from testbed.config.composing import compose
-from testbed.config.models import ExperimentConfig, Section
+from testbed.config.composing import REFUSALS, compose
+from testbed.config.conditions import varied
+from testbed.config.models import ExperimentConfig
 from testbed.config.places import ConfigError, Places
 from testbed.config.scenarios import with_scenarios
+from testbed.config.values import Section
 from testbed.config.wording import refusal
 
 F = TypeVar("F", bound=Callable[..., object])
 
-SECTION = re.compile(rf"{re.escape(models.__name__)}\.(\w+)")
+SECTION = re.compile(rf"{re.escape(__package__)}\.\w+\.(\w+)")
 """A section, as types are written."""
 
 
@@ -47,7 +49,26 @@ def load_config(
         message = str(error) if error.strerror is None else f"{source}: {error.strerror}"
         raise ConfigError([message]) from None
     places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
-    composed = compose(text, overrides, places)
+    config = _checked(compose(text, overrides, places), path, places, checks)
+    if config.is_sweep:
+        for name, keys in config.sweep.cells.items():
+            own = Places(path, text, list(keys), f"{places.of(('sweep',))}: {name}")
+            _checked(_varied(config, keys, own), path, own, checks)
+    return config
+
+
+def _varied(config: ExperimentConfig, keys: Mapping[str, Any], places: Places) -> dict[str, Any]:
+    """The keys under a condition. Raises ConfigError for one that leads nowhere."""
+    try:
+        return varied(config, keys)
+    except (*REFUSALS, ValueError, TypeError, IndexError) as error:
+        raise ConfigError([f"{places.elsewhere}: {str(error).splitlines()[0]}"]) from None
+
+
+def _checked(
+    composed: dict[str, Any], path: Path, places: Places, checks: Sequence[Check]
+) -> ExperimentConfig:
+    """The configuration that these keys are. Raises ConfigError."""
     try:
         config = _located(ExperimentConfig.model_validate(composed), path)
     except ValidationError as error:

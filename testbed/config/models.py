@@ -7,10 +7,11 @@ them is checked in `testbed.config.checking`.
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from asp import language
 from testbed import environment
+from testbed.config.sweep import Sweep
 from testbed.config.values import (
     LARGEST_SEED,
     MOST,
@@ -23,6 +24,7 @@ from testbed.config.values import (
     Probability,
     Scenarios,
     Seconds,
+    Section,
 )
 from testbed.protocol import Knowledge, Plans, Relevance
 
@@ -36,12 +38,6 @@ TREATMENT, BASELINE = "intentional", "traditional"
 """The robots that are compared unless others are named: those of the published study."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
 """How a goal is written."""
-
-
-class Section(BaseModel):
-    """A part of a configuration: immutable, and a key it does not know is an error."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Observability(Section):
@@ -149,7 +145,8 @@ class ExperimentConfig(Section):
     they see; `relevance` is which of the literals that they see intentional robots heed; `plans`:
     whether some outcomes of a plan's actions have to reach the goal, or all. `repeats`: so many
     pairs of trials from each initial state, in scenarios in which something is drawn. `protocol` is
-    the study that the trials are for: a name, or `module:OBJECT`.
+    the study that the trials are for: a name, or `module:OBJECT`. `sweep` says under which
+    conditions trials are played, each under all of them.
 
     With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
     resolution. They are drawn: each has its initial state and its goal unless these are given.
@@ -184,6 +181,7 @@ class ExperimentConfig(Section):
     statistics: dict[str, Probability] = Field(default_factory=dict)
     adversary: AdversarySettings = AdversarySettings()
     limits: Limits = Limits()
+    sweep: Sweep = Sweep()
 
     @model_validator(mode="before")
     @classmethod
@@ -200,6 +198,11 @@ class ExperimentConfig(Section):
     def is_fine(self) -> bool:
         """Whether trials are played at the fine resolution."""
         return bool(self.levels) or self.refinement is not None
+
+    @property
+    def is_sweep(self) -> bool:
+        """Whether trials are played under several conditions."""
+        return bool(self.sweep.axes)
 
     @property
     def plays_triggers(self) -> bool:

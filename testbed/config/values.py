@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, PlainSerializer, PlainValidator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainSerializer, PlainValidator
 from pydantic_core import PydanticCustomError
 
 from asp.language import Literal
@@ -15,6 +15,12 @@ LONGEST_S = 31_536_000.0
 """The longest time: a year, which every clock and timer can measure."""
 NONE = "none"
 """The scenario in which nothing exogenous happens, unless the domain has one of this name."""
+
+
+class Section(BaseModel):
+    """A part of a configuration: immutable, and a key it does not know is an error."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 def _literal(text: object) -> Literal:

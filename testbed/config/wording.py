@@ -10,8 +10,8 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from asp.language import nearest, suggestion
-from testbed.config.models import Section
 from testbed.config.places import ConfigError, Key, Places
+from testbed.config.values import Section
 
 LONGEST = 80
 """How much of a value a line shows."""
@@ -62,6 +62,8 @@ def _describe(error: ErrorDetails, places: Places, root: type[Section]) -> str:
         return f"{where}: unknown key; {_known_key(root, key)}"
     if error["input"] == "":
         return f"{where}: has no value; give one, or null for none"
+    if error["type"] == "sweep":
+        return f"{where}: {error['msg']}"
     if error["type"] == "missing":
         return f"{where}: is missing{_example(root, key)}{_or_level(key, error['input'])}"
     if error["type"] == "too_short":

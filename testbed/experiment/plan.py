@@ -10,7 +10,7 @@ import msgspec
 from asp.language import Description, Literal, Trigger
 from asp.reasoning.determinism import deterministic_by_form
 from asp.refinement import Refinement
-from testbed.config import ExperimentConfig, level_size, refinements
+from testbed.config import ExperimentConfig, Finding, conditions_of, level_size, refinements
 from testbed.environment import RandomGoal, RandomStart
 from testbed.experiment.record import COARSE
 from testbed.experiment.seeds import drawn_part, generator_of
@@ -26,12 +26,35 @@ SCENARIO = "levels"
 
 
 def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
-    """The trials of a configuration in their order: scenario or level, pair, robot."""
-    return list((_at_levels if config.is_fine else _in_scenarios)(config))
+    """The trials of a configuration in their order: condition, scenario or level, pair, robot."""
+    if not config.is_sweep:
+        return list(_planned(config))
+    conditions = conditions_of(config).items()
+    return [
+        msgspec.structs.replace(s, cell=cell) for cell, own in conditions for s in _planned(own)
+    ]
+
+
+def _planned(config: ExperimentConfig) -> Iterator[TrialSpec]:
+    return (_at_levels if config.is_fine else _in_scenarios)(config)
+
+
+def sweep_findings(config: ExperimentConfig) -> Iterator[Finding]:
+    """Conditions of a sweep under which the same trials are played."""
+    first: dict[bytes, str] = {}
+    for cell, own in conditions_of(config).items():
+        scenarios = own.scenarios or (SCENARIO,)
+        rules = [[setting_of(own, name), own.settings(name).initial] for name in scenarios]
+        known = first.setdefault(msgspec.json.encode(rules, enc_hook=str, order="sorted"), cell)
+        if known != cell:
+            yield ("sweep",), f"'{known}' and '{cell}' are the same condition; keep one of the two"
 
 
 def planned_trials(config: ExperimentConfig) -> dict[str, int]:
     """How many trials each scenario, or level, has in the plan, without drawing what they are."""
+    if config.is_sweep:
+        counts = map(planned_trials, conditions_of(config).values())
+        return dict(sum(map(Counter, counts), Counter()))
     robots = len(config.robots)
     if config.is_fine:
         own = [Path(config.refinement).stem] if config.refinement else []

@@ -9,6 +9,7 @@ from typing import Literal as Choice
 import msgspec
 
 from asp.language import Action, Literal
+from testbed.experiment.specs import Setting
 from testbed.protocol import Contradiction, Count, Minimality, NoPlan
 
 Outcome = Choice["achieved", "false_finish", "gave_up", "step_limit", "robot_lost", "error"]
@@ -122,6 +123,8 @@ class FineCounts(msgspec.Struct):
 class TrialRecord(msgspec.Struct, kw_only=True):
     """The record of a trial.
 
+    `cell` is the name of the sweep's condition that it was played under, `condition` all that was
+    the same for every trial of its scenario, or level, under it; None in older records.
     At the fine resolution `initial` and `exogenous` are of that resolution, `actions` are the
     abstract ones, each at the step at which it began. `in_reach` says of a trial that does not
     achieve its goal whether that could still be achieved from where the trial ended.
@@ -153,6 +156,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     level: str
     initial: list[Literal]
     goal: list[Literal]
+    cell: str = ""
+    condition: Setting | None = None
     achieved: bool = False
     finished: bool = False
     correct: bool | None = False

@@ -18,10 +18,10 @@ from testbed.experiment.record import (
     Report,
     TrialRecord,
 )
-from testbed.experiment.specs import TrialSpec
+from testbed.experiment.specs import TrialSpec, without_paths
 from testbed.protocol import FINISH, WAIT, Decision, Event, Explanation, FineTrace, Trace, shortened
 
-NAMED = ("trial", "pair", "scenario", "seed", "robot", "domain", "level")
+NAMED = ("trial", "pair", "scenario", "seed", "robot", "domain", "level", "cell")
 """Keys of a record that its trial has in the plan."""
 
 
@@ -171,6 +171,7 @@ def blank_record(spec: TrialSpec) -> TrialRecord:
         **{key: getattr(spec, key) for key in NAMED},
         initial=list(spec.initial),
         goal=list(spec.setting.goal),
+        condition=without_paths(spec.setting, spec.domain),
         fine=None if spec.setting.fine is None else FineCounts(),
     )
 

@@ -21,7 +21,7 @@ from testbed.text import Say, columns, counted
 from testbed.text.grid import Grid
 from testbed.world import World, load_world, world_of
 
-COUNTS = ("unproved_steps", "unheeded_steps")
+NEWER = ("condition", "unproved_steps", "unheeded_steps")
 """Keys that records of older versions do not have."""
 
 
@@ -97,7 +97,7 @@ def _compare(recorded: TrialRecord | None, now: TrialRecord, say: Say) -> bool:
         say("the run has no record of this trial yet")
         return True
     before, after = logical(recorded), logical(now)
-    uncounted = {key for key in COUNTS if before[key] is None}
+    uncounted = {key for key in NEWER if before[key] is None}
     changed = [key for key in before if before[key] != after[key] and key not in uncounted]
     if not changed:
         say("as recorded")

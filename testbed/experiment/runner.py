@@ -11,7 +11,7 @@ from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import INTERRUPTED
-from testbed.experiment.plan import plan_trials, planned_trials
+from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.record import FAILURES
 from testbed.experiment.recorder import Result
@@ -69,7 +69,7 @@ def run(
         StoreError: for a folder that holds another run, or that another process writes into.
         WorkerError: when no trial can be played.
     """
-    findings = [finding for check in CHECKS for finding in check(config)]
+    findings = [found for check in (*CHECKS, sweep_findings) for found in check(config)]
     if findings:
         raise ConfigError([f"{dotted(key)}: {message}" for key, message in findings])
     folder = choose_folder(folder, config.name, resume)

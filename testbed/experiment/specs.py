@@ -5,6 +5,7 @@ the time allowed for an answer are not (one trial is the same trial wherever its
 """
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -67,7 +68,10 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
-    """One trial to play. `initial` holds the atoms true at step 0; all others are false."""
+    """One trial to play. `initial` holds the atoms true at step 0; all others are false.
+
+    `cell` is the name of the sweep's condition that it is played under, "" where nothing is swept.
+    """
 
     trial: str
     pair: str
@@ -78,6 +82,7 @@ class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
     initial: tuple[Literal, ...]
     domain: str
     setting: Setting
+    cell: str = ""
 
 
 def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
@@ -146,6 +151,14 @@ def pair_specs(
             domain=domain,
             setting=setting,
         )
+
+
+def without_paths(setting: Setting, domain: str) -> Setting:
+    """The same wherever its files lie: the domain by its name, a map by that of its file."""
+    fine = setting.fine
+    if fine is not None and fine.refinement is not None:
+        fine = msgspec.structs.replace(fine, refinement=Path(fine.refinement).stem)
+    return msgspec.structs.replace(setting, domain=domain, fine=fine)
 
 
 def _without_files(setting: Setting, domain: str) -> object:

@@ -67,7 +67,7 @@ def test_a_run_that_an_older_version_stored_is_told_as_recorded(
     older = [line for line in lines if not line.startswith(("relevance:", "plans:"))]
     assert len(older) == len(lines) - 2
     stored.write_text("".join(older), encoding="utf-8")
-    first.unproved_steps = first.unheeded_steps = None
+    first.unproved_steps = first.unheeded_steps = first.condition = None
     (tmp_path / "trials.jsonl").unlink()
     with TrialWriter(tmp_path) as writer:
         writer.append(first)

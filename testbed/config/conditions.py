@@ -1,0 +1,58 @@
+"""The configurations of a sweep: one for each of its conditions."""
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import msgspec
+from omegaconf import OmegaConf
+
+from testbed.config.composing import read_yaml
+from testbed.config.models import ExperimentConfig
+from testbed.config.sweep import RANGE
+
+PARTS = re.compile(r"""(?:"(?:\\.|[^"\\])*"|'[^']*'|\[[^\]]*\]|\{[^}]*\}|\([^)]*\)|[^,"'\[{(])+""")
+"""Parts between commas that are in no quotes and no brackets; brackets of a kind are not nested."""
+
+
+def conditions_of(config: ExperimentConfig) -> dict[str, ExperimentConfig]:
+    """The configuration under each condition, by the condition's name; of no sweep itself, by "".
+
+    None of them has a sweep; the keys that the sweep does not vary are those of `config`.
+    """
+    if not config.is_sweep:
+        return {"": config}
+    cells = config.sweep.cells.items()
+    return {name: ExperimentConfig.model_validate(varied(config, own)) for name, own in cells}
+
+
+def varied(config: ExperimentConfig, keys: Mapping[str, Any]) -> dict[str, Any]:
+    """The keys that were given, with these dotted ones in place of theirs, and without the sweep.
+
+    Raises an error of OmegaConf, or ValueError or TypeError, for a key that leads nowhere.
+    """
+    given = OmegaConf.create(config.model_dump(mode="json", exclude_unset=True, exclude={"sweep"}))
+    for key, value in keys.items():
+        OmegaConf.update(given, key, value, merge=value != {}, force_add=True)
+    composed: Any = OmegaConf.to_container(given)
+    return {str(key): value for key, value in composed.items()}
+
+
+def with_sweep(overrides: Sequence[str]) -> list[str]:
+    """Overrides of which those with several values, or a range, are of the grid of a sweep.
+
+    Values stand between commas that are in no brackets and no quotes: `a,b` are two, `[a,b]` is
+    one. Raises YAMLError.
+    """
+    grid: dict[str, object] = {}
+    fixed = []
+    for item in overrides:
+        key, _, value = item.partition("=")
+        parts = PARTS.findall(value)
+        if RANGE.match(value):
+            grid[key] = value
+        elif len(parts) > 1:
+            grid[key] = [read_yaml(part) for part in parts]
+        else:
+            fixed.append(item)
+    return [*fixed, f"sweep.grid={msgspec.json.encode(grid).decode()}"] if grid else fixed
