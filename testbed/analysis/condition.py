@@ -28,8 +28,15 @@ def condition(config: ExperimentConfig) -> str:
         "" if config.plans == "optimistic" else f"plans: {config.plans}",
         "limits: " + ", ".join(_limit(key, value) for key, value in _limits(config).items()),
         ", ".join(f"{name} comes out with {p}" for name, p in config.statistics.items()),
+        _varied(config),
     ]
     return "; ".join(part for part in parts if part)
+
+
+def _varied(config: ExperimentConfig) -> str:
+    """The keys that a sweep varies; what is said of them is as where it does not."""
+    keys = dict.fromkeys(key for own in config.sweep.cells.values() for key in own)
+    return f"varied by the sweep: {', '.join(keys)}" if keys else ""
 
 
 def deviations(config: ExperimentConfig, published: ExperimentConfig) -> tuple[str, ...]:
@@ -64,6 +71,7 @@ def _rules(config: ExperimentConfig, robots: Collection[str]) -> Mapping[str, ob
         "limits": _limits(config),
         "statistics": config.statistics,
         "draw": config.draw if config.is_fine else None,
+        "sweep": config.sweep,
     }
 
 

@@ -1,7 +1,7 @@
 """The trials of a run as one table, which everything about a run is made of."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
@@ -11,7 +11,7 @@ import msgspec
 import polars as pl
 from msgspec import inspect
 
-from testbed.config import ExperimentConfig
+from testbed.config import ExperimentConfig, conditions_of
 from testbed.experiment import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import PROVENANCE, naming, read_config
@@ -53,6 +53,16 @@ class Run:
     def records(self, *conditions: pl.Expr) -> Iterator[TrialRecord]:
         """The rows as records, one at a time; with conditions those that satisfy all of them."""
         return records_of(self.trials.filter(*conditions))
+
+    @property
+    def conditions(self) -> dict[str, "Run"]:
+        """The run under each condition of its sweep, by name; of no sweep the run by ""."""
+        if not self.config.is_sweep:
+            return {"": self}
+        return {
+            name: replace(self, config=own, trials=self.trials.filter(cell=name))
+            for name, own in conditions_of(self.config).items()
+        }
 
 
 def load_run(

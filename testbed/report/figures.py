@@ -2,7 +2,7 @@
 
 import io
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import matplotlib as mpl
@@ -20,6 +20,8 @@ APART, ASIDE = 0.24, 0.1
 LEVELS_HEIGHT = 2.6
 TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 ROOM = 1.15
+SHARES = ([0, 0.25, 0.5, 0.75, 1], ["0", "25", "50", "75", "100 %"])
+"""Where axes of shares are marked, and how."""
 INK, SOFT, LINE, CARD = "#010101", "#010102", "#010103", "#010104"
 COLOURS = {"first": "#010105", "second": "#010106", "paper": "#010107"}
 """Those of series, by name."""
@@ -55,9 +57,9 @@ class Panel(NamedTuple):
 
 
 def drawn(chart: Chart) -> Panel:
-    """A chart as a figure; seconds over levels, anything else one row per line."""
+    """A chart as a figure: curves over the places, or one row per place."""
     with mpl.rc_context(SETTINGS):
-        own = _curves(chart) if chart.kind == "seconds" else _forest(chart)
+        own = _curves(chart, CURVES[chart.kind]) if chart.kind in CURVES else _forest(chart)
         labels = ", ".join(series.label for series in chart.series)
         told = plain(f"{chart.title}: {labels}. The table has the numbers.")
         return Panel(chart.name, chart.title, _inline(own, chart.name, told))
@@ -80,22 +82,39 @@ def _forest(chart: Chart) -> Figure:
     return figure
 
 
-def _curves(chart: Chart) -> Figure:
-    """Seconds on a log scale; published curves are dashed."""
-    levels, series = chart.places, chart.series
+def _curves(chart: Chart, scale: Callable[[Axes], None]) -> Figure:
+    """Values over places; published curves are dashed."""
+    places, series = chart.places, chart.series
     figure, axes = _blank(WIDTH, LEVELS_HEIGHT)
     for own in series:
         shift = -ASIDE if own.colour == series[0].colour else ASIDE
-        _curve(axes, own, {level: index + shift for index, level in enumerate(levels)})
-    axes.set_xticks(range(len(levels)), list(map(plain, levels)))
-    axes.set_xlim(-0.4, len(levels) - 0.6)
-    axes.set_yscale("log", nonpositive="mask")
+        _curve(axes, own, {place: index + shift for index, place in enumerate(places)})
+    axes.set_xticks(range(len(places)), list(map(plain, places)))
+    axes.set_xlim(-0.4, len(places) - 0.6)
+    scale(axes)
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _seconds(value)))
     axes.grid(axis="y")
     axes.set_axisbelow(True)
     axes.spines["left"].set_visible(False)
     return figure
+
+
+def _of_seconds(axes: Axes) -> None:
+    axes.set_yscale("log", nonpositive="mask")
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _seconds(value)))
+
+
+def _of_shares(axes: Axes) -> None:
+    axes.set_ylim(-0.03, 1.03)
+    axes.set_yticks(*SHARES)
+
+
+def _of_ratios(axes: Axes) -> None:
+    axes.axhline(1.0, color=SOFT, linewidth=1.0, zorder=1)
+
+
+CURVES = {"seconds": _of_seconds, "share curve": _of_shares, "ratio curve": _of_ratios}
+"""How the axis of values is drawn, by the kind of curves."""
 
 
 def _dots(axes: Axes, series: Series, heights: dict[str, float]) -> None:
@@ -130,7 +149,7 @@ def _look(series: Series) -> dict[str, Any]:
 
 def _shares(axes: Axes) -> None:
     axes.set_xlim(-0.03, 1.03)
-    axes.set_xticks([0, 0.25, 0.5, 0.75, 1], ["0", "25", "50", "75", "100 %"])
+    axes.set_xticks(*SHARES)
     axes.grid(axis="x")
 
 

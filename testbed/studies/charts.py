@@ -1,4 +1,4 @@
-"""What a study has drawn: values with intervals by row, or seconds over levels."""
+"""What a study has drawn: values with intervals by row, or as curves."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -40,13 +40,17 @@ class Series:
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure of its own: `ratios` around 1, `shares`, or `seconds` over levels."""
+    """A figure of its own.
+
+    One row per place with `ratios` around 1, or `shares`; or curves over the places: `seconds`, a
+    `share curve` or a `ratio curve`.
+    """
 
     name: str
     title: str
     places: Sequence[str]
     series: Sequence[Series]
-    kind: Literal["ratios", "shares", "seconds"] = "ratios"
+    kind: Literal["ratios", "shares", "seconds", "share curve", "ratio curve"] = "ratios"
 
 
 def points(estimates: Iterable[tuple[str, Estimate | None]]) -> tuple[Point, ...]:

@@ -1,0 +1,71 @@
+"""The part of a report on a sweep: shares and ratios by condition, counted by hand."""
+
+from pathlib import Path
+
+import pytest
+
+from testbed.analysis import load_run
+from testbed.config import load_config
+from testbed.experiment.runner import run
+from testbed.report import sweep, write_report
+from tests.config.test_sweep import written
+
+SWEEP = """\
+link: inprocess
+seed: 7
+limit: 12
+limits: {steps: 9}
+sweep:
+  grid: {knowledge: [complete, seen], adversary.rate: [0, 0.9]}
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a swept run, with its report."""
+    where = tmp_path_factory.mktemp("swept")
+    config = load_config(
+        written(where, SWEEP), ['goal=["stands(fern,sill)", "stands(rose,floor)"]']
+    )
+    run(config, where / "run", workers=0)
+    write_report(where / "run", config)
+    return where / "run"
+
+
+def test_each_condition_has_the_shares_of_its_own_trials(folder: Path) -> None:
+    found = load_run(folder)
+    told = sweep.numbers(found)["conditions"]
+    assert list(told) == list(found.config.sweep.cells)
+    for name, own in told.items():
+        assert own["keys"] == found.config.sweep.cells[name]
+        counted = [record for record in found.records() if record.cell == name and record.steps > 1]
+        for robot, share in own["achieved"].items():
+            ours = [record.achieved for record in counted if record.robot == robot]
+            assert share["value"] == pytest.approx(sum(ours) / len(ours))
+            assert share["low"] <= share["value"] <= share["high"]
+    undisturbed = told["knowledge=complete, adversary.rate=0"]
+    assert undisturbed["ratios"]["actions"]["value"] == 1.0
+    assert undisturbed["ratios"]["execution_units"] is None
+    assert {share["value"] for share in undisturbed["achieved"].values()} == {1.0}
+    stormy = told["knowledge=complete, adversary.rate=0.9"]["achieved"]
+    assert stormy["traditional"]["value"] < 1.0
+
+
+def test_a_figure_is_drawn_for_each_choice_of_the_other_keys(folder: Path) -> None:
+    (section,) = sweep.sections(load_run(folder))
+    shares = [chart for chart in section.charts if chart.kind == "share curve"]
+    assert [chart.title.rpartition(", ")[2] for chart in shares] == [
+        "knowledge=complete",
+        "knowledge=seen",
+    ]
+    assert all(list(chart.places) == ["0", "0.9"] for chart in shares)
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert 'id="conditions"' in page
+    assert page.count("knowledge=seen, adversary.rate=0.9") >= 1
+
+
+def test_a_run_without_a_sweep_has_no_such_part(tmp_path: Path) -> None:
+    config = load_config(written(tmp_path, "link: inprocess\nlimit: 1\n"))
+    run(config, tmp_path / "run", workers=0)
+    assert sweep.sections(load_run(tmp_path / "run")) == []
+    assert sweep.numbers(load_run(tmp_path / "run")) == {}
