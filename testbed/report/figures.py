@@ -113,7 +113,16 @@ def _of_ratios(axes: Axes) -> None:
     axes.axhline(1.0, color=SOFT, linewidth=1.0, zorder=1)
 
 
-CURVES = {"seconds": _of_seconds, "share curve": _of_shares, "ratio curve": _of_ratios}
+def _of_numbers(axes: Axes) -> None:
+    axes.set_ylim(bottom=0.0)
+
+
+CURVES = {
+    "seconds": _of_seconds,
+    "share curve": _of_shares,
+    "ratio curve": _of_ratios,
+    "number curve": _of_numbers,
+}
 """How the axis of values is drawn, by the kind of curves."""
 
 

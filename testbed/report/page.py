@@ -20,7 +20,6 @@ from testbed.experiment.plan import coverage_of
 from testbed.experiment.run_folder import REPORT, replace_text
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.timeline import in_words, of_place, timeline
-from testbed.report import sweep
 from testbed.report.comparison import OPTIMUM, charts, groups_of, optima
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
@@ -58,11 +57,10 @@ def write_report(
     run = load_run(folder, config, specs)
     found = results_of(run)
     covered = coverage_of(run.trials.select("scenario", "level").iter_rows(), config)
-    added = [sweep.numbers(run), *(own.numbers for own in found)]
-    summary = write_summary(run, covered.numbers(), added)
+    summary = write_summary(run, covered.numbers(), [own.numbers for own in found])
     main, *_ = compared(config)
     rows = with_apart(measured(run.trials), main, eventful(config))
-    sections = [*sweep.sections(run), *(section for own in found for section in own.sections)]
+    sections = [section for own in found for section in own.sections]
     views = [(section, view) for section in sections for view in section.views if view.lines]
     tables = Tables(
         summary["digest"],

@@ -7,6 +7,8 @@ from typing import Literal, NamedTuple
 from testbed.analysis.bootstrap import Estimate
 
 Colour = Literal["first", "second", "paper"]
+CurveKind = Literal["seconds", "share curve", "ratio curve", "number curve"]
+"""Curves: seconds on a log scale, shares of a whole, ratios around 1, numbers from 0 on."""
 
 
 class Key(NamedTuple):
@@ -42,15 +44,14 @@ class Series:
 class Chart:
     """A figure of its own.
 
-    One row per place with `ratios` around 1, or `shares`; or curves over the places: `seconds`, a
-    `share curve` or a `ratio curve`.
+    One row per place with `ratios` around 1, or `shares`; or curves over the places.
     """
 
     name: str
     title: str
     places: Sequence[str]
     series: Sequence[Series]
-    kind: Literal["ratios", "shares", "seconds", "share curve", "ratio curve"] = "ratios"
+    kind: Literal["ratios", "shares"] | CurveKind = "ratios"
 
 
 def points(estimates: Iterable[tuple[str, Estimate | None]]) -> tuple[Point, ...]:

@@ -77,10 +77,14 @@ class Study(Generic[Found]):
         return () if self.published is None else deviations(config, load_config(self.published))
 
 
+NAMES = ("attention", "knowledge", "levels", "observability", "rate", "table1")
+"""The packaged studies."""
+OF_SWEEPS = "testbed.studies.sweeps:SWEEP"
+"""The study that reads the sweeps whose configuration names none."""
 STUDIES: Registry[Study[Any]] = Registry(
     "study",
     "intention_testbed.studies",
-    {name: f"testbed.studies.{name}:STUDY" for name in ("levels", "table1")},
+    {name: f"testbed.studies.{name}:STUDY" for name in NAMES},
     lambda found: None if isinstance(found, Study) else "is not a testbed.studies.Study",
 )
 
@@ -120,7 +124,9 @@ def results_of(run: Run) -> list[Results]:
 
 def _studies(config: ExperimentConfig) -> Iterator[tuple[Study[Any], bool]]:
     """The studies that read a run, each with whether its published figures apply."""
-    named = None if config.protocol is None else STUDIES.find(config.protocol)
+    named = (
+        STUDIES.find(config.protocol or OF_SWEEPS) if config.protocol or config.is_sweep else None
+    )
     if named is not None:
         yield named, not named.deviations(config)
     for _, study in STUDIES.usable():

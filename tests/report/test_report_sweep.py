@@ -7,10 +7,12 @@ import pytest
 from testbed.analysis import load_run
 from testbed.config import load_config
 from testbed.experiment.runner import run
-from testbed.report import sweep, write_report
+from testbed.report import write_report
+from testbed.studies import results_of
+from testbed.studies.sweeps import SWEEP, found_in
 from tests.config.test_sweep import written
 
-SWEEP = """\
+CONFIG = """\
 link: inprocess
 seed: 7
 limit: 12
@@ -25,7 +27,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a swept run, with its report."""
     where = tmp_path_factory.mktemp("swept")
     config = load_config(
-        written(where, SWEEP), ['goal=["stands(fern,sill)", "stands(rose,floor)"]']
+        written(where, CONFIG), ['goal=["stands(fern,sill)", "stands(rose,floor)"]']
     )
     run(config, where / "run", workers=0)
     write_report(where / "run", config)
@@ -34,7 +36,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_each_condition_has_the_shares_of_its_own_trials(folder: Path) -> None:
     found = load_run(folder)
-    told = sweep.numbers(found)["conditions"]
+    told = SWEEP.numbers(found_in(found))["conditions"]
     assert list(told) == list(found.config.sweep.cells)
     for name, own in told.items():
         assert own["keys"] == found.config.sweep.cells[name]
@@ -44,15 +46,14 @@ def test_each_condition_has_the_shares_of_its_own_trials(folder: Path) -> None:
             assert share["value"] == pytest.approx(sum(ours) / len(ours))
             assert share["low"] <= share["value"] <= share["high"]
     undisturbed = told["knowledge=complete, adversary.rate=0"]
-    assert undisturbed["ratios"]["actions"]["value"] == 1.0
-    assert undisturbed["ratios"]["execution_units"] is None
+    assert undisturbed["cost"]["value"] == 1.0
     assert {share["value"] for share in undisturbed["achieved"].values()} == {1.0}
     stormy = told["knowledge=complete, adversary.rate=0.9"]["achieved"]
     assert stormy["traditional"]["value"] < 1.0
 
 
 def test_a_figure_is_drawn_for_each_choice_of_the_other_keys(folder: Path) -> None:
-    (section,) = sweep.sections(load_run(folder))
+    (section,) = SWEEP.sections(found_in(load_run(folder)))
     shares = [chart for chart in section.charts if chart.kind == "share curve"]
     assert [chart.title.rpartition(", ")[2] for chart in shares] == [
         "knowledge=complete",
@@ -67,5 +68,4 @@ def test_a_figure_is_drawn_for_each_choice_of_the_other_keys(folder: Path) -> No
 def test_a_run_without_a_sweep_has_no_such_part(tmp_path: Path) -> None:
     config = load_config(written(tmp_path, "link: inprocess\nlimit: 1\n"))
     run(config, tmp_path / "run", workers=0)
-    assert sweep.sections(load_run(tmp_path / "run")) == []
-    assert sweep.numbers(load_run(tmp_path / "run")) == {}
+    assert not results_of(load_run(tmp_path / "run"))

@@ -1,0 +1,67 @@
+"""Estimates of what robots do under each condition of a sweep, with intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import polars as pl
+
+from testbed.analysis.bootstrap import Estimate, bootstrap, means, proportion, sample_of
+from testbed.analysis.comparison import compared, eventful, measured, with_apart
+from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
+from testbed.analysis.table import Run
+
+VALUES: Mapping[str, pl.Expr] = {
+    "achieved": pl.col("achieved").cast(pl.Float64),
+    "actions": pl.when("achieved").then("actions"),
+    "explanations": pl.col("explained"),
+    "reasoning": 1000 * pl.col("reasoning_time"),
+}
+"""What a trial counts for in the mean of each measure; null: it does not count."""
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What the trials under one condition come to.
+
+    `pairs` is the number of pairs that count; `robots` has estimates by measure and robot; `cost`
+    is what the baseline needed in actions divided by what the treatment did, over the pairs in
+    which both achieved their goal; None where there is no such pair.
+    """
+
+    pairs: int
+    robots: Mapping[str, Mapping[str, Estimate | None]]
+    cost: Estimate | None
+
+
+def estimates(run: Run, measures: Iterable[str]) -> tuple[Compared, dict[str, Condition]]:
+    """The robots that are compared, and by its name what each condition comes to."""
+    main, *_ = compared(run.config)
+    names = tuple(measures)
+    return main, {name: _condition(own, names, main) for name, own in run.conditions.items()}
+
+
+def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
+    rows = measured(run.trials).with_columns(explained=run.trials["explanations"].list.len())
+    counted = with_apart(rows, main, eventful(run.config)).filter(pl.col("apart").is_null())
+    both = Sample(pairs_of(counted, main)).where("achieved", "achieved" + OTHER).ended
+    return Condition(
+        counted["pair"].n_unique(),
+        {
+            measure: {
+                name: _estimate(counted.filter(robot=name), measure) for name in run.config.robots
+            }
+            for measure in measures
+        },
+        both.ratio("actions").mean,
+    )
+
+
+def _estimate(trials: pl.DataFrame, measure: str) -> Estimate | None:
+    """The mean of a measure; trials from one initial state are a cluster."""
+    known = trials.with_columns(value=VALUES[measure]).filter(pl.col("value").is_not_null())
+    if not len(known):
+        return None
+    sample = sample_of(known["value"].to_numpy(), clusters=known["state"].to_list())
+    return proportion(sample) if measure == "achieved" else bootstrap(means, sample)
