@@ -45,7 +45,8 @@ def estimates(run: Run, measures: Iterable[str]) -> tuple[Compared, dict[str, Co
 def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
     rows = measured(run.trials).with_columns(explained=run.trials["explanations"].list.len())
     counted = with_apart(rows, main, eventful(run.config)).filter(pl.col("apart").is_null())
-    both = Sample(pairs_of(counted, main)).where("achieved", "achieved" + OTHER).ended
+    both = pairs_of(counted, main).filter("achieved", "achieved" + OTHER)
+    cost = Sample(both, cluster=_cluster(both)).ended.ratio("actions").mean
     return Condition(
         counted["pair"].n_unique(),
         {
@@ -54,14 +55,21 @@ def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
             }
             for measure in measures
         },
-        both.ratio("actions").mean,
+        cost,
     )
 
 
 def _estimate(trials: pl.DataFrame, measure: str) -> Estimate | None:
-    """The mean of a measure; trials from one initial state are a cluster."""
+    """The mean of a measure."""
     known = trials.with_columns(value=VALUES[measure]).filter(pl.col("value").is_not_null())
     if not len(known):
         return None
-    sample = sample_of(known["value"].to_numpy(), clusters=known["state"].to_list())
+    cluster = _cluster(known)
+    labels = None if cluster is None else known[cluster].to_list()
+    sample = sample_of(known["value"].to_numpy(), clusters=labels)
     return proportion(sample) if measure == "achieved" else bootstrap(means, sample)
+
+
+def _cluster(trials: pl.DataFrame) -> str | None:
+    """The column of clusters: trials from one initial state, unless all are from a single one."""
+    return "state" if trials["state"].n_unique() > 1 else None

@@ -3,6 +3,7 @@
 import io
 import re
 from collections.abc import Callable, Mapping, Sequence
+from textwrap import fill
 from typing import Any, NamedTuple
 
 import matplotlib as mpl
@@ -18,6 +19,8 @@ WIDTH = 3.2
 ROW_HEIGHT, FRAME_HEIGHT = 0.33, 0.45
 APART, ASIDE = 0.24, 0.1
 LEVELS_HEIGHT = 2.6
+LETTERS = 45
+"""Of a line above a figure."""
 TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 ROOM = 1.15
 SHARES = ([0, 0.25, 0.5, 0.75, 1], ["0", "25", "50", "75", "100 %"])
@@ -91,6 +94,9 @@ def _curves(chart: Chart, scale: Callable[[Axes], None]) -> Figure:
         _curve(axes, own, {place: index + shift for index, place in enumerate(places)})
     axes.set_xticks(range(len(places)), list(map(plain, places)))
     axes.set_xlim(-0.4, len(places) - 0.6)
+    axes.set_xlabel(plain(chart.axis))
+    if chart.under:
+        axes.set_title(fill(plain(chart.under), LETTERS), fontsize=8.5, color=SOFT)
     scale(axes)
     axes.yaxis.set_minor_locator(NullLocator())
     axes.grid(axis="y")

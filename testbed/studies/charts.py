@@ -44,7 +44,8 @@ class Series:
 class Chart:
     """A figure of its own.
 
-    One row per place with `ratios` around 1, or `shares`; or curves over the places.
+    One row per place with `ratios` around 1, or `shares`; or curves over the places, with the name
+    of what they are values of (`axis`), and what holds in this figure alone (`under`).
     """
 
     name: str
@@ -52,6 +53,8 @@ class Chart:
     places: Sequence[str]
     series: Sequence[Series]
     kind: Literal["ratios", "shares"] | CurveKind = "ratios"
+    axis: str = ""
+    under: str = ""
 
 
 def points(estimates: Iterable[tuple[str, Estimate | None]]) -> tuple[Point, ...]:

@@ -40,9 +40,9 @@ class Measure:
 
 MEASURES: Mapping[str, Measure] = {
     "achieved": Measure("goal achieved", "share curve"),
-    "actions": Measure("actions, where it achieves", "number curve", 1),
-    "explanations": Measure("explanations per trial", "number curve"),
-    "reasoning": Measure("reasoning, ms of process time per trial", "number curve", 1),
+    "actions": Measure("actions where achieved", "number curve", 1),
+    "explanations": Measure("explanations", "number curve"),
+    "reasoning": Measure("reasoning in ms", "number curve", 1),
 }
 """By name; the values are those of `testbed.analysis.conditions`."""
 COST = "cost"
@@ -160,7 +160,7 @@ def _value(own: Estimate | None, measure: Measure) -> Value:
 def _curves(found: Found, measure: str) -> Iterator[Chart]:
     """A figure of a measure for each choice of the other axes, with a curve per robot."""
     own = MEASURES[measure]
-    for number, (under, places, conditions) in enumerate(_choices(found)):
+    for number, (axis, under, places, conditions) in enumerate(_choices(found)):
         series = [
             Series(
                 name,
@@ -170,28 +170,34 @@ def _curves(found: Found, measure: str) -> Iterator[Chart]:
             )
             for name, (colour, m) in zip(found.names, LOOKS, strict=False)
         ]
-        yield Chart(f"{measure}-{number}", f"{own.title}{under}", places, series, own.kind)
+        yield Chart(f"{measure}-{number}", own.title, places, series, own.kind, axis, under)
 
 
 def _cost_curves(found: Found) -> Iterator[Chart]:
     """The same of the ratio of costs, where there is one."""
     title = f"actions, {found.compared.baseline} / {found.compared.treatment}"
-    for number, (under, places, conditions) in enumerate(_choices(found)):
+    for number, (axis, under, places, conditions) in enumerate(_choices(found)):
         points = _points(places, [found.cost[condition] for condition in conditions])
         if points:
             series = [Series("ratio", "first", points)]
-            yield Chart(f"{COST}-{number}", f"{title}{under}", places, series, "ratio curve")
+            yield Chart(f"{COST}-{number}", title, places, series, "ratio curve", axis, under)
 
 
-def _choices(found: Found) -> Iterator[tuple[str, list[str], list[str]]]:
-    """For each choice of the other axes: its name, the points of the last axis, the conditions."""
+def _choices(found: Found) -> Iterator[tuple[str, str, list[str], list[str]]]:
+    """For each choice of the other axes: the last axis, the choice, the places, the conditions."""
     *others, last = found.axes
     choices = list(product(*(axis.points for axis in others)))
     if len(choices) <= MOST_CURVES:
         places = [name.removeprefix(f"{last.name}=") for name in last.points]
         for choice in choices:
-            under = f", by {last.name}{''.join(f', {point}' for point in choice)}"
-            yield under, places, [", ".join([*choice, point]) for point in last.points]
+            conditions = [", ".join([*choice, point]) for point in last.points]
+            yield _short(last.name), ", ".join(map(_short, choice)), places, conditions
+
+
+def _short(key: str) -> str:
+    """The last part of a key, with its value if any: `delay=3` of `observability.f.delay=3`."""
+    name, equals, value = key.partition("=")
+    return name.rpartition(".")[2] + equals + value
 
 
 def _points(places: Sequence[str], values: Sequence[Estimate | None]) -> tuple[Point, ...]:

@@ -55,10 +55,7 @@ def test_each_condition_has_the_shares_of_its_own_trials(folder: Path) -> None:
 def test_a_figure_is_drawn_for_each_choice_of_the_other_keys(folder: Path) -> None:
     (section,) = SWEEP.sections(found_in(load_run(folder)))
     shares = [chart for chart in section.charts if chart.kind == "share curve"]
-    assert [chart.title.rpartition(", ")[2] for chart in shares] == [
-        "knowledge=complete",
-        "knowledge=seen",
-    ]
+    assert [chart.under for chart in shares] == ["knowledge=complete", "knowledge=seen"]
     assert all(list(chart.places) == ["0", "0.9"] for chart in shares)
     page = (folder / "report.html").read_text(encoding="utf-8")
     assert 'id="conditions"' in page
