@@ -5,7 +5,17 @@ from pathlib import Path
 import pytest
 
 from asp import Domain
+from asp.reasoning import knowledge
+from asp.reasoning.diagnosis import (
+    DiagnosisSessions,
+    Explanation,
+    Happening,
+    History,
+    IncrementalDiagnoser,
+    ReferenceDiagnoser,
+)
 from benchmarks.own import Own
+from tests.literals import parsed
 
 # Nobody says that it is impossible to sail into a harbour that is closed: it is so all the same.
 HARBOUR = """\
@@ -136,10 +146,27 @@ def test_a_failed_attempt_of_one_is_explained(
     assert record.outcome == outcome
 
 
+REOPENED = HARBOUR.replace("laws\n", "  exogenous reopen.\nlaws\n  reopen causes -closed.\n")
+
+
+def test_what_took_effect_was_possible_by_itself_whatever_happened_beside_it() -> None:
+    """The harbour opened before the mate sailed, and not at the same time."""
+    history = History()
+    history.observe(parsed(["closed", "fuelled", "-inside"]), 0)
+    for step, action in enumerate(parsed(["fuel", "sail"])):
+        history.attempt(action, step)
+        history.happened(action, True, step)
+    history.step = 2
+    known = knowledge("harbour", REOPENED)
+    reference = ReferenceDiagnoser[History](known, ())
+    for diagnoser in reference, IncrementalDiagnoser(DiagnosisSessions(known), (), 0, reference):
+        found = diagnoser.diagnose(history, Explanation()).explanation
+        assert found.unobserved == (Happening(0, *parsed(["reopen"])),)
+
+
 def test_what_happens_at_once_may_be_possible_where_one_action_is_not() -> None:
     """To sail while the harbour opens: the diagram has such a transition, by the definition."""
-    opens = "  exogenous reopen.\nlaws\n  reopen causes -closed.\n"
-    harbour = Domain(HARBOUR.replace("laws\n", opens), "harbour.al")
+    harbour = Domain(REOPENED, "harbour.al")
     assert harbour.successors("closed, fuelled", ["sail"]) == ()
     assert harbour.successors("closed, fuelled", ["sail", "reopen"]) == (
         frozenset(harbour.state("inside, fuelled")),

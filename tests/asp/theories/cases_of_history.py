@@ -72,10 +72,18 @@ CASES = (
     ),
     Case(
         20,
+        "what no state can follow did not occur, whatever happened beside it",
+        lines(_OPEN, "current_step(1). disqualified(switch_on,0).", did(0, "switch_on")),
+        Inconsistent(),
+        n=1,
+        rule=2,
+    ),
+    Case(
+        20,
         "no action of the robot's own occurred that it did not attempt",
         lines(_OPEN, "current_step(1).", may_occur(0, "go(right)")),
         never("occurs(go(right),0)"),
-        rule=2,
+        rule=3,
     ),
     Case(
         21,
