@@ -9,7 +9,7 @@ import polars as pl
 
 from testbed.analysis.bootstrap import Estimate, bootstrap, means, proportion, sample_of
 from testbed.analysis.comparison import compared, eventful, measured, with_apart
-from testbed.analysis.pairs import OTHER, Compared, Sample, pairs_of
+from testbed.analysis.pairs import OTHER, Compared, Sample, cluster_of, pairs_of
 from testbed.analysis.table import Run
 
 VALUES: Mapping[str, pl.Expr] = {
@@ -46,7 +46,7 @@ def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
     rows = measured(run.trials).with_columns(explained=run.trials["explanations"].list.len())
     counted = with_apart(rows, main, eventful(run.config)).filter(pl.col("apart").is_null())
     both = pairs_of(counted, main).filter("achieved", "achieved" + OTHER)
-    cost = Sample(both, cluster=_cluster(both)).ended.ratio("actions").mean
+    cost = Sample(both, cluster=cluster_of(both)).ended.ratio("actions").mean
     return Condition(
         counted["pair"].n_unique(),
         {
@@ -64,12 +64,7 @@ def _estimate(trials: pl.DataFrame, measure: str) -> Estimate | None:
     known = trials.with_columns(value=VALUES[measure]).filter(pl.col("value").is_not_null())
     if not len(known):
         return None
-    cluster = _cluster(known)
+    cluster = cluster_of(known)
     labels = None if cluster is None else known[cluster].to_list()
     sample = sample_of(known["value"].to_numpy(), clusters=labels)
     return proportion(sample) if measure == "achieved" else bootstrap(means, sample)
-
-
-def _cluster(trials: pl.DataFrame) -> str | None:
-    """The column of clusters: trials from one initial state, unless all are from a single one."""
-    return "state" if trials["state"].n_unique() > 1 else None

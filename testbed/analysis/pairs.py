@@ -36,6 +36,11 @@ def pairs_of(trials: pl.DataFrame, robots: Compared) -> pl.DataFrame:
     )
 
 
+def cluster_of(trials: pl.DataFrame) -> str | None:
+    """The column of clusters: trials from one initial state, unless all are from a single one."""
+    return "state" if trials["state"].n_unique() > 1 else None
+
+
 @dataclass(frozen=True)
 class Ratio:
     """A measure of the baseline, divided by the treatment's, over `pairs` in which that is not 0.

@@ -14,6 +14,7 @@ import typer
 
 from testbed.cli import (
     check,
+    compare,
     diagram,
     explain,
     export,
@@ -29,7 +30,20 @@ from testbed.cli.common import BAD_INPUT, DONE, refuse
 from testbed.cli.importing import displaced
 from testbed.text import mute, tolerant, warn
 
-COMMANDS = (run, check, robot, report, export, replay, repair, translate, plan, explain, diagram)
+COMMANDS = (
+    run,
+    check,
+    robot,
+    report,
+    compare,
+    export,
+    replay,
+    repair,
+    translate,
+    plan,
+    explain,
+    diagram,
+)
 """In the order of the help. Each has a function of its own name, and the end of its help."""
 
 app = typer.Typer(
