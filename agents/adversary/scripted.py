@@ -16,8 +16,8 @@ T = TypeVar("T")
 class Triggered:
     """Fires a scenario's exogenous action when one of its triggers applies, once per trial.
 
-    Where the triggers draw a value, one of those that could be drawn is drawn first, and fires
-    only if its own triggers apply: a draw may come to nothing, and is repeated at the next step
+    Where the triggers draw values, these are drawn one after the other, and only triggers with all
+    of them may fire: a draw may come to nothing, and is repeated at the next step
     (docs/action-language.md). Where nothing is drawn, the first possible event in order is taken. A
     trigger upon any action fires at every step that the environment leaves open, also while the
     robot waits.
@@ -62,14 +62,33 @@ class Triggered:
         return probability >= 1 or bool(self._random.random() < probability)
 
     def _choose(self, triggers: Sequence[Trigger], view: AdversaryView) -> Action:
-        if not any(trigger.drawn for trigger in triggers):
-            return next((t.event for t in triggers if _possible(t, view)), NONE)
-        pool = dict.fromkeys(_drawable(t) for t in triggers if _hold(t.pool, view))
-        if not pool:
+        draws = max(len(trigger.drawings) for trigger in triggers)
+        for number in range(draws):
+            triggers = self._drawn(number, triggers, view)
+        events = dict.fromkeys(t.event for t in triggers if _possible(t, view))
+        if not events:
             return NONE
-        drawn = self._draw(list(pool))
-        events = [t.event for t in triggers if _drawable(t) == drawn and _possible(t, view)]
-        return self._draw(events) if events else NONE
+        return self._draw(list(events)) if draws else next(iter(events))
+
+    def _drawn(
+        self, number: int, triggers: Sequence[Trigger], view: AdversaryView
+    ) -> list[Trigger]:
+        """The triggers with the value that is drawn, of the values of all of them.
+
+        A value whose pool does not hold passes the draw on to the others of the same event.
+        """
+        values = dict.fromkeys(_value(t, number) for t in triggers)
+        drawable = [t for t in triggers if _is_drawable(t, number, view)]
+        pool = dict.fromkeys(_value(t, number) for t in drawable)
+        if not pool:
+            return []
+        drawn = self._draw(list(values))
+        if drawn not in pool:
+            others = [value for value in pool if value[0] == drawn[0]]
+            if not others:
+                return []
+            drawn = self._draw(others)
+        return [t for t in drawable if _value(t, number) == drawn]
 
     def _draw(self, options: Sequence[T]) -> T:
         return options[int(self._random.integers(len(options)))]
@@ -136,14 +155,23 @@ def _by_number(entries: Iterable[tuple[int, Action]]) -> dict[int, Action]:
     return actions
 
 
-def _drawable(trigger: Trigger) -> tuple[str, str | None]:
-    """What is drawn: a value, for this kind of event."""
-    return trigger.event.name, trigger.drawn
+def _value(trigger: Trigger, number: int) -> tuple[str, str | None]:
+    """What a draw is among: a kind of event with a value, None where it draws no further one."""
+    drawn = trigger.drawings[number].value if number < len(trigger.drawings) else None
+    return trigger.event.name, drawn
+
+
+def _is_drawable(trigger: Trigger, number: int, view: AdversaryView) -> bool:
+    return number >= len(trigger.drawings) or _hold(trigger.drawings[number].pool, view)
 
 
 def _possible(trigger: Trigger, view: AdversaryView) -> bool:
-    return trigger.event in view.legal and _hold((*trigger.pool, *trigger.body), view)
+    return trigger.event in view.legal and _hold(trigger.body, view)
 
 
 def _hold(literals: Iterable[Literal], view: AdversaryView) -> bool:
-    return all(lit.is_positive == (lit.atom in view.state) for lit in literals)
+    """Whether literals are true in the state; an agent action is where the robot attempts it."""
+    return all(
+        lit.is_positive == (lit.atom in view.state or lit.atom == view.robot_action)
+        for lit in literals
+    )

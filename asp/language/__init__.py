@@ -9,6 +9,7 @@ from asp.language.description import Causal as Causal
 from asp.language.description import Constraint as Constraint
 from asp.language.description import Default as Default
 from asp.language.description import Description as Description
+from asp.language.description import Draw as Draw
 from asp.language.description import Executability as Executability
 from asp.language.description import Literals as Literals
 from asp.language.description import Sees as Sees

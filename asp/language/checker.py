@@ -118,6 +118,11 @@ def _of_form(statement: syntax.Statement, signature: Signature) -> Mistakes:
                 yield statement.place, f"'{head.atom.name}' is defined: {reason}"
         case syntax.TriggerStatement(probability=probability) if not 0 <= probability <= 1:
             yield statement.place, "a probability lies between 0 and 1"
+        case syntax.TriggerStatement(drawings=drawings):
+            variables = [drawing.variable for drawing in drawings]
+            for number, variable in enumerate(variables):
+                if variable.name in (earlier.name for earlier in variables[:number]):
+                    yield variable.place, f"variable {variable.name} is drawn already; drop one"
     for literal in roles.literals(roles.bodies(statement)):
         if literal.atom.name in signature.sorts and not literal.positive:
             yield literal.atom.place, "a sort in a body cannot be negated"
@@ -140,7 +145,8 @@ def _of_variables(statement: syntax.Statement, signature: Signature) -> Mistakes
     for name, members in roles.variable_domains(statement, signature).items():
         if not members and name in bound - of_no_member:
             yield statement.place, f"no constant fits all the places of variable {name}"
-    beside = [getattr(statement, field, None) for field in ("drawn", "variable", "robot")]
+    beside = [getattr(statement, field, None) for field in ("variable", "robot")]
+    beside += [drawing.variable for drawing in getattr(statement, "drawings", ())]
     for comparison in roles.comparisons(roles.bodies(statement)):
         beside += comparison.terms
     for term in {term.name: term for term in reversed(beside) if term is not None}.values():

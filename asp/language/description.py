@@ -59,19 +59,26 @@ class Default(Node):
     exceptions: tuple[Literals, ...]
 
 
+class Draw(Node):
+    """A value that may be drawn; where the literals of its pool do not hold another one is."""
+
+    value: str
+    pool: Literals
+
+
 class Trigger(Node):
     """One way in which a scenario's exogenous action may fire.
 
-    `upon` is the robot's action that it goes with (None: any), `drawn` the value of the drawn
-    variable (None: nothing is drawn), `pool` the literals that make this value drawable, `body`
-    the literals that let the event fire, `probability` that of trying at all in a step.
+    `upon` is the robot's action that it goes with (None: any), `drawings` are the values of the
+    drawn variables in the order in which they are drawn (none: nothing is drawn), `body` the
+    literals that let the event fire, `probability` that of trying at all in a step. An agent action
+    among the literals is true where it is the robot's.
     """
 
     scenario: str
     event: Action
     upon: Action | None
-    drawn: str | None
-    pool: Literals
+    drawings: tuple[Draw, ...]
     body: Literals
     probability: float
 

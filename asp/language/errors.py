@@ -14,6 +14,7 @@ _SECTION = 9
 """The priority of section words in grammars: above all others."""
 _READABLE = {
     "NAME": "a name",
+    "SCENARIO": "a name",
     "VARIABLE": "a variable",
     "NUMBER": "a number",
     "DECIMAL": "a number",
@@ -150,7 +151,7 @@ def _meant_section(token: Token, text: str, sections: Set[str]) -> str | None:
     lines = [part.partition("%")[0] for part in text.split("\n")]
     before = " ".join(lines[: line - 1]).split()
     begins = not before or before[-1].endswith(".") or before[-1].lower() in sections
-    if token.type != "NAME" or not begins or lines[line - 1].strip() != token:
+    if token.type not in ("NAME", "SCENARIO") or not begins or lines[line - 1].strip() != token:
         return None
     return nearest(token, sections)
 

@@ -15,6 +15,7 @@ from asp.language.description import (
     Constraint,
     Default,
     Description,
+    Draw,
     Executability,
     Literals,
     Sees,
@@ -24,7 +25,7 @@ from asp.language.description import (
 from asp.language.literals import Fluent, Literal
 from asp.language.matching import NOTHING, Facts, Pattern, Row
 from asp.language.signature import Signature
-from asp.language.variable_sorts import BODIES, FLUENTS, default_atom, variable_domains
+from asp.language.variable_sorts import AGENT, FLUENTS, bodies, default_atom, variable_domains
 
 Binding = Mapping[str, str]
 G = TypeVar("G", Causal, Constraint, Executability, Sees, Shows, Trigger)
@@ -72,27 +73,34 @@ class Instances:
 
     def ground(self, statements: Iterable[syntax.Statement], kind: type[G]) -> tuple[G, ...]:
         """The ground statements of a kind, whose fields are named as those of the statements."""
-        names = [field.name for field in fields(kind) if field.name not in BODIES]
+        names = [field.name for field in fields(kind)]
         return tuple(
-            kind(**{n: instance(getattr(own, n), binding) for n in names} | bodies)
+            kind(**{n: left[n] if n in left else instance(getattr(own, n), binding) for n in names})
             for own in statements
-            for binding, bodies in self.of(own)
+            for binding, left in self.of(own)
         )
 
     def of(self, statement: syntax.Statement) -> Iterator[tuple[Binding, dict[str, Any]]]:
         """The bindings that the statics and comparisons allow, with what is left of the bodies."""
         domains = variable_domains(statement, self.signature)
-        bodies = {name: getattr(statement, name) for name in BODIES if hasattr(statement, name)}
-        known = [c for body in bodies.values() for c in body if not self._is_fluent(c)]
-        left = {name: list(filter(self._is_fluent, body)) for name, body in bodies.items()}
+        known = [condition for condition in bodies(statement) if not self._is_open(condition)]
+        body = self._open(getattr(statement, "body", ()))
+        drawings = [
+            (own.variable, self._open(own.pool)) for own in getattr(statement, "drawings", ())
+        ]
         for values in product(*domains.values()):
             binding = dict(zip(domains, values, strict=True))
             if all(self._holds(condition, binding) for condition in known):
-                rest = {n: dict.fromkeys(instance(body, binding)) for n, body in left.items()}
-                yield binding, {name: tuple(body) for name, body in rest.items()}
+                drawn = (Draw(instance(v, binding), _each(pool, binding)) for v, pool in drawings)
+                yield binding, {"body": _each(body, binding), "drawings": tuple(drawn)}
 
-    def _is_fluent(self, part: syntax.Condition) -> bool:
-        return isinstance(part, syntax.Literal) and self.signature.kind(part.atom.name) in FLUENTS
+    def _open(self, body: syntax.Body) -> syntax.Body:
+        return tuple(filter(self._is_open, body))
+
+    def _is_open(self, part: syntax.Condition) -> bool:
+        """Whether it depends on the state, or on what the robot does, that a condition holds."""
+        kinds = FLUENTS | AGENT
+        return isinstance(part, syntax.Literal) and self.signature.kind(part.atom.name) in kinds
 
     def _holds(self, condition: syntax.Condition, binding: Binding) -> bool:
         """Whether a comparison or a static holds; a sort does, for its variable ranges over it."""
@@ -184,6 +192,11 @@ def instance(part: Any, binding: Binding) -> Any:
     return part
 
 
+def _each(body: syntax.Body, binding: Binding) -> Literals:
+    """The ground literals of a body, each once."""
+    return tuple(dict.fromkeys(instance(body, binding)))
+
+
 def _initially(instances: Instances) -> tuple[tuple[Fluent, ...], ...]:
     groups: dict[tuple[object, ...], list[Fluent]] = {}
     for number, statement in enumerate(instances.source.each(syntax.InitiallyStatement)):
@@ -199,12 +212,12 @@ def _defaults(instances: Instances) -> tuple[Default, ...]:
     for exception in instances.source.each(syntax.ExceptionStatement):
         assert exception.of is not None, "the checker has found every default"
         name = default_atom(exception.of, instances.signature)
-        for binding, bodies in instances.of(exception):
-            exceptions[instance(name, binding)].append(bodies["body"])
+        for binding, left in instances.of(exception):
+            exceptions[instance(name, binding)].append(left["body"])
     return tuple(
-        Default(of, instance(statement.head, binding), bodies["body"], tuple(exceptions[of]))
+        Default(of, instance(statement.head, binding), left["body"], tuple(exceptions[of]))
         for statement in instances.source.each(syntax.DefaultStatement)
         for name in [default_atom(statement, instances.signature)]
-        for binding, bodies in instances.of(statement)
+        for binding, left in instances.of(statement)
         if () not in exceptions[of := instance(name, binding)]
     )

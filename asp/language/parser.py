@@ -80,7 +80,7 @@ class ToSyntax(Transformer[Token, Any]):
     def listed(self, _: Meta, children: list[Any]) -> tuple[Any, ...]:
         return tuple(children)
 
-    sort_parts = members = sort_names = terms = compound = body = listed
+    sort_parts = members = sort_names = terms = compound = body = drawings = listed
 
     def range(self, meta: Meta, bounds: list[Token]) -> tuple[syntax.Term, ...]:
         low, high = map(int, bounds)
@@ -95,23 +95,21 @@ class ToSyntax(Transformer[Token, Any]):
         return self.__default__("cost_statement", [action, int(units)], meta)
 
     def trigger(self, meta: Meta, children: list[Any]) -> syntax.Statement:
-        scenario, event, upon, drawing, body, probability = children
-        drawn, pool = drawing or (None, ())
+        scenario, event, upon, drawings, body, probability = children
         return syntax.TriggerStatement(
             place_of(meta),
             meta.end_line,
             scenario=str(scenario),
             event=event,
             upon=None if isinstance(upon, Token) else upon,
-            drawn=drawn,
-            pool=pool,
+            drawings=drawings or (),
             body=body or (),
             probability=1.0 if probability is None else probability,
         )
 
-    def drawing(self, _: Meta, children: list[Any]) -> tuple[syntax.Term, syntax.Body]:
-        variable, body = children
-        return variable, body or ()
+    def drawing(self, _: Meta, children: list[Any]) -> syntax.Drawing:
+        variable, pool = children
+        return syntax.Drawing(variable, pool or ())
 
     def probability(self, _: Meta, children: list[Token]) -> float:
         return float(children[0])
@@ -185,6 +183,10 @@ def text_of(part: object) -> str:
             return f"{left.name} {'=' if positive else '!='} {right.name}"
         case tuple():
             return ", ".join(map(text_of, part))
+        case syntax.TriggerStatement():
+            return _trigger_text(part)
+        case syntax.QuietStatement(scenario=scenario):
+            return f"{scenario}: nothing."
         case syntax.SortDefinition(name=name, parts=parts):
             texts = (f"{{{text_of(p)}}}" if isinstance(p, tuple) else p.name for p in parts)
             return f"{name} = {' + '.join(texts)}."
@@ -196,3 +198,18 @@ def text_of(part: object) -> str:
     values = {n: text_of(v) for n, v in vars(part).items() if n not in ("place", "last_line")}
     body = f" if {values['body']}" if values.get("body") else ""
     return f"{_FORMS[type(part)].format(**values)}{body}."
+
+
+def _trigger_text(trigger: syntax.TriggerStatement) -> str:
+    drawings = (
+        f"{text_of(own.variable)}{f' with {text_of(own.pool)}' if own.pool else ''}"
+        for own in trigger.drawings
+    )
+    clauses = (
+        ("upon", "any" if trigger.upon is None else text_of(trigger.upon)),
+        ("drawing", " then ".join(drawings)),
+        ("if", text_of(trigger.body)),
+        ("probability", "" if trigger.probability == 1 else str(trigger.probability)),
+    )
+    said = (f"{word} {clause}" for word, clause in clauses if clause)
+    return f"{trigger.scenario}: {text_of(trigger.event)} {' '.join(said)}."

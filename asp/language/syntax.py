@@ -167,14 +167,20 @@ class ExceptionStatement(Statement):
     of: DefaultStatement | None = None
 
 
+class Drawing(Node):
+    """`variable with pool`: a value of the variable is drawn, of those for which the pool holds."""
+
+    variable: Term
+    pool: Body
+
+
 class TriggerStatement(Statement):
-    """`scenario: event upon action drawing V with pool if body probability p`."""
+    """`scenario: event upon action drawing V with pool then ... if body probability p`."""
 
     scenario: str
     event: Atom
     upon: Atom | None
-    drawn: Term | None
-    pool: Body
+    drawings: tuple[Drawing, ...]
     body: Body
     probability: float
 

@@ -12,9 +12,6 @@ AGENT = frozenset({"agent"})
 EXOGENOUS = frozenset({"exogenous"})
 ACTIONS = AGENT | EXOGENOUS
 SORT = "sort"
-BODIES = "pool", "body"
-"""The fields of statements that are conjunctions of conditions."""
-
 Domains = Mapping[str, tuple[str, ...]]
 """The domain of each variable of one statement."""
 
@@ -52,6 +49,7 @@ ROLES: dict[type[syntax.Statement], dict[str, Role]] = {
 }
 """The kinds of symbols that may stand in a field of a statement, beside its bodies."""
 _IN_BODIES = DOMAIN | {SORT}, "a fluent, a static or a sort in a body"
+_IN_TRIGGERS = DOMAIN | {SORT} | AGENT, "a fluent, a static, a sort or an agent action in a body"
 
 
 def uses(statement: syntax.Statement) -> Iterator[Use]:
@@ -62,8 +60,9 @@ def uses(statement: syntax.Statement) -> Iterator[Use]:
             if part is not None:
                 atom = part.atom if isinstance(part, syntax.Literal) else part
                 yield Use(atom, kinds, wanted)
+    in_bodies = _IN_TRIGGERS if isinstance(statement, syntax.TriggerStatement) else _IN_BODIES
     for literal in literals(bodies(statement)):
-        yield Use(literal.atom, *_IN_BODIES)
+        yield Use(literal.atom, *in_bodies)
 
 
 def scope(statement: syntax.Statement) -> Iterator[Use]:
@@ -90,8 +89,9 @@ def comparisons(body: Iterable[syntax.Condition]) -> Iterator[syntax.Comparison]
 
 def bodies(statement: syntax.Statement) -> Iterator[syntax.Condition]:
     """The conditions of all the bodies of a statement."""
-    for name in BODIES:
-        yield from getattr(statement, name, ())
+    for drawing in getattr(statement, "drawings", ()):
+        yield from drawing.pool
+    yield from getattr(statement, "body", ())
 
 
 def default_atom(default: syntax.DefaultStatement, signature: Signature) -> syntax.Atom:

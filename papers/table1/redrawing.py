@@ -28,7 +28,7 @@ def as_stated(world: World, scenario: str, rate: float | None = None) -> Law:
 
     @cache
     def law(state: int, action: Action) -> Chances:
-        drawable = [t for t in triggers if world.satisfies(state, t.pool)]
+        drawable = [t for t in triggers if world.satisfies(state, t.drawings[0].pool)]
         groups = _grouped(t for t in drawable if t.upon in (None, action))
         shares = []
         for own in groups.values():
@@ -85,11 +85,11 @@ def weight(record: TrialRecord, world: World, played: Law, other: Law) -> float:
     return quotient
 
 
-def _grouped(triggers: Iterable[Trigger]) -> dict[tuple[str, str | None], list[Trigger]]:
+def _grouped(triggers: Iterable[Trigger]) -> dict[tuple[str, str], list[Trigger]]:
     """By what is drawn: a value, for this kind of event."""
-    groups: dict[tuple[str, str | None], list[Trigger]] = {}
+    groups: dict[tuple[str, str], list[Trigger]] = {}
     for trigger in triggers:
-        groups.setdefault((trigger.event.name, trigger.drawn), []).append(trigger)
+        groups.setdefault((trigger.event.name, trigger.drawings[0].value), []).append(trigger)
     return groups
 
 
@@ -99,7 +99,7 @@ def _tried(trigger: Trigger, rate: float | None) -> float:
 
 def _possible(world: World, state: int, action: Action, trigger: Trigger) -> bool:
     own = [action] if world.executable(state, [action]) else []
-    applies = world.satisfies(state, (*trigger.pool, *trigger.body))
+    applies = world.satisfies(state, (*trigger.drawings[0].pool, *trigger.body))
     return applies and world.executable(state, [*own, trigger.event])
 
 

@@ -101,7 +101,7 @@ def _events_are_drawn(config: ExperimentConfig, triggers: Sequence[Trigger]) -> 
     rate = config.adversary.rate
     if not config.plays_triggers:
         return rate != 0
-    return any(t.drawn or _open(t.probability if rate is None else rate) for t in triggers)
+    return any(t.drawings or _open(t.probability if rate is None else rate) for t in triggers)
 
 
 def _news_is_drawn(config: ExperimentConfig) -> bool:

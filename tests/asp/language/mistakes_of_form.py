@@ -164,6 +164,27 @@ FORMS = {
         "19:3",
         "in scenario '2' something happens; see line 17",
     ),
+    "an action in the body of a law": (
+        "laws\n  lit if carry(T, L).",
+        "17:10",
+        "'carry' is an agent action",
+    ),
+    "an event as a condition of an event": (
+        "scenarios\n  2: blow upon any if blow.",
+        "17:23",
+        "this place needs a fluent, a static, a sort or an agent action in a body",
+    ),
+    "a variable that is drawn twice": (
+        "scenarios\n  2: blow upon any drawing T with loc(T, L) then L then T.",
+        "17:57",
+        "variable T is drawn already",
+    ),
+    "a draw after nothing": ("scenarios\n  2: blow upon any then T.", "17:20", "unexpected 'then'"),
+    "a draw of a constant": (
+        "scenarios\n  2: blow upon any drawing T with loc(T, hall) then hall.",
+        "17:53",
+        "unexpected 'hall'; expected a variable",
+    ),
     "a probability above 1": (
         "scenarios\n  2: blow upon any probability 2.",
         "17:3",

@@ -5,7 +5,7 @@ from itertools import product
 import pytest
 
 from asp import Description, load_description, parse_description
-from asp.language import Causal, Constraint, Default, Executability, Sees, Shows, Trigger
+from asp.language import Causal, Constraint, Default, Draw, Executability, Sees, Shows, Trigger
 
 # A harbour: ships of two kinds, berths in a row, cranes that serve some of them.
 SIGNATURE = """\
@@ -208,14 +208,27 @@ scenarios
         assert description.scenarios == ("gale", "calm", "7")
         assert description.triggers == (
             Trigger(
-                *("gale", "blow_up", "sail(carl,sea)", "carl"),
-                ("-loaded(carl)",),
+                *("gale", "blow_up", "sail(carl,sea)"),
+                (Draw("carl", ("-loaded(carl)",)),),
                 ("-storm",),
                 0.25,
             ),
-            Trigger("gale", "blow_up", None, None, (), (), 1.0),
-            Trigger("7", "blow_up", "load(anna)", None, (), ("storm",), 1.0),
+            Trigger("gale", "blow_up", None, (), (), 1.0),
+            Trigger("7", "blow_up", "load(anna)", (), ("storm",), 1.0),
         )
+
+    def test_a_trigger_has_its_draws_in_their_order_and_the_robots_action_as_a_condition(
+        self,
+    ) -> None:
+        text = """\
+scenarios
+  mine-field: blow_up upon any drawing P with P = sea then S with tug(S), -load(S), -at(S, P).
+"""
+        description = harbour(text)
+        assert description.scenarios == ("mine-field",)
+        assert [trigger.drawings for trigger in description.triggers] == [
+            (Draw("sea", ()), Draw("carl", ("-load(carl)", "-at(carl,sea)")))
+        ]
 
 
 class TestOffice:

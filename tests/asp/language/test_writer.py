@@ -19,6 +19,8 @@ SECTIONS = {
     syntax.SeesStatement: "sees",
     syntax.ShowsStatement: "shows",
     syntax.InitiallyStatement: "initially",
+    syntax.TriggerStatement: "scenarios",
+    syntax.QuietStatement: "scenarios",
 }
 OTHER = """\
 sorts
@@ -32,6 +34,10 @@ laws
   impossible ring, knock(A) if flag, A = x, A != 1.
   ring causes -flag.
   flag.
+scenarios
+  quiet-night: nothing.
+  1: knock(A) upon ring drawing A with A != x, -ring if -flag probability 0.5.
+  1: knock(A) upon any drawing A.
 """
 
 
