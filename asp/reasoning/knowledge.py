@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -11,7 +12,7 @@ from clingo import Symbol
 from asp.language import Action, Description, Literal, parse_description
 from asp.reasoning.determinism import deterministic_by_form
 from asp.reasoning.qualifications import qualifications
-from asp.solving import State, fact
+from asp.solving import LimitError, State, fact
 from asp.translation import translate
 
 # A robot whose domain follows from its goal has as many domains as goals.
@@ -39,8 +40,13 @@ class Knowledge:
 
     @staticmethod
     def of(description: Description, translation: str) -> Knowledge:
-        """The knowledge of a description and its translation. Raises LimitError."""
-        rules = [each.rule for each in qualifications(description, translation)]
+        """The knowledge of a description and its translation.
+
+        Where there are too many conditions of actions without a successor it has some of them.
+        """
+        rules: list[str] = []
+        with suppress(LimitError):
+            rules.extend(each.rule for each in qualifications(description, translation))
         more = ["", "% What no state can follow, though no law says so.", *rules] if rules else []
         return Knowledge(description, "\n".join([translation, *more]))
 

@@ -19,8 +19,23 @@ from asp.reasoning.contradictions import suspects
 from asp.reasoning.laws import laws, term
 from asp.reasoning.relevance import interchangeable
 from asp.reasoning.successors import Transitions, in_order
-from asp.solving import State, fact, first_model, ground, literal_of, select, theory
+from asp.solving import (
+    LimitError,
+    Limits,
+    State,
+    deciding,
+    fact,
+    first_model,
+    ground,
+    literal_of,
+    select,
+    theory,
+)
 
+LIMITS = Limits(conflicts=200_000, ground_rules=2_000_000)
+"""What it may take to find one case."""
+MOST_CASES = 300
+"""How many cases are looked at: there may be exponentially many conditions."""
 _FIRST_STRATEGY = 3
 _Names = Mapping[str, str]
 """What constants are called instead."""
@@ -44,22 +59,30 @@ class Qualification(NamedTuple):
         return f"disqualified({self.action},I) :- {', '.join((*body, 'step(I)'))}."
 
 
-def qualifications(description: Description, program: str) -> list[Qualification]:
+def qualifications(description: Description, program: str) -> Iterator[Qualification]:
     """Conditions that together say in which states an action of the agent's has no successor.
 
     Every state is looked at, whatever the size of the diagram, but those in which a law says that
     the action is impossible. No literal of a condition can be left out. `program` is the
     translation of the description. Of actions that differ only in constants which no law tells
-    apart one is looked at. Raises LimitError.
+    apart one is looked at. Raises LimitError behind the conditions that were found, where there are
+    more than `MOST_CASES` cases or one takes more than `LIMITS`.
     """
     suspected = suspects(description)
     if not suspected:
-        return []
+        return
     alike = _alike(suspected, interchangeable(*analyse(description.source, description.name)))
-    search = _Search(description, program, alike)
-    while (case := search.next()) is not None:
-        search.learn(case)
-    return [found.renamed(names) for found in search.found for names in alike[found.action]]
+    with deciding(LIMITS):
+        search = _Search(description, program, alike)
+    for _ in range(MOST_CASES):
+        with deciding(LIMITS):
+            case = search.next()
+            if case is None:
+                return
+            found = search.learn(case)
+        if found is not None:
+            yield from (found.renamed(names) for names in alike[found.action])
+    raise LimitError(f"there are more than {MOST_CASES} cases")
 
 
 def _alike(
@@ -99,7 +122,7 @@ class _Search:
     """The cases of a description that neither a condition nor a strategy covers."""
 
     def __init__(self, description: Description, program: str, suspected: Iterable[Action]) -> None:
-        self.found: list[Qualification] = []
+        self._found: list[Qualification] = []
         self._description = description
         self._program = program
         self._facts = [*laws(description), *(fact("suspect", action) for action in suspected)]
@@ -122,19 +145,23 @@ class _Search:
         )
         return _Case(frozenset(f for f in now if f.is_positive), literal_of(action), certain)
 
-    def learn(self, case: _Case) -> None:
-        """Covers a case: by a strategy where there is a successor, else by a condition."""
+    def learn(self, case: _Case) -> Qualification | None:
+        """Covers a case: by a strategy where there is a successor, else by a condition.
+
+        Raises LimitError.
+        """
         outcomes = self._transitions.outcomes(case.state, (case.action,))
         if outcomes:
             after = in_order(outcomes, self._description.fluents)[0]
             self._try(self._given_up(case, after))
-            return
-        self.found.append(
-            Qualification(case.action, self._transitions.hindrance(case.state, case.action))
-        )
-        name = f"condition{len(self.found)}"
-        self._control.add(name, [], _excluded(self.found[-1]))
+            return None
+        body = self._transitions.hindrance(case.state, case.action)
+        found = Qualification(case.action, body)
+        self._found.append(found)
+        name = f"condition{len(self._found)}"
+        self._control.add(name, [], _excluded(found))
         self._control.ground([(name, [])])
+        return found
 
     def _given_up(self, case: _Case, after: State) -> Iterator[Symbol]:
         """The literals that are given up for a successor, beside those that have to be."""
@@ -147,7 +174,7 @@ class _Search:
         """One more strategy."""
         self._facts += [*given_up, fact("strategy", self._strategies)]
         self._strategies += 1
-        texts = [self._program, theory("qualifications"), *map(_excluded, self.found)]
+        texts = [self._program, theory("qualifications"), *map(_excluded, self._found)]
         self._control = ground(texts, {"n": 0}, self._facts)
 
 

@@ -65,6 +65,12 @@ class Statement:
     body: tuple[Atom, ...] = ()
     name: str = ""
 
+    @property
+    def names_a_constant(self) -> bool:
+        """Whether an atom has a term that is no variable."""
+        atoms = *self.heads, *self.body
+        return any(not term[0].isupper() for atom in atoms for term in atom.terms)
+
     def __str__(self) -> str:
         heads = [*map(str, self.heads)]
         said = _FORMS[self.kind][1].format(*heads, all=", ".join(heads), name=self.name)
@@ -86,6 +92,12 @@ class Description:
     def saying(self, more: Iterable[Statement]) -> Description:
         """The description with more statements."""
         return replace(self, statements=(*self.statements, *more))
+
+    @property
+    def schematic(self) -> Description:
+        """The description without the statements that name a constant, but for robots that see."""
+        said = (s for s in self.statements if not s.names_a_constant)
+        return replace(self, statements=tuple(said))
 
     @cached_property
     def text(self) -> str:

@@ -1,6 +1,7 @@
 """The program, both worlds, both planners and derived conditions, against the definition."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import product
 
 from asp.language import Literal, analyse
@@ -56,9 +57,18 @@ def check_diagram(case: Case) -> None:
 
 
 def check_qualifications(case: Case) -> None:
-    """Where an action of the agent's has no successor, and where a law or a condition says so."""
+    """Where an action of the agent's has no successor, and where a law or a condition says so.
+
+    Also if no statement names a constant, so that many actions are alike.
+    """
+    for each in case, replace(case, description=case.description.schematic):
+        if each.is_of_the_language:
+            _check_qualifications(each)
+
+
+def _check_qualifications(case: Case) -> None:
     known, domain = case.definition, case.domain
-    found = qualifications(domain.description, translate(case.description.text, FILE))
+    found = list(qualifications(domain.description, translate(case.description.text, FILE)))
     for state, action in product(known.states, known.own):
         conditions = [one.body for one in found if one.action == action]
         agree(

@@ -1,7 +1,8 @@
-"""Warnings of a description in which an action has several outcomes."""
+"""Warnings of a description in which an action has several outcomes, or none."""
 
 from asp.language import Description
 from asp.reasoning.determinism import Branching, branchings
+from asp.reasoning.qualifications import Qualification, qualifications
 from asp.solving import LimitError
 from testbed.text import warn
 
@@ -19,6 +20,24 @@ def warn_of_branching(description: Description, program: str, file: str) -> None
         return
     for each in found:
         warn(f"{file}: warning: {_told(each, description)} (all states were searched)")
+
+
+def warn_of_qualifications(description: Description, program: str, file: str) -> None:
+    """Say on standard error which actions contradict constraints, though no law forbids them.
+
+    `program` is the translation of the description. One line per action, whatever its arguments,
+    with one condition; or that the search for all conditions came to no end.
+    """
+    found: dict[str, Qualification] = {}
+    try:
+        for each in qualifications(description, program):
+            found.setdefault(each.action.name, each)
+    except LimitError as limit:
+        warn(f"{file}: warning: not known where all actions contradict constraints: {limit}")
+    for one in found.values():
+        body = ", ".join(one.body) or "any state"
+        why = "its effects contradict a constraint, and no law says that it is impossible"
+        warn(f"{file}: warning: {one.action} cannot be executed where {body}: {why}")
 
 
 def _told(found: Branching, description: Description) -> str:

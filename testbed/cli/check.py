@@ -8,11 +8,12 @@ EPILOG = examples("testbed check quickstart scenarios=[5] limits.steps=40")
 def command(config: Config, overrides: Overrides = None) -> None:
     """Validate a configuration and print it as resolved.
 
-    A warning says where an action of its domain has several outcomes.
+    A warning says where an action of its domain has several outcomes, and where its effects
+    contradict a constraint though no law says that it is impossible.
     """
     from asp.language import parse_description, read_domain
     from asp.translation import translate
-    from testbed.cli.branching import warn_of_branching
+    from testbed.cli.branching import warn_of_branching, warn_of_qualifications
     from testbed.cli.loading import load
     from testbed.experiment.run_folder import config_text
 
@@ -21,4 +22,6 @@ def command(config: Config, overrides: Overrides = None) -> None:
         emit(config_text(resolved))
         if not resolved.levels:  # each level's domain is made of rooms and cells, and branches not
             file, text = read_domain(resolved.domain)
-            warn_of_branching(parse_description(text, file), translate(text, file), file)
+            told = parse_description(text, file), translate(text, file), file
+            warn_of_branching(*told)
+            warn_of_qualifications(*told)

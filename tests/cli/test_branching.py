@@ -9,7 +9,7 @@ import clingo
 import pytest
 from typer.testing import CliRunner, Result
 
-from asp.reasoning import determinism
+from asp.reasoning import determinism, qualifications
 from asp.solving import Limits
 from asp.translation import translate
 from testbed.cli import app
@@ -35,6 +35,23 @@ scenarios: none
 robots: [intentional]
 link: inprocess
 limits: {plan: 5, steps: 14}
+"""
+JARS = """\
+sorts
+  cook = {ada}.
+  jar  = {tall, flat}.
+fluents
+  inertial lidded(jar).
+  inertial brimming(jar).
+actions
+  agent cap(jar).
+  exogenous overfill(jar).
+sees
+  ada sees lidded(J).
+laws
+  cap(J) causes lidded(J).
+  overfill(J) causes brimming(J).
+  -lidded(J) if brimming(J).
 """
 NAMED = [
     (DIE, "up(one)", ("throw", "up(", "|")),
@@ -90,6 +107,22 @@ def test_a_search_that_comes_to_no_end_is_said_to_have_come_to_none(
     (line,) = _warnings(_call("translate", "own.al"))
     assert "own.al" in line
     assert "throw" not in line
+
+
+def test_an_action_whose_effects_contradict_a_constraint_is_told_of_once() -> None:
+    _written(JARS, "lidded(tall)")
+    (line,) = _warnings(_call("check", "own.yaml"))
+    assert all(word in line for word in ("own.al", "warning", "cap(", "brimming("))
+    _written(JARS + "  impossible cap(J) if brimming(J).\n", "lidded(tall)")
+    assert not _warnings(_call("check", "own.yaml"))
+
+
+def test_a_search_for_such_actions_may_come_to_no_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(qualifications, "MOST_CASES", 0)
+    _written(JARS, "lidded(tall)")
+    (line,) = _warnings(_call("check", "own.yaml"))
+    assert "own.al" in line
+    assert "cap(" not in line
 
 
 def test_a_plan_may_be_asked_to_be_conformant() -> None:

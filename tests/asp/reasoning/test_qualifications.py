@@ -4,13 +4,18 @@ from pathlib import Path
 
 import pytest
 
-from asp.language import parse_description
+from asp.language import analyse, parse_description
+from asp.reasoning import knowledge
 from asp.reasoning.contradictions import suspects
 from asp.reasoning.qualifications import qualifications
+from asp.reasoning.relevance import interchangeable
+from asp.solving import LimitError
 from asp.translation import translate
-from benchmarks.descriptions.case import Case
+from benchmarks.descriptions.case import FILE, Case
+from benchmarks.descriptions.language import mistakes
 from benchmarks.descriptions.transitions import check_qualifications
 
+SEEDS = range(100, 130)
 DOOR = """
 fluents
   inertial open.
@@ -85,7 +90,43 @@ def test_what_the_form_of_laws_clears_is_not_looked_at() -> None:
     assert [str(action) for action in suspects(parse_description(DOOR))] == ["push"]
 
 
-@pytest.mark.parametrize("seed", range(100, 130))
+def test_the_search_ends_where_there_are_exponentially_many() -> None:
+    """Each of ten wedges is in, or one of two pins drives it in while the door opens: 3 ** 10."""
+    number = 10
+    wedges = "".join(
+        f"  wedged{n} if open, left{n}.\n  wedged{n} if open, right{n}.\n" for n in range(number)
+    )
+    fluents = "".join(
+        f"  inertial {name}{n}.\n" for name in ("left", "right", "wedged") for n in range(number)
+    )
+    together = ", ".join(f"wedged{n}" for n in range(number))
+    text = (
+        f"fluents\n  inertial open.\n{fluents}actions\n  agent push.\n"
+        f"laws\n  push causes open.\n{wedges}  -open if {together}.\n"
+    )
+    found = qualifications(parse_description(text), translate(text))
+    first = next(found)
+    assert {str(each)[-1] for each in first.body} == set(map(str, range(number)))
+    with pytest.raises(LimitError):
+        list(found)
+    rules = knowledge("door", text).program
+    assert first.rule in rules  # what was found is known all the same
+
+
+def test_random_descriptions_have_actions_that_are_alike_and_conditions(tmp_path: Path) -> None:
+    """Otherwise the comparison below would say nothing of them."""
+    counted = 0
+    for seed in SEEDS:
+        text = Case.of(seed, tmp_path).description.schematic.text
+        if not mistakes(text, tmp_path / FILE):
+            found = {one.action for one in qualifications(parse_description(text), translate(text))}
+            classes = interchangeable(*analyse(text, FILE))
+            alike = {constant for members in classes if len(members) > 1 for constant in members}
+            counted += any(alike.intersection(action.arguments) for action in found)
+    assert counted >= 3
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 def test_random_descriptions_have_the_conditions_of_their_definition(
     seed: int, tmp_path: Path
 ) -> None:
