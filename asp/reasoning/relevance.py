@@ -46,7 +46,6 @@ class Relevance:
         self.obstacles = frozenset(
             literal.atom.name
             for law in self._laws
-            if isinstance(law, syntax.ExecutabilityCondition)
             for literal in self._loose(law, self.independent)
         )
 

@@ -43,15 +43,30 @@ sorts
 fluents
   inertial lidded(jar).
   inertial brimming(jar).
+  inertial washed(jar).
 actions
+  agent wash(jar).
   agent cap(jar).
+  agent pour(jar).
   exogenous overfill(jar).
 sees
   ada sees lidded(J).
 laws
-  cap(J) causes lidded(J).
+  wash(J) causes washed(J).
+  cap(J) causes lidded(J) if washed(J).
+  pour(J) causes -brimming(J).
   overfill(J) causes brimming(J).
   -lidded(J) if brimming(J).
+"""
+JARS_PLAYED = """
+name: jars
+domain: own.al
+goal: ["lidded(tall)"]
+initial: []
+script: [{at_action: 1, action: overfill(tall)}]
+robots: [intentional, intentional-joint]
+link: inprocess
+limits: {plan: 3, steps: 16}
 """
 NAMED = [
     (DIE, "up(one)", ("throw", "up(", "|")),
@@ -183,17 +198,34 @@ def test_a_robot_that_makes_no_conformant_plans_is_not_asked_for_them() -> None:
     assert "plans" in result.stderr
 
 
+def _solved_one_by_one(text: str, config: str) -> dict[str, list[str]]:
+    """What each robot intended at each step, as clingo says and as the run did."""
+    Path("own.al").write_text(text, encoding="utf-8")
+    Path("own.yaml").write_text(config, encoding="utf-8")
+    assert _call("run", "own.yaml", "seed=1", "--out", "run", "--quiet").exit_code == 0
+    told = {}
+    for line in Path("run", "trials.jsonl").read_text(encoding="utf-8").splitlines():
+        record = json.loads(line)
+        asked = ("replay", "run", "--trial", record["trial"], "--program", "--step")
+        steps = range(1, record["steps"] + 1)
+        answers = [_solved(_call(*asked, str(step)).stdout) for step in steps]
+        mental = {each["step"]: each["action"] for each in record["mental"]}
+        physical = {each["step"]: each["action"] for each in record["actions"]}
+        assert answers == [(mental | physical)[step] for step in steps]
+        told[record["robot"]] = answers
+    return told
+
+
 def test_clingo_alone_solves_the_program_of_each_decision() -> None:
     """Whether an activity is futile depends on outcomes."""
-    Path("own.al").write_text(DOOR, encoding="utf-8")
-    Path("own.yaml").write_text(DOOR_PLAYED, encoding="utf-8")
-    assert _call("run", "own.yaml", "seed=1", "--out", "run", "--quiet").exit_code == 0
-    record = json.loads(Path("run", "trials.jsonl").read_text(encoding="utf-8"))
-    asked = ("replay", "run", "--trial", record["trial"], "--program", "--step")
-    answers = [_solved(_call(*asked, str(step)).stdout) for step in range(1, record["steps"] + 1)]
-    mental = {each["step"]: each["action"] for each in record["mental"]}
-    physical = {each["step"]: each["action"] for each in record["actions"]}
-    assert answers == [(mental | physical)[step] for step in range(1, record["steps"] + 1)]
+    assert _solved_one_by_one(DOOR, DOOR_PLAYED)
+
+
+def test_clingo_alone_solves_those_about_what_no_state_could_follow() -> None:
+    """The jar was overfilled unseen: an attempt to cap it fails, and is explained."""
+    for answers in _solved_one_by_one(JARS, JARS_PLAYED).values():
+        attempts = [answer for answer in answers if answer.endswith("(tall)")]
+        assert attempts == ["wash(tall)", "cap(tall)", "pour(tall)", "cap(tall)"]
 
 
 def _solved(program: str) -> str:

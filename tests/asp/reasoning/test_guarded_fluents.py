@@ -2,6 +2,7 @@
 
 import pytest
 
+from asp import Domain
 from asp.language import analyse, syntax
 from asp.language import variable_sorts as roles
 from asp.reasoning.relevance import comes_true_only_while
@@ -67,3 +68,32 @@ def test_another_way_for_it_to_come_true_is_not_guarded(law: str) -> None:
 
 def test_what_makes_it_false_needs_no_guard() -> None:
     assert guarded(f"{HAND}  wave(R) causes -in_hand(R, O).\n")
+
+
+BARN = """\
+sorts
+  farmer = {bea}.
+  bale   = {hay, straw}.
+fluents
+  inertial ajar.
+  inertial against(bale).
+actions
+  agent pull.
+  agent lean(bale).
+  agent drag(bale).
+laws
+  pull    causes ajar.
+  lean(B) causes against(B).
+  drag(B) causes -against(B).
+  -ajar if against(B).
+  impossible lean(B) if ajar.
+sees
+  bea sees ajar.
+"""
+
+
+def test_what_a_constraint_says_of_a_constant_may_be_in_the_way_of_a_plan() -> None:
+    """No law says that it is impossible to pull a door against which a bale leans."""
+    barn = Domain(BARN, "barn.al")
+    assert barn.plan("against(hay)", "ajar") == ("drag(hay)", "pull")
+    assert barn.plan("", "ajar") == ("pull",)

@@ -90,6 +90,24 @@ def test_an_attempt_that_kept_failing_was_rather_not_executed_than_hindered() ->
     assert [e.action for e in adopted.distrusted] == ["kindle"]
 
 
+def _hindered(step: int, action: str) -> Tell:
+    def tell(history: History) -> None:
+        history.attempt(Literal.parse(action), step)
+        history.happened(Literal.parse(action), False, step)
+
+    return tell
+
+
+@pytest.mark.parametrize("step", [2, 4, 6])
+def test_what_no_state_could_follow_was_hindered_by_what_nobody_saw(step: int) -> None:
+    """No law says that it is impossible to kindle in a wet kiln."""
+    source = KILN.replace("impossible kindle if wet", "-lit if wet")
+    adopted = _believed(source, DRY, _hindered(step, "kindle"), _told(LONG, "-lit"))
+    (rain,) = adopted.unobserved
+    assert (rain.action, rain.step < step) == ("rain", True)
+    assert not adopted.distrusted
+
+
 REPORTS = """
 fluents
   inertial lit.
