@@ -43,7 +43,7 @@ def alternative_faults(turn: Turn) -> Iterator[Fault]:
     trace, adopted = turn.decision.trace, turn.adopted
     if trace.explanation is None or not turn.ends or not turn.is_proved or turn.is_limited:
         return
-    listed = list(map(Assumptions.of, trace.alternatives))
+    listed = list(map(Assumptions.of, trace.alternatives or ()))
     for each in listed:
         if each == adopted or each.price != adopted.price or not turn.search.outcomes(each):
             yield turn.fault("explanation", f"{each} is no alternative to {adopted}")

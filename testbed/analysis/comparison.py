@@ -6,6 +6,7 @@ from typing import Any
 
 import polars as pl
 
+from testbed.analysis import explanations, quality
 from testbed.analysis.pairs import Compared
 from testbed.config import ExperimentConfig
 from testbed.experiment.record import FAILURES
@@ -64,7 +65,8 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
     and nothing was done; `quiet`: nothing
     exogenous happened; `out_of_reach`: the goal could not be achieved any more at the end. A trial
     that the robot's own error ended is neither idle nor quiet: what it would have been is not
-    known. `state` names the initial state. The other columns are `DIVIDED`.
+    known. `state` names the initial state. The other columns are `DIVIDED`, and those of how well
+    the robot explained: what is counted, and the shares and means.
     """
     failure, own = pl.col("outcome").is_in(FAILURES), pl.col("cause").eq_missing("robot")
     still = (pl.col("activities").list.len() == 0) & (pl.col("actions").list.len() == 0)
@@ -83,6 +85,8 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
         quiet=(pl.col("exogenous").list.len() == 0) & ~failed,
         state=pl.col("initial").list.join(" "),
         **{name: measure.cast(pl.Float64) for name, measure in DIVIDED.items()},
+        **{name: pl.col(name) for name in explanations.KINDS},
+        **quality.values(),
     )
 
 

@@ -15,7 +15,7 @@ from testbed.analysis.table import Run
 VALUES: Mapping[str, pl.Expr] = {
     "achieved": pl.col("achieved").cast(pl.Float64),
     "actions": pl.when("achieved").then("actions"),
-    "explanations": pl.col("explained"),
+    "explanations": pl.col("told"),
     "reasoning": 1000 * pl.col("reasoning_time"),
 }
 """What a trial counts for in the mean of each measure; null: it does not count."""
@@ -43,7 +43,7 @@ def estimates(run: Run, measures: Iterable[str]) -> tuple[Compared, dict[str, Co
 
 
 def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
-    rows = measured(run.trials).with_columns(explained=run.trials["explanations"].list.len())
+    rows = measured(run.trials).with_columns(told=run.trials["explanations"].list.len())
     counted = with_apart(rows, main, eventful(run.config)).filter(pl.col("apart").is_null())
     both = pairs_of(counted, main).filter("achieved", "achieved" + OTHER)
     cost = Sample(both, cluster=cluster_of(both)).ended.ratio("actions").mean

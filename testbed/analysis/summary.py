@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 import polars as pl
 
-from testbed.analysis import comparison
+from testbed.analysis import comparison, quality
 from testbed.analysis.comparison import ACCURACY, COUNTS, DIVIDED, MEASURES, TIMES
 from testbed.analysis.pairs import OTHER, Compared, Sample, corrected, pairs_of
 from testbed.analysis.statistics import Test
@@ -17,6 +17,9 @@ from testbed.experiment.run_folder import SUMMARY, replace_text
 
 Tests: TypeAlias = Mapping[str, Test | None]
 PLACES = {"scenarios": "scenario", "levels": "level"}
+MAIN, EXPLANATIONS = "", "explanation_tests"
+FAMILIES = (MAIN, EXPLANATIONS)
+"""Tests that are corrected together; those of explanations are a part of the summary."""
 
 
 def write_summary(
@@ -54,9 +57,9 @@ def summarise(
     these numbers. `sure` are the eventful scenarios: a pair of theirs without its event is counted
     apart, and so is every other that compares nothing (`with_apart`). A ratio is left out of the
     mean where the treatment's measure is 0; a measure without any ratio, and a test without any
-    difference, is null. P-values are corrected over all groups; those of the same robots and pairs,
-    as of the only scenario of a level, are one. A group is that of the main comparison; those of
-    further ones are in its `treatments`, by the name of the robot.
+    difference, is null. P-values are corrected over all groups, those of explanations apart; those
+    of the same robots and pairs, as of the only scenario of a level, are one. A group is that of
+    the main comparison; those of further ones are in its `treatments`, by the name of the robot.
     """
     rows = comparison.measured(trials)
     names = rows["robot"].unique(maintain_order=True)
@@ -66,10 +69,14 @@ def summarise(
         for key, column in PLACES.items()
         for own in comparison.with_apart(rows, robots, sure).partition_by(column)
     }
-    tests = corrected({(robots, pairs): t for (*_, robots), (pairs, _, t) in found.items()})
+    families = {
+        family: corrected({(own[-1], pairs): t[family] for own, (pairs, _, t) in found.items()})
+        for family in FAMILIES
+    }
     groups: dict[str, Any] = {key: {} for key in PLACES}
     for (key, name, robots), (pairs, values, _) in found.items():
-        summary = {**values, **_of_tests(tests[robots, pairs])}
+        tests = {family: _of_tests(own[robots, pairs]) for family, own in families.items()}
+        summary = {**values, **tests.pop(MAIN), **tests}
         if robots == comparisons[0]:
             groups[key][name] = summary
         else:
@@ -85,11 +92,11 @@ def summarise(
 
 def _group(
     trials: pl.DataFrame, robots: Compared, names: Iterable[str]
-) -> tuple[frozenset[str], dict[str, Any], Tests]:
+) -> tuple[frozenset[str], dict[str, Any], Mapping[str, Tests]]:
     """Of the trials of a scenario or level, `with_apart`: the pairs that count, values, and tests.
 
-    `names` are the run's robots in order. Tests are by measure, of the baseline's less the
-    treatment's; of `accuracy` the other way round.
+    `names` are the run's robots in order. Tests are by family and measure, of the baseline's less
+    the treatment's; of `accuracy`, and shares of explanations, the other way round.
     """
     reasons = Counter(trials.unique("pair")["apart"].drop_nulls().to_list())
     counted = trials.filter(pl.col("apart").is_null())
@@ -110,8 +117,14 @@ def _group(
         "times": {name: ratios[name] for name in TIMES},
         "unproved_steps": {name: rows["unproved_steps"].mean() for name, rows in own.items()},
         "optimum": {name: comparison.optimum(rows) for name, rows in own.items()},
+        "explanations": {
+            name: explained
+            for name, rows in own.items()
+            if (explained := quality.numbers(rows.filter("ended")))
+        },
     }
-    return frozenset(counted["pair"]), values, tests | {ACCURACY: both.decided.mcnemar("correct")}
+    tests[ACCURACY] = both.decided.mcnemar("correct")
+    return frozenset(counted["pair"]), values, {MAIN: tests, EXPLANATIONS: quality.tests(ended)}
 
 
 def _of_tests(tests: Tests) -> dict[str, dict[str, float | None]]:

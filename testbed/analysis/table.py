@@ -11,6 +11,7 @@ import msgspec
 import polars as pl
 from msgspec import inspect
 
+from testbed.analysis import explanations
 from testbed.config import ExperimentConfig, conditions_of
 from testbed.experiment import StoreError
 from testbed.experiment.record import TrialRecord
@@ -104,12 +105,17 @@ def schema() -> dict[str, pl.DataType]:
     """The columns of the table with their types, which follow from those of a record.
 
     What a trial was played under has a column per key, `condition.KEY`; lists and parts of it are
-    JSON text.
+    JSON text. What is counted of its explanations is in columns `quality.NAME`, derived from the
+    record.
     """
     columns = {field.name: field.type for field in _fields(TrialRecord) if field.name != CONDITION}
     return {
         **{name: _column(kind) for name, kind in columns.items()},
         **{f"{CONDITION}.{own.name}": _scalar(own.type) or pl.String() for own in _fields(Setting)},
+        **{
+            name: pl.Int64() if kind is int else pl.Float64()
+            for name, kind in explanations.KINDS.items()
+        },
     }
 
 
@@ -125,7 +131,7 @@ def _row(record: TrialRecord) -> dict[str, Any]:
     own = {field.name: getattr(record.condition, field.name, None) for field in _fields(Setting)}
     del row[CONDITION]
     told = {f"{CONDITION}.{name}": _told(value) for name, value in own.items()}
-    return row | told
+    return row | told | explanations.columns_of(record)
 
 
 def _told(value: object) -> object:
@@ -134,6 +140,8 @@ def _told(value: object) -> object:
 
 def _nested(row: dict[str, Any]) -> dict[str, Any]:
     """A row of the table with the parts of a record, as these are nested there."""
+    for name in explanations.KINDS:
+        row.pop(name, None)
     own = {f.name: (row.pop(f"{CONDITION}.{f.name}", None), f.type) for f in _fields(Setting)}
     if own["domain"][0] is None:
         return row

@@ -75,7 +75,8 @@ class Explained(msgspec.Struct):
     `distrusted` are reports that it takes for false, own attempts that were not executed, and
     fluents that a test was wrong about; `outcomes` are actions whose outcome was another one than
     it expected; `alternatives` is the number of other explanations that are
-    as small; there are more of them if `more_alternatives`. `minimal` is
+    as small, None where the robot does not look for them (0 in older records); there are more of
+    them if `more_alternatives`. `minimal` is
     `unproved` where the budget of the decision did not suffice to rule out a smaller one.
     """
 
@@ -85,7 +86,7 @@ class Explained(msgspec.Struct):
     distrusted: list[At] = []
     outcomes: list[At] = []
     contradictions: list[Contradiction] = []
-    alternatives: Count = 0
+    alternatives: Count | None = None
     more_alternatives: bool = False
     minimal: Minimality = "proved"
 

@@ -152,7 +152,7 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
         distrusted=[At(event.step, event.action) for event in explanation.distrusted],
         outcomes=[At(event.step, event.action) for event in explanation.outcomes],
         contradictions=trace.contradictions,
-        alternatives=len(trace.alternatives),
+        alternatives=None if trace.alternatives is None else len(trace.alternatives),
         more_alternatives=trace.more_alternatives,
         minimal=explanation.minimal,
     )

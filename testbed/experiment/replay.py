@@ -158,7 +158,7 @@ class Narrator:
         if trace.explanation is not None:
             unproved = "; minimal: unproved" * (trace.explanation.minimal == "unproved")
             yield f"  explanation  {explanation(trace.explanation)}{unproved}"
-        yield from (f"    or         {explanation(other)}" for other in trace.alternatives)
+        yield from (f"    or         {explanation(other)}" for other in trace.alternatives or ())
         if trace.more_alternatives:
             yield "    or         others, not all of which are listed"
         yield f"  intention    {trace.intention or '-'}{self._new_plan(trace)}"

@@ -89,19 +89,19 @@ class Trace(Part, frozen=True, kw_only=True):
     and where the time for the decision ran out), ``belief`` the atoms believed true,
     ``explanation`` is given at the step at which it is newly adopted; with it come
     ``contradictions``, which made it needed, and ``alternatives``, the other explanations that
-    are as small (``more_alternatives`` if not all are given). ``reason`` says why the intention
-    is what it is; where an activity is stopped, ``futile_at`` is the first step at which its
-    plan, projected from now on, breaks. ``plans`` is the number of activities so far. Times are
-    seconds for this step, without those for reasons: ``planning_time_s`` and
-    ``diagnosis_time_s`` by the wall clock, ``planning_cpu_s`` and ``diagnosis_cpu_s`` in
-    process time of the robot, its solver included; all four without ``preparation_cpu_s``, the
-    process time spent on what other decisions and trials can reuse: encoding, grounding, sets
-    of states. At the first step that of beginning the trial is with it. ``no_plan`` is given by
-    a robot that gives up. ``minimal`` says whether it is proved, of the history up to this step,
-    that no explanation is smaller than the one the decision was made under; None: the robot does
-    not tell. ``deadline`` says that the decision was cut off by the clock, so that it need not be
-    the same on another machine. ``unheeded`` are the literals that the robot sees, does not heed,
-    and believes to be false; None: the robot does not tell.
+    are as small (``more_alternatives`` if not all are given; None: the robot does not look for
+    them). ``reason`` says why the intention is what it is; where an activity is stopped,
+    ``futile_at`` is the first step at which its plan, projected from now on, breaks. ``plans`` is
+    the number of activities so far. Times are seconds for this step, without those for reasons:
+    ``planning_time_s`` and ``diagnosis_time_s`` by the wall clock, ``planning_cpu_s`` and
+    ``diagnosis_cpu_s`` in process time of the robot, its solver included; all four without
+    ``preparation_cpu_s``, the process time spent on what other decisions and trials can reuse:
+    encoding, grounding, sets of states. At the first step that of beginning the trial is with it.
+    ``no_plan`` is given by a robot that gives up. ``minimal`` says whether it is proved, of the
+    history up to this step, that no explanation is smaller than the one the decision was made
+    under; None: the robot does not tell. ``deadline`` says that the decision was cut off by the
+    clock, so that it need not be the same on another machine. ``unheeded`` are the literals that
+    the robot sees, does not heed, and believes to be false; None: the robot does not tell.
     ``fine`` is given by robots that act at the fine resolution; the rest is then about the coarse
     one, empty in the steps between the first and the last of an abstract action.
     """
@@ -113,7 +113,7 @@ class Trace(Part, frozen=True, kw_only=True):
     belief: Items[Literal] = []
     explanation: Explanation | None = None
     contradictions: Items[Contradiction] = []
-    alternatives: Items[Explanation] = []
+    alternatives: Items[Explanation] | None = None
     more_alternatives: bool = False
     futile_at: Count | None = None
     no_plan: NoPlan | None = None

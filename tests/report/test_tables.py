@@ -7,6 +7,7 @@ import msgspec
 import polars as pl
 import pytest
 
+from asp.language import Literal
 from testbed.analysis.comparison import Apart
 from testbed.analysis.table import table_of
 from testbed.experiment.record import At, Explained, Occurrence, TrialRecord
@@ -62,7 +63,10 @@ def test_one_trial_a_row_is_shown_as_it_was() -> None:
 
 
 def test_several_trials_are_counted_and_averaged() -> None:
-    explanations = [Explained(3, [At(2, "e")], ["-d"]), Explained(5, [At(2, "e")], [])]
+    explanations = [
+        Explained(3, [At(2, "e")], [Literal.parse("-d")]),
+        Explained(5, [At(2, "e")], []),
+    ]
     rows = _rows(
         [
             a_record("a", action_count=4, explanations=explanations),
@@ -130,9 +134,14 @@ def test_outcomes_are_counted_in_the_order_in_which_they_are_declared() -> None:
 
 
 def test_what_was_explained_is_listed_once_in_the_order_of_its_steps() -> None:
-    later = Explained(9, [At(2, "e"), At(7, "d"), At(1, "z")], ["g"])
+    later = Explained(9, [At(2, "e"), At(7, "d"), At(1, "z")], [Literal.parse("g")])
     record = a_record(explanations=[Explained(3, [At(2, "e"), At(1, "z")], []), later])
-    assert explained(msgspec.to_builtins(record.explanations)) == ["exception g", "z", "e", "d"]
+    assert explained(msgspec.to_builtins(record.explanations, enc_hook=str)) == [
+        "exception g",
+        "z",
+        "e",
+        "d",
+    ]
     (row,) = _rows([record])
     assert row.cells()[-1] == "exception g, z, e, 1 other"
 
