@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import polars as pl
 
+from testbed.analysis import quality
 from testbed.analysis.bootstrap import Estimate, bootstrap, means, proportion, sample_of
 from testbed.analysis.comparison import compared, eventful, measured, with_apart
+from testbed.analysis.explanations import PREFIX
 from testbed.analysis.pairs import OTHER, Compared, Sample, cluster_of, pairs_of
 from testbed.analysis.table import Run
 
@@ -17,8 +19,10 @@ VALUES: Mapping[str, pl.Expr] = {
     "actions": pl.when("achieved").then("actions"),
     "explanations": pl.col("told"),
     "reasoning": 1000 * pl.col("reasoning_time"),
+    **{name: pl.when("ended").then(name) for name in quality.OF},
 }
 """What a trial counts for in the mean of each measure; null: it does not count."""
+SHARES = ("achieved", *quality.SHARES)
 
 
 @dataclass(frozen=True)
@@ -60,11 +64,13 @@ def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
 
 
 def _estimate(trials: pl.DataFrame, measure: str) -> Estimate | None:
-    """The mean of a measure."""
+    """The mean of a measure; what is of events or explanations has the weight of their number."""
     known = trials.with_columns(value=VALUES[measure]).filter(pl.col("value").is_not_null())
     if not len(known):
         return None
     cluster = cluster_of(known)
     labels = None if cluster is None else known[cluster].to_list()
-    sample = sample_of(known["value"].to_numpy(), clusters=labels)
-    return proportion(sample) if measure == "achieved" else bootstrap(means, sample)
+    of = quality.OF.get(measure)
+    weights = None if of is None else known[PREFIX + of].to_numpy()
+    sample = sample_of(known["value"].to_numpy(), weights, labels)
+    return proportion(sample) if measure in SHARES else bootstrap(means, sample)

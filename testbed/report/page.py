@@ -21,6 +21,7 @@ from testbed.experiment.run_folder import REPORT, replace_text
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.timeline import in_words, of_place, timeline
 from testbed.report.comparison import OPTIMUM, charts, groups_of, optima
+from testbed.report.explanations import quality_table
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Chart, Results, Section, grid, left_out, results_of
@@ -112,6 +113,7 @@ def _compared(
         "measures": list(MEASURES),
         "optimum_columns": OPTIMUM,
         "optima": optima(summary) if own else [],
+        "quality": quality_table(summary),
     }
 
 

@@ -5,10 +5,27 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from testbed.analysis.bootstrap import Estimate
+from testbed.studies.tables import Cell, Value
 
 Colour = Literal["first", "second", "paper"]
 CurveKind = Literal["seconds", "share curve", "ratio curve", "number curve"]
 """Curves: seconds on a log scale, shares of a whole, ratios around 1, numbers from 0 on."""
+
+
+@dataclass(frozen=True)
+class Measure:
+    """What is estimated of a robot's trials under a condition: its title, and how it is drawn."""
+
+    title: str
+    kind: CurveKind
+    digits: int = 2
+
+    def value(self, own: Estimate | None) -> Value:
+        """An estimate of it as text."""
+        if own is None or self.kind == "share curve":
+            return Cell(own, share=True).value
+        ours, *ends = (f"{each:.{self.digits}f}" for each in (own.value, *own.ends))
+        return Value(ours, tuple(ends))
 
 
 class Key(NamedTuple):

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from testbed.analysis.pairs import Compared
-from testbed.studies.charts import Chart, Colour, CurveKind, Key, Point, Series
+from testbed.studies.charts import Chart, Colour, Key, Measure, Point, Series
+from testbed.studies.explanations import EXPLANATIONS, sheet
 from testbed.studies.study import Section, Study
-from testbed.studies.tables import Cell, Line, Value, View
+from testbed.studies.tables import Cell, Line, View
 
 if TYPE_CHECKING:  # which loads polars
     from testbed.analysis import Run
@@ -29,20 +30,12 @@ MOST_CURVES = 12
 """Figures of one measure: of more conditions the table has the numbers."""
 
 
-@dataclass(frozen=True)
-class Measure:
-    """What is estimated of a robot's trials under a condition: its title, and how it is drawn."""
-
-    title: str
-    kind: CurveKind
-    digits: int = 2
-
-
 MEASURES: Mapping[str, Measure] = {
     "achieved": Measure("goal achieved", "share curve"),
     "actions": Measure("actions where achieved", "number curve", 1),
     "explanations": Measure("explanations", "number curve"),
     "reasoning": Measure("reasoning in ms", "number curve", 1),
+    **EXPLANATIONS,
 }
 """By name; the values are those of `testbed.analysis.conditions`."""
 COST = "cost"
@@ -125,7 +118,9 @@ def _section(found: Found, measures: Sequence[str], title: str, template: Path |
         *(chart for measure in measures for chart in _curves(found, measure)),
         *_cost_curves(found),
     ]
-    return Section("conditions", title, [_view(found, measures)], charts, legend, (), template)
+    explained = sheet(found.robots, found.names)
+    sheets = [] if explained is None else [explained]
+    return Section("conditions", title, [_view(found, measures)], charts, legend, sheets, template)
 
 
 def _view(found: Found, measures: Sequence[str]) -> View:
@@ -136,7 +131,7 @@ def _view(found: Found, measures: Sequence[str]) -> View:
         Line(
             (condition, str(found.pairs[condition])),
             (
-                *(_value(own[m][name], MEASURES[m]) for m in measures for name in found.names),
+                *(MEASURES[m].value(own[m][name]) for m in measures for name in found.names),
                 *([Cell(found.cost[condition]).value] if found.compared.baseline else []),
             ),
         )
@@ -148,13 +143,6 @@ def _view(found: Found, measures: Sequence[str]) -> View:
         ("condition", "pairs", *columns, *([divided] if found.compared.baseline else [])),
         lines,
     )
-
-
-def _value(own: Estimate | None, measure: Measure) -> Value:
-    if own is None or measure.kind == "share curve":
-        return Cell(own, share=True).value
-    ours, *ends = (f"{each:.{measure.digits}f}" for each in (own.value, *own.ends))
-    return Value(ours, tuple(ends))
 
 
 def _curves(found: Found, measure: str) -> Iterator[Chart]:

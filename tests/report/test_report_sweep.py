@@ -1,5 +1,6 @@
 """The part of a report on a sweep: shares and ratios by condition, counted by hand."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -50,6 +51,27 @@ def test_each_condition_has_the_shares_of_its_own_trials(folder: Path) -> None:
     assert {share["value"] for share in undisturbed["achieved"].values()} == {1.0}
     stormy = told["knowledge=complete, adversary.rate=0.9"]["achieved"]
     assert stormy["traditional"]["value"] < 1.0
+
+
+def test_explanations_of_a_condition_are_of_all_events_of_its_trials(folder: Path) -> None:
+    run = load_run(folder)
+    told = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["conditions"]
+    rows = [row for row in run.trials.to_dicts() if row["steps"] > 1]
+    seen = 0
+    for name, own in told.items():
+        for robot in run.config.robots:
+            counted = [row for row in rows if row["cell"] == name and row["robot"] == robot]
+            events = sum(row["quality.unobserved"] for row in counted)
+            explained = sum(row["quality.explained"] for row in counted)
+            share = own["explained"][robot]
+            assert (
+                share is None if not events else share["value"] == pytest.approx(explained / events)
+            )
+            seen += explained
+    assert seen
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    assert 'id="quality"' in page
+    assert 'id="conditions-sheet-1"' in page
 
 
 def test_a_figure_is_drawn_for_each_choice_of_the_other_keys(folder: Path) -> None:
