@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cache
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
@@ -14,14 +15,15 @@ from msgspec import inspect
 from testbed.analysis import explanations
 from testbed.config import ExperimentConfig, conditions_of
 from testbed.experiment import StoreError
+from testbed.experiment.origin import Origin
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.run_folder import PROVENANCE, naming, read_config
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import read_records
 from testbed.protocol import literal_within_bounds
 
-CONDITION = "condition"
-"""The key of a record with the rules that its trial was played under."""
+PARTS: dict[str, type[msgspec.Struct]] = {"condition": Setting, "origin": Origin}
+"""Keys of a record the parts of which have columns of their own, `KEY.PART`."""
 PARQUET, CSV = "trials.parquet", "trials.csv"
 BATCH = 1000
 """Records that are Python objects at the same time."""
@@ -104,19 +106,26 @@ def records_of(trials: pl.DataFrame) -> Iterator[TrialRecord]:
 def schema() -> dict[str, pl.DataType]:
     """The columns of the table with their types, which follow from those of a record.
 
-    What a trial was played under has a column per key, `condition.KEY`; lists and parts of it are
-    JSON text. What is counted of its explanations is in columns `quality.NAME`, derived from the
-    record.
+    What a trial was played under has a column per key, `condition.KEY`, and where its record came
+    from, `origin.KEY`; lists and parts of these are JSON text. What is counted of its explanations
+    is in columns `quality.NAME`, derived from the record.
     """
-    columns = {field.name: field.type for field in _fields(TrialRecord) if field.name != CONDITION}
+    columns = {field.name: field.type for field in _fields(TrialRecord) if field.name not in PARTS}
     return {
         **{name: _column(kind) for name, kind in columns.items()},
-        **{f"{CONDITION}.{own.name}": _scalar(own.type) or pl.String() for own in _fields(Setting)},
+        **{name: _scalar(own.type) or pl.String() for name, _, own in _parts()},
         **{
             name: pl.Int64() if kind is int else pl.Float64()
             for name, kind in explanations.KINDS.items()
         },
     }
+
+
+@cache
+def _parts() -> tuple[tuple[str, str, inspect.Field], ...]:
+    """The columns of the parts: each with the key of the record, and the field of its part."""
+    fields = ((key, own) for key, struct in PARTS.items() for own in _fields(struct))
+    return tuple((f"{key}.{own.name}", key, own) for key, own in fields)
 
 
 def _fields(struct: type[msgspec.Struct]) -> tuple[inspect.Field, ...]:
@@ -128,10 +137,10 @@ def _fields(struct: type[msgspec.Struct]) -> tuple[inspect.Field, ...]:
 def _row(record: TrialRecord) -> dict[str, Any]:
     """A record as a row of the table."""
     row: dict[str, Any] = msgspec.to_builtins(record, enc_hook=str)
-    own = {field.name: getattr(record.condition, field.name, None) for field in _fields(Setting)}
-    del row[CONDITION]
-    told = {f"{CONDITION}.{name}": _told(value) for name, value in own.items()}
-    return row | told | explanations.columns_of(record)
+    for name, key, own in _parts():
+        row[name] = _told(getattr(getattr(record, key), own.name, None))
+    kept = {name: value for name, value in row.items() if name not in PARTS}
+    return kept | explanations.columns_of(record)
 
 
 def _told(value: object) -> object:
@@ -142,14 +151,13 @@ def _nested(row: dict[str, Any]) -> dict[str, Any]:
     """A row of the table with the parts of a record, as these are nested there."""
     for name in explanations.KINDS:
         row.pop(name, None)
-    own = {f.name: (row.pop(f"{CONDITION}.{f.name}", None), f.type) for f in _fields(Setting)}
-    if own["domain"][0] is None:
-        return row
-    told = {
-        name: value if value is None or _scalar(kind) else msgspec.json.decode(value)
-        for name, (value, kind) in own.items()
-    }
-    return row | {CONDITION: told}
+    told: dict[str, dict[str, Any]] = {key: {} for key in PARTS}
+    for name, key, own in _parts():
+        value = row.pop(name, None)
+        known = value is None or _scalar(own.type) is not None
+        told[key][own.name] = value if known else msgspec.json.decode(value)
+    # Older records have no such part.
+    return row | {key: own for key, own in told.items() if any(v is not None for v in own.values())}
 
 
 def _scalar(kind: inspect.Type) -> pl.DataType | None:

@@ -17,8 +17,9 @@ from testbed.experiment.record import TIMES, At, TrialRecord
 
 
 def logical(record: TrialRecord) -> dict[str, object]:
-    """The record without times and earlier attempts: what the same seed must give again."""
+    """The record without times, earlier attempts and origin: what the same seed must give."""
     kept = _timeless(msgspec.to_builtins(record, enc_hook=str))
+    del kept["origin"]
     return kept | {"fine": None if record.fine is None else _timeless(kept["fine"])}
 
 

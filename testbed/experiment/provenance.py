@@ -76,10 +76,10 @@ def revision(folder: Path, root: Path = ROOT) -> dict[str, object] | None:
     """
     if not (root / ".git").exists():
         return None
-    commit, changed = _git(root, "rev-parse", "HEAD"), _git(root, "status", "--porcelain")
+    commit, changed = git(root, "rev-parse", "HEAD"), git(root, "status", "--porcelain")
     if commit is None or changed is None:
         return None
-    if difference := _git(root, "diff", "HEAD"):
+    if difference := git(root, "diff", "HEAD"):
         replace_text(folder / DIFFERENCE, difference + "\n")
     return {"commit": commit, "changed": changed.splitlines()}
 
@@ -96,9 +96,10 @@ def _sessions(path: Path) -> list[dict[str, Any]]:
         return []
 
 
-def _git(root: Path, *arguments: str) -> str | None:
+def git(root: Path, *arguments: str) -> str | None:
+    """What git says of a checkout, where it does; it takes no lock, for others work there."""
     try:
-        command = ["git", "-C", str(root), *arguments]
+        command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
         done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=20)
     except (OSError, subprocess.TimeoutExpired):
         return None

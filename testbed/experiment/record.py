@@ -9,6 +9,7 @@ from typing import Literal as Choice
 import msgspec
 
 from asp.language import Action, Literal
+from testbed.experiment.origin import Origin
 from testbed.experiment.specs import Setting
 from testbed.protocol import Contradiction, Count, Minimality, NoPlan
 
@@ -125,7 +126,8 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     """The record of a trial.
 
     `cell` is the name of the sweep's condition that it was played under, `condition` all that was
-    the same for every trial of its scenario, or level, under it; None in older records.
+    the same for every trial of its scenario, or level, under it; None in older records. `origin`
+    says where the record came from; None there, too.
     At the fine resolution `initial` and `exogenous` are of that resolution, `actions` are the
     abstract ones, each at the step at which it began. `in_reach` says of a trial that does not
     achieve its goal whether that could still be achieved from where the trial ended.
@@ -159,6 +161,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     goal: list[Literal]
     cell: str = ""
     condition: Setting | None = None
+    origin: Origin | None = None
     achieved: bool = False
     finished: bool = False
     correct: bool | None = False

@@ -6,6 +6,7 @@ import msgspec
 
 from asp.language import Action
 from testbed.environment import Ending
+from testbed.experiment.origin import here
 from testbed.experiment.record import (
     TIMES,
     Activity,
@@ -48,6 +49,7 @@ class Recorder:
     def __init__(self, spec: TrialSpec) -> None:
         fine = spec.setting.fine
         self.record = blank_record(spec)
+        self.record.origin = self.origin = here()
         self.costs: Mapping[str, int] = {}
         # Whether every action and every test comes out as it should.
         self._certain = fine is None or all(p == 1.0 for p in fine.statistics.values())

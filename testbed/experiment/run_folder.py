@@ -152,8 +152,13 @@ def write_config(folder: Path, config: ExperimentConfig) -> None:
         if source.parent != folder.resolve():
             with naming(folder / source.name):
                 shutil.copyfile(source, folder / source.name)
-    config = config.model_copy(update={key: source.name for key, source in files.items()})
-    replace_text(folder / CONFIG, config_text(config))
+    replace_text(folder / CONFIG, stored_text(config))
+
+
+def stored_text(config: ExperimentConfig) -> str:
+    """The configuration as a run folder has it: its own files lie beside it."""
+    beside = {key: source.name for key, source in _own_files(config).items()}
+    return config_text(config.model_copy(update=beside))
 
 
 def _own_files(config: ExperimentConfig) -> dict[str, Path]:

@@ -11,12 +11,20 @@ from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import INTERRUPTED
+from testbed.experiment.origin import sha256
 from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.record import FAILURES
 from testbed.experiment.recorder import Result
 from testbed.experiment.robots import make_robot
-from testbed.experiment.run_folder import ERRORS, begin_or_resume, choose_folder, locked, naming
+from testbed.experiment.run_folder import (
+    ERRORS,
+    begin_or_resume,
+    choose_folder,
+    locked,
+    naming,
+    stored_text,
+)
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
 from testbed.experiment.worker_pool import Play, Results, play_all, workers_for
@@ -127,7 +135,8 @@ def play_missing(
         if missing:
             open_player = partial(player, config.link, config.name, config.limits.answer_s)
             results = play_all(missing, status.workers, open_player)
-            _put_on_record(results, partial(_record, folder, writer, status), status, notify)
+            record = partial(_record, folder, writer, status, sha256(stored_text(config)))
+            _put_on_record(results, record, status, notify)
     return status
 
 
@@ -154,7 +163,11 @@ def _put_on_record(
             record(early[position])
 
 
-def _record(folder: Path, writer: TrialWriter, status: RunStatus, result: Result) -> None:
+def _record(
+    folder: Path, writer: TrialWriter, status: RunStatus, config_sha256: str, result: Result
+) -> None:
+    if result.record.origin is not None:
+        result.record.origin.config_sha256 = config_sha256
     if result.record.outcome in FAILURES:
         status.reason = status.reason or result.record.reason
     writer.append(result.record)

@@ -15,6 +15,7 @@ from testbed.config import refinement_of_files, refinement_of_size
 from testbed.environment import Core, IllegalActionError, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.judge import Judge, Narrowing
+from testbed.experiment.origin import load, sha256
 from testbed.experiment.record import Occurrence, Rejected
 from testbed.experiment.recorder import Recorder, Result
 from testbed.experiment.seeds import seeds_within
@@ -63,6 +64,7 @@ Watch = Callable[[Moment], None]
 def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch = lambda _: None) -> Result:
     """The result of a trial. A lost robot and any error end in the record, never in a raise."""
     recorder = Recorder(spec)
+    origin = recorder.origin
     started = time.perf_counter()
     details: str | None = None
     try:
@@ -84,6 +86,7 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch = lambda _: No
         recorder = Recorder(spec)
         recorder.fail("robot_lost", f"{NOT_UNDERSTOOD}: {error}", "robot")
     recorder.record.wall_time_s = time.perf_counter() - started
+    recorder.record.origin = msgspec.structs.replace(origin, load=load())
     return Result(recorder.record, details and details[-MOST_DETAILS:])
 
 
@@ -91,6 +94,7 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     setup, goal, record = setup_of(spec.setting), spec.setting.goal, recorder.record
     for_world, for_adversary, for_robot = seeds_within(spec.seed)
     recorder.costs, core = setup.costs, setup.core(spec.setting)
+    recorder.origin.domain_sha256, recorder.origin.refinement_sha256 = setup.hashes
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
     least = partial(setup.judge.minimal, core.situation.state, goal, spec.setting.judge_states)
     adversary = setup.adversary(spec)
@@ -151,13 +155,14 @@ class TrialSetup:
     """The setup of trials in a domain as it is described; it is reused across them.
 
     `costs` are the execution units of the actions that a record counts, and `judge` knows the
-    fewest of them, and of their units.
+    fewest of them, and of their units. `hashes` are those of the domain and of its refinement.
     """
 
     def __init__(self, world: World) -> None:
         self.costs = world.description.costs
         self.judge = Judge(lambda state, goal: (world, state, goal), self.costs)
         self._world, self._source = world, world.description.source
+        self.hashes: tuple[str, str | None] = sha256(self._source), None
         self._exogenous = world.exogenous_actions
 
     def core(self, setting: Setting) -> Core:
@@ -201,6 +206,7 @@ class FineTrialSetup(TrialSetup):
         description, coarse = refinement.description, refinement.coarse
         super().__init__(world_of(description))
         self._refinement, self._source = refinement, coarse.text
+        self.hashes = sha256(coarse.text), sha256(refinement.text)
         self._fine = world_of(refinement)
         self._exogenous = self._fine.exogenous_actions
         narrowing = Narrowing(coarse, refinement.coarse_signature, description.name)

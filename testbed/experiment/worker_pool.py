@@ -21,6 +21,7 @@ from threading import Thread
 
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import SIGNALS, interrupts_later, kill
+from testbed.experiment.origin import cores
 from testbed.experiment.recorder import Result, lost_worker
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import RobotLost, in_one_line
@@ -61,9 +62,7 @@ def play_all(specs: Sequence[TrialSpec], workers: int, open_player: OpenPlayer) 
 
 def workers_for(trials: int) -> int:
     """One process a core, but as many only as have `WORTH` trials each; one at least."""
-    own = hasattr(os, "sched_getaffinity")  # where the system says which this process may use
-    cores = len(os.sched_getaffinity(0)) if own else os.cpu_count() or 1
-    return max(1, min(cores, trials // WORTH))
+    return max(1, min(cores(), trials // WORTH))
 
 
 def _play_here(specs: Sequence[TrialSpec], play: Play) -> Iterator[tuple[int, Result]]:

@@ -11,7 +11,7 @@ import pytest
 
 import testbed
 from testbed.analysis import table
-from testbed.analysis.table import export, records_of
+from testbed.analysis.table import PARTS, export, records_of
 from testbed.config import ConfigError
 from testbed.experiment import StoreError
 from testbed.experiment.record import TrialRecord
@@ -34,8 +34,9 @@ def run(tmp_path: Path, configure: Configure) -> Path:
 
 def _columns(row: dict[str, Any]) -> dict[str, Any]:
     """A record as it is written, what it was played under key by key."""
-    told = row.pop("condition") or {}
-    return row | {f"condition.{name}": value for name, value in told.items()}
+    told = {key: row.pop(key) or {} for key in PARTS}
+    own = ((f"{key}.{name}", value) for key in PARTS for name, value in told[key].items())
+    return row | dict(own)
 
 
 def test_parquet_gives_the_records_back(run: Path) -> None:
@@ -96,10 +97,10 @@ def test_columns_keep_their_types_where_all_are_empty(tmp_path: Path, configure:
     assert found.schema["exogenous"] == pl.List(
         pl.Struct({"step": pl.Int64, "action": pl.String, "observed": pl.Boolean})
     )
-    keys = [key for key in TrialRecord.__struct_fields__ if key != "condition"]
+    keys = [key for key in TrialRecord.__struct_fields__ if key not in PARTS]
     assert found.columns[: len(keys)] == keys
     added = [name.partition(".")[0] for name in found.columns[len(keys) :]]
-    assert list(dict.fromkeys(added)) == ["condition", "quality"]
+    assert list(dict.fromkeys(added)) == [*PARTS, "quality"]
     assert pl.read_csv(csv)["exogenous"].to_list() == ["[]"]
 
 

@@ -1,4 +1,4 @@
-"""Run folders that are older than a key of the configuration."""
+"""Run folders that are older than a key of the configuration, or of records."""
 
 import json
 from pathlib import Path
@@ -24,7 +24,7 @@ def _records(folder: str) -> dict[str, str]:
 
 @pytest.fixture
 def older(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    """A run from before `relevance`, of which one of two trials was played."""
+    """A run from before `relevance` and `origin`, of which one of two trials was played."""
     monkeypatch.chdir(tmp_path)
     asked = ("run", "office", "scenarios=[1]", "limit=1", "relevance=published", "--out", "run")
     assert _done(*asked, *QUIET) == 0
@@ -32,7 +32,10 @@ def older(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     keys = yaml.safe_load(stored.read_text(encoding="utf-8"))
     assert keys.pop("relevance") == "published"
     stored.write_text(yaml.safe_dump(keys), encoding="utf-8")
-    records.write_text(next(iter(_records("run").values())) + "\n", encoding="utf-8")
+    first = json.loads(next(iter(_records("run").values())))
+    older = {key: own for key, own in first.items() if key not in ("origin", "version", "crc32")}
+    assert len(older) == len(first) - 3
+    records.write_text(json.dumps(older) + "\n", encoding="utf-8")
     return "run"
 
 
