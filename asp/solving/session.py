@@ -45,7 +45,8 @@ class Session:
         key = (predicate, *arguments)
         if key not in self._literals:
             atom = self.control.symbolic_atoms[fact(predicate, *arguments)]
-            self._literals[key] = None if atom is None else atom.literal
+            # It is 0 where the solver dropped the atom, since a fact contradicts it.
+            self._literals[key] = None if atom is None else atom.literal or None
         return self._literals[key]
 
     def is_true(self, model: clingo.Model, predicate: str, *arguments: int | str) -> bool:

@@ -177,7 +177,7 @@ class Horizon:
         if fluent not in self._goals:
             holds = fact("holds", fluent, self._length)
             found = self.control.symbolic_atoms[holds]
-            self._goals[fluent] = None if found is None else found.literal
+            self._goals[fluent] = None if found is None else found.literal or None
         return self._goals[fluent]
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from asp.language import parse_description
+from asp.language import Literal, parse_description
 from asp.reasoning import Transitions, knowledge
 from asp.reasoning.diagnosis import Happening
 from asp.reasoning.diagnosis.history import Problem, Record
@@ -125,3 +125,32 @@ def test_more_outcomes_than_are_asked_for_are_told(explanations: SmallestExplana
     assert question.all(1, None, len(every)) == (every, False)
     fewer, more = question.all(1, None, len(every) - 1)
     assert (len(fewer), more) == (len(every) - 1, True)
+
+
+SEALED = """
+statics
+  sealed.
+fluents
+  inertial open.
+  inertial leaking.
+  defined  quiet.
+actions
+  exogenous knock.
+facts
+  sealed.
+laws
+  quiet if -open.
+  -leaking if sealed.
+  knock causes open.
+"""
+"""Nothing ever leaks: the solver drops the atoms that say so, and knows them by no literal."""
+
+
+def test_what_statics_rule_out_is_false_in_every_state() -> None:
+    known = knowledge("sealed", SEALED)
+    transitions = Transitions(known.program, known.description.fluents)
+    assert transitions.after(frozenset({"quiet"}), None, ()) == ({"quiet"}, False)
+    assert transitions.after(frozenset({"open"}), None, ()) == ({"open"}, False)
+    assert transitions.outcomes(frozenset({"quiet"}), [Literal.parse("knock")]) == {
+        frozenset({"open"})
+    }
