@@ -99,7 +99,7 @@ def table_of(records: Iterable[TrialRecord]) -> pl.DataFrame:
 
 def records_of(trials: pl.DataFrame) -> Iterator[TrialRecord]:
     """The rows of a table as records."""
-    rows = map(_nested, trials.iter_rows(named=True))
+    rows = map(with_parts, trials.iter_rows(named=True))
     return (msgspec.convert(row, TrialRecord, dec_hook=literal_within_bounds) for row in rows)
 
 
@@ -147,7 +147,7 @@ def _told(value: object) -> object:
     return value if isinstance(value, bool | int | float | str | None) else _json(value)
 
 
-def _nested(row: dict[str, Any]) -> dict[str, Any]:
+def with_parts(row: dict[str, Any]) -> dict[str, Any]:
     """A row of the table with the parts of a record, as these are nested there."""
     for name in explanations.KINDS:
         row.pop(name, None)

@@ -9,6 +9,7 @@ from testbed.experiment.errors import StoreError
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.replay import stored_trial
 from testbed.experiment.robots import make_robot
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.timeline import of_place
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
@@ -35,13 +36,19 @@ class Decisions:
 
 
 def replay_decisions(folder: Path, trial: str) -> Decisions:
-    """Play the trial of a run whose id begins with `trial` again, and keep what is decided.
+    """Those of the trial of a run whose id begins with `trial`.
 
-    Raises StoreError, also for a robot that does not reason with the theory of intentions and for
-    conformant plans, which are no part of it; ConfigError where the stored configuration is not
-    valid any more.
+    Raises as `stored_trial` and `decisions_of` do.
     """
-    spec, recorded = stored_trial(folder, trial)
+    return decisions_of(*stored_trial(folder, trial))
+
+
+def decisions_of(spec: TrialSpec, recorded: TrialRecord | None) -> Decisions:
+    """Play a trial again, and keep what is decided.
+
+    Raises StoreError for a robot that does not reason with the theory of intentions and for
+    conformant plans, which are no part of it.
+    """
     title = f"trial {spec.trial}: {of_place(spec.scenario, spec.level)}, {spec.robot}"
     robot = make_robot(spec.robot)
     if not isinstance(robot, Watched):

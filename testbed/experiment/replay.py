@@ -32,7 +32,11 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
 
     Raises as `stored_trial` does.
     """
-    spec, recorded = stored_trial(folder, trial)
+    return replay_trial(*stored_trial(folder, trial), say)
+
+
+def replay_trial(spec: TrialSpec, recorded: TrialRecord | None, say: Say) -> bool:
+    """The same of a trial and its record."""
     where = of_place(spec.scenario, spec.level)
     say(f"trial {spec.trial}: {where}, {spec.robot}, seed {spec.seed}")
     say(f"goal: {' '.join(spec.setting.goal)}")

@@ -55,7 +55,11 @@ _seal = msgspec.json.Decoder(_Seal)
 
 def encode(record: TrialRecord) -> bytes:
     """The record as one line of JSON with its version and checksum, newline included."""
-    body = msgspec.json.encode(record, enc_hook=str)
+    return sealed(msgspec.json.encode(record, enc_hook=str))
+
+
+def sealed(body: bytes) -> bytes:
+    """A record that is JSON already, as such a line."""
     return b'{"version":%d,"crc32":"%08x",%s\n' % (VERSION, crc32(body), body[1:])
 
 
