@@ -94,7 +94,8 @@ costs
   unlock(R, L)   costs 5.
 
 % When the exogenous action of a scenario fires: together with an action of the robot; it is drawn
-% at random where `drawing` says so, else the first possible one is taken.
+% at random where `drawing` says so, else the first possible one is taken. A draw that comes to
+% nothing is repeated at the next action. So did the simulator of the original experiments.
 scenarios
   % 1, planning: the robot is alone.
   1: nothing.
@@ -104,11 +105,14 @@ scenarios
 
   % 3: a book leaves the room in which the robot would have found it.
   3: exo_move(B, L2) upon move(R, L)
-       drawing B with -in_hand(R, B)         if loc(B, L), L != library, L2 != L.
+       drawing B with -in_hand(R, B)         then L2 with -loc(B, L2)
+       if loc(B, L), L != library.
   3: exo_move(B, L2) upon pickup(R, O)
-       drawing B with -in_hand(R, B), B != O if loc(R, L), loc(B, L), L != library, L2 != L.
+       drawing B with -in_hand(R, B), B != O then L2 with -loc(B, L2)
+       if loc(R, L), loc(B, L), L != library.
   3: exo_move(B, L2) upon put_down(R, O)
-       drawing B with -in_hand(R, B)         if loc(R, L), loc(B, L), L != library, L2 != L.
+       drawing B with -in_hand(R, B)         then L2 with -loc(B, L2)
+       if loc(R, L), loc(B, L), L != library.
 
   % 4: a book turns up in the room in which the robot will be.
   4: exo_move(B, L) upon move(R, L)
@@ -125,6 +129,12 @@ scenarios
   % 6, failure to execute: the library is locked while the robot is on its way.
   6: exo_lock(library) upon any if -locked(library).
 
-  % Any of these at any time.
+  % Any of these at any time. A book that the robot holds, or is picking up, passes the draw on to
+  % the other one; the new room may be an impossible one.
   random: exo_lock(L)    upon any drawing L probability 0.92.
-  random: exo_move(B, L) upon any drawing B probability 0.92.
+  random: exo_move(B, L) upon any
+    drawing B with -in_hand(R, B), -pickup(R, B) then L with -loc(B, L) probability 0.92.
+
+  % The same, but a book that cannot be moved is drawn, too, and of the rooms only the possible ones.
+  random-possible: exo_lock(L)    upon any drawing L probability 0.92.
+  random-possible: exo_move(B, L) upon any drawing B probability 0.92.

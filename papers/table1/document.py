@@ -1,17 +1,17 @@
 """`docs/published-and-measured.md`: both tables beside the published one, and what explains it."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator
 
 from papers.table1.commands import Sources, commands, played
 from papers.table1.drawing import drawing
 from papers.table1.failing import blindness, failures, meetings
-from papers.table1.hypotheses import Hypothesis, both, compared, hypotheses, weigh
+from papers.table1.hypotheses import Hypothesis, compared, hypotheses
 from papers.table1.measured import optimum, times
 from papers.table1.others import heeding, later, unaided
 from papers.table1.pairs import Pair
-from papers.table1.released import released
+from papers.table1.parts import part_of
 from papers.table1.rows import row_by_row
-from papers.table1.runs import Run, released_weights, told_order
+from papers.table1.runs import Run, told_order
 from papers.text import render
 from testbed.experiment import StoreError
 from testbed.experiment.digest import digest
@@ -82,25 +82,16 @@ def _hypotheses(sources: Sources, mind: str) -> Iterator[str]:
     main = sources.main
     if "random" not in main.analyses[mind].tables:
         return
-    weights = released_weights(main, mind)
-    if weights:
-        yield _released(main.pairs[mind], weights)
-    found = hypotheses(main.pairs[mind], main.config.goal, weights)
+    found = hypotheses(main.pairs[mind], main.config.goal)
     if sources.later is not None:
-        own = weigh(sources.later.pairs[mind], lambda _: 1.0)
+        own = part_of(sources.later.pairs[mind])
         found.append(Hypothesis(f"rate {sources.later.config.adversary.rate}", own))
     for run in sources.variants:
-        found += both(run.config.name, run.pairs[mind], released_weights(run, mind))
+        found.append(Hypothesis(run.config.name, part_of(run.pairs[mind])))
     for run in sources.told:
         name = ", ".join(("told", *told_order(run)))
-        found += both(name, _of(main, run, mind), weights)
+        found.append(Hypothesis(name, part_of(_of(main, run, mind))))
     yield compared(found, bool(sources.variants), bool(sources.told))
-
-
-def _released(pairs: Iterable[Pair], weights: Mapping[str, float]) -> str:
-    drawn = [pair for pair in pairs if pair.intended == RANDOM]
-    otherwise = sum(pair.meeting not in ("nothing", "same") for pair in drawn)
-    return released(weigh(drawn, lambda pair: weights[pair.treatment.trial]), otherwise)
 
 
 def _of(main: Run, run: Run, mind: str) -> list[Pair]:

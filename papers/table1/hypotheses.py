@@ -5,16 +5,17 @@ from dataclasses import dataclass
 
 from papers.table1 import evidence
 from papers.table1.pairs import Pair
-from papers.table1.released import NAMES, PAIRS
-from papers.table1.weighing import Weighing, weighing
+from papers.table1.parts import Part, part_of
 from papers.text import percent, render
 from testbed.analysis.bootstrap import Estimate
-from testbed.studies.table1.measures import RANDOM
 from testbed.studies.table1.published import PUBLISHED, SCENARIOS
 from testbed.text import number
 
-AS_PLAYED, PASSED_ON = "as played", "released draw"
-Weights = Callable[[Pair], float]
+AS_PLAYED = "as played"
+NAMES = {"plans": "plans", "execution_units": "exec. time", "actions": "actions"}
+"""The measures that do not depend on how fast a machine or a solver is."""
+PAIRS = 800
+"""About so many paired trials P 4 speaks of, in each of five scenarios."""
 
 
 @dataclass(frozen=True)
@@ -22,45 +23,21 @@ class Hypothesis:
     """What would have been otherwise, and the table that comes of it."""
 
     name: str
-    weighed: Weighing
+    part: Part
 
 
-def hypotheses(
-    pairs: Sequence[Pair], goal: Sequence[str], released: Mapping[str, float]
-) -> list[Hypothesis]:
-    """Those that only ask how often what was played would have happened.
-
-    `released` has the weights of pairs under the released simulator's draw, by the intentional
-    robot's trial; nothing where they are not known.
-    """
-    ways: dict[str, Weights] = {
-        AS_PLAYED: lambda _: 1.0,
-        **_redrawn(released),
-        "starts: something in hand": lambda pair: float(_undone(pair, goal, "-")),
-        "starts: nothing in hand": lambda pair: float(not _undone(pair, goal, "-")),
-        "starts: nothing in place": lambda pair: float(not _in_place(pair, goal)),
-        "starts: something in place": lambda pair: float(_in_place(pair, goal)),
-        "event beside the first action": lambda pair: float(len(pair.treatment.before) == 1),
-        "event beside a later action": lambda pair: float(len(pair.treatment.before) > 1),
+def hypotheses(pairs: Sequence[Pair], goal: Sequence[str]) -> list[Hypothesis]:
+    """Those that only ask how often what was played would have happened."""
+    ways: dict[str, Callable[[Pair], bool]] = {
+        AS_PLAYED: lambda _: True,
+        "starts: something in hand": lambda pair: _undone(pair, goal, "-"),
+        "starts: nothing in hand": lambda pair: not _undone(pair, goal, "-"),
+        "starts: nothing in place": lambda pair: not _in_place(pair, goal),
+        "starts: something in place": lambda pair: _in_place(pair, goal),
+        "event beside the first action": lambda pair: len(pair.treatment.before) == 1,
+        "event beside a later action": lambda pair: len(pair.treatment.before) > 1,
     }
-    return [Hypothesis(name, weigh(pairs, weights)) for name, weights in ways.items()]
-
-
-def weigh(pairs: Sequence[Pair], weights: Weights) -> Weighing:
-    """The table of the random ones among some pairs."""
-    drawn = [pair for pair in pairs if pair.intended == RANDOM]
-    return weighing(drawn, [weights(pair) for pair in drawn])
-
-
-def both(name: str, pairs: Sequence[Pair], released: Mapping[str, float]) -> tuple[Hypothesis, ...]:
-    """What was otherwise in a run of its own, under either draw where there are weights."""
-    plain = Hypothesis(name, weigh(pairs, lambda _: 1.0))
-    ways = _redrawn(released).items()
-    return plain, *(Hypothesis(f"{name}; {way}", weigh(pairs, own)) for way, own in ways)
-
-
-def _redrawn(released: Mapping[str, float]) -> dict[str, Weights]:
-    return {PASSED_ON: lambda pair: released[pair.treatment.trial]} if released else {}
+    return [Hypothesis(name, part_of(filter(holds, pairs))) for name, holds in ways.items()]
 
 
 def _in_place(pair: Pair, goal: Sequence[str]) -> bool:
@@ -84,8 +61,8 @@ def compared(found: Sequence[Hypothesis], with_variants: bool, with_told: bool) 
         with_told=with_told,
         rows=[_published_line(), *map(_line, found)],
         best=best.name,
-        near=evidence.closeness(best.weighed.table),
-        left=list(evidence.outside(best.weighed.table.rows)),
+        near=evidence.closeness(best.part.table),
+        left=list(evidence.outside(best.part.table.rows)),
         names=NAMES,
         pairs=PAIRS,
         weights=weights,
@@ -109,15 +86,15 @@ def _published_line() -> tuple[str, ...]:
 
 
 def _line(own: Hypothesis) -> tuple[str, ...]:
-    rows = {row.name: row for row in own.weighed.table.rows}
-    near = evidence.closeness(own.weighed.table)
+    rows = {row.name: row for row in own.part.table.rows}
+    near = evidence.closeness(own.part.table)
     return (
         own.name,
         *(_value(rows[name].baseline, percent) for name in ("3", "4")),
         _value(rows["2"].ratios["plans"].mean, number),
         _value(rows["5"].ratios["execution_units"].mean, number),
         _value(rows["5"].ratios["actions"].mean, number),
-        _shares(own.weighed.shares),
+        _shares(own.part.shares),
         f"{near.inside} of {near.values}",
         percent(near.distance),
     )
@@ -133,5 +110,5 @@ def _shares(shares: Mapping[str, float]) -> str:
 
 def _agreement(own: Hypothesis) -> tuple[int, float]:
     """More values inside are better, and of equally many the smaller distance."""
-    near = evidence.closeness(own.weighed.table)
+    near = evidence.closeness(own.part.table)
     return near.inside, -near.distance

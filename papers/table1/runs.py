@@ -4,16 +4,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-import polars as pl
-
 from papers.table1.pairs import Pair, each
-from papers.table1.redrawing import as_stated, passed_on, weight
 from testbed.analysis import load_run
 from testbed.analysis.comparison import eventful
 from testbed.config import ExperimentConfig
 from testbed.experiment import StoreError
 from testbed.experiment.run_folder import read_config
-from testbed.studies.table1.measures import RANDOM, Analysis, analyse, comparisons_of
+from testbed.studies.table1.measures import Analysis, analyse, comparisons_of
 from testbed.studies.table1.pairs import pairs_in
 from testbed.studies.table1.published import BASELINE, INTENTIONAL
 from testbed.world import load_world
@@ -61,26 +58,6 @@ def read_run(folder: Path) -> Run:
         {robots.treatment: list(each(own)) for robots, own in pairs.items()},
         {robots.treatment: analyse(own, robots) for robots, own in pairs.items()},
     )
-
-
-def released_weights(run: Run, mind: str) -> dict[str, float]:
-    """What random pairs weigh under the released simulator's draw, by this robot's trial.
-
-    Nothing where events are not drawn by triggers, beside physical actions alone: `redrawing` knows
-    no other draw.
-    """
-    if not _is_redrawable(run.config):
-        return {}
-    world, rate = load_world(run.config.domain), run.config.adversary.rate
-    played, other = as_stated(world, RANDOM, rate), passed_on(world, RANDOM, rate)
-    own = load_run(run.folder).records(pl.col("scenario") == RANDOM, pl.col("robot") == mind)
-    return {record.trial: weight(record, world, played, other) for record in own}
-
-
-def _is_redrawable(config: ExperimentConfig) -> bool:
-    own = config.settings(RANDOM)
-    by_triggers = own.script is None and config.plays_triggers
-    return by_triggers and not (own.exogenous_while_thinking or config.is_fine)
 
 
 def told_name(order: Iterable[str]) -> str:

@@ -1,4 +1,4 @@
-"""Hypotheses over pairs made by hand, the released draw among them, and the page's frame."""
+"""Hypotheses over pairs made by hand, and the page's frame."""
 
 import re
 from pathlib import Path
@@ -7,9 +7,9 @@ import pytest
 
 from papers.table1.document import Sources, document
 from papers.table1.evidence import closeness
-from papers.table1.hypotheses import Hypothesis, both, compared, hypotheses, weigh
+from papers.table1.hypotheses import Hypothesis, compared, hypotheses
 from papers.table1.pairs import Pair, Side
-from papers.table1.released import released
+from papers.table1.parts import part_of
 from papers.table1.runs import read_run, told_name, told_order
 from testbed.config import load_config
 from testbed.experiment import StoreError
@@ -41,14 +41,12 @@ PAIRS = [
     _pair("d", f"{PLACED} {BARE}", right=False, before=LATE),
     a_pair("3", a_side(trial="e"), intended="3"),
 ]
-WEIGHTS = {"a": 3.0, "b": 0.0, "c": 0.5, "d": 0.5}
 
 
 @pytest.mark.parametrize(
     ("name", "accuracy"),
     [
         ("as played", 2 / 4),
-        ("released draw", (3.0 + 0.5) / 4.0),
         ("starts: something in hand", 1 / 2),
         ("starts: nothing in hand", 1 / 2),
         ("starts: nothing in place", 2 / 2),
@@ -57,26 +55,22 @@ WEIGHTS = {"a": 3.0, "b": 0.0, "c": 0.5, "d": 0.5}
         ("event beside a later action", 1 / 2),
     ],
 )
-def test_each_hypothesis_weighs_the_random_pairs_in_its_own_way(name: str, accuracy: float) -> None:
-    found = {own.name: own.weighed for own in hypotheses(PAIRS, GOAL, WEIGHTS)}
+def test_each_hypothesis_counts_its_own_part_of_the_random_pairs(
+    name: str, accuracy: float
+) -> None:
+    found = {own.name: own.part for own in hypotheses(PAIRS, GOAL)}
     row = {row.name: row for row in found[name].table.rows}["3"]
     assert row.baseline is not None
     assert row.baseline.value == pytest.approx(accuracy)
 
 
 def test_which_pairs_are_left_is_told_by_the_start() -> None:
-    found = {own.name: own.weighed for own in hypotheses(PAIRS[:3], GOAL, WEIGHTS)}
+    found = {own.name: own.part for own in hypotheses(PAIRS[:3], GOAL)}
     left = {name: own.table.rows[2].pairs for name, own in found.items()}
     assert left["as played"] == 3
     assert (left["starts: something in hand"], left["starts: nothing in hand"]) == (2, 1)
     assert (left["starts: something in place"], left["starts: nothing in place"]) == (1, 2)
     assert (left["event beside the first action"], left["event beside a later action"]) == (2, 1)
-
-
-def test_a_run_of_its_own_is_shown_under_either_draw() -> None:
-    plain, weighed = both("other", PAIRS[:4], WEIGHTS)
-    assert (plain.name, weighed.name) == ("other", "other; released draw")
-    assert (plain.weighed.worth, weighed.weighed.worth) == (4.0, pytest.approx(16 / 9.5))
 
 
 def _as_published(name: str, factor: float = 1.0, state: str = "s") -> Pair:
@@ -87,9 +81,7 @@ def _as_published(name: str, factor: float = 1.0, state: str = "s") -> Pair:
 
 def _two(first: list[Pair], second: list[Pair]) -> str:
     ways = {"near": first, "far": second}
-    return compared(
-        [Hypothesis(n, weigh(own, lambda _: 1.0)) for n, own in ways.items()], False, False
-    )
+    return compared([Hypothesis(n, part_of(own)) for n, own in ways.items()], False, False)
 
 
 def _best(page: str) -> str:
@@ -115,7 +107,7 @@ def test_more_values_inside_are_nearer_than_a_smaller_distance() -> None:
     """Of 0.2 and 3 times the published values the mean is far off, the interval holds them."""
     wide = [_as_published("5", 0.2, "s1"), _as_published("5", 3.0, "s2")]
     tight = [_as_published("5", 1.1, "s1"), _as_published("5", 1.1, "s2")]
-    ours, theirs = (closeness(weigh(own, lambda _: 1.0).table) for own in (wide, tight))
+    ours, theirs = (closeness(part_of(own).table) for own in (wide, tight))
     assert ours.inside > theirs.inside
     assert ours.distance > theirs.distance
     assert (_best(_two(wide, tight)), _best(_two(tight, wide))) == ("near", "far")
@@ -128,24 +120,10 @@ def test_the_table_shows_what_is_asked_of_each_row() -> None:
         a_pair("3"),
         a_pair("5", a_side(actions=4, execution_units=10), a_side(False, execution_units=2)),
     ]
-    page = compared([Hypothesis("made", weigh(pairs, lambda _: 1.0))], True, True)
+    page = compared([Hypothesis("made", part_of(pairs))], True, True)
     (line,) = (line for line in page.splitlines() if line.startswith("| made"))
     cells = line.strip("| ").split(" | ")
     assert cells[:7] == ["made", "50%", "-", "3.00", "0.20", "0.25", "0 25 50 0 25%"]
-
-
-def test_the_released_draw_stands_beside_the_published_rows_with_marks() -> None:
-    pairs = [_as_published(name, x, s) for name, x in (("1", 1.0), ("2", 2.0)) for s in ("s", "t")]
-    weighed = weigh(pairs, lambda _: 1.0)
-    page = released(weighed, 0)
-    lines = page.splitlines()
-    first = next(n for n, line in enumerate(lines) if line.startswith("| 1 "))
-    assert lines[first].split(" | ")[1:3] == ["50%", "100.0 [15.8, 100.0]"]
-    assert lines[first + 1] == "|   published | 7% | 100 | 1.00 | 1.00 | 1.00 |"
-    assert lines[first + 3] == "|   published | 7% | 100 | 2.63 * | 5.10 * | 3.61 * |"
-    assert says(page, 4, 1000, 1000)
-    assert not says(page, 3, 4, 1000, 1000)
-    assert says(released(weighed, 3), 3, 4, 1000, 1000)
 
 
 def _records(pairs: int) -> list[TrialRecord]:
@@ -198,7 +176,7 @@ def test_the_page_lists_commands_and_digests_of_all_its_runs(tmp_path: Path) -> 
     assert "--later runs/later --variant runs/near-first --told runs/told-library-kit" in page
     near_run = "name=near-first domain=examples/near-first.al 'scenarios=[random]' --workers"
     assert f"$ testbed run table1 {near_run}" in page
-    assert "| near-first; released draw | " in page
+    assert "| near-first | " in page
     assert "testbed run table1 name=told" not in page
     assert "| rate 0.3 | " in page
     assert "| told, library, kitchen, office2, office1 | " in page

@@ -61,7 +61,13 @@ def moves(book: str, *rooms: str) -> set[str]:
         ("2", HOLDS_1, "put_down(rob1,book1)", moves("book2", "library")),
         # Only book2 is not in the hand, and it is in the destination only on the way to it.
         ("3", HOLDS_1, "put_down(rob1,book1)", moves("book2", "office1", "office2", "library")),
-        ("3", ["locked(library)", *HOLDS_1], "put_down(rob1,book1)", moves("book2", *ROOMS[1:3])),
+        # The room is drawn before it is known that it is locked.
+        (
+            "3",
+            ["locked(library)", *HOLDS_1],
+            "put_down(rob1,book1)",
+            {NONE, *moves("book2", *ROOMS[1:3])},
+        ),
         ("3", HOLDS_1, "move(rob1,library)", {NONE}),
         ("3", HOLDS_1, "move(rob1,office2)", {NONE}),
         # A book is drawn first: if it is the one that is elsewhere, nothing happens this time.
@@ -96,7 +102,7 @@ def moves(book: str, *rooms: str) -> set[str]:
         ("6", HOLDS_1, "put_down(rob1,book1)", {"exo_lock(library)"}),
         ("6", [*HOLDS_1, "locked(library)"], "move(rob1,office2)", {NONE}),
         ("1", HOLDS_1, "move(rob1,library)", {NONE}),
-        # Drawing book1, which is in the hand, or failing the coin comes to nothing.
+        # Only failing the coin comes to nothing: book1, which is in the hand, is not drawn.
         (
             "random",
             HOLDS_1,
@@ -204,7 +210,9 @@ def test_the_random_event_comes_with_the_stated_probability() -> None:
 
 
 def test_an_unknown_scenario_names_the_known_ones() -> None:
-    with pytest.raises(ValueError, match=r"no scenario 7; there are 1, 2, 3, 4, 5, 6, random"):
+    with pytest.raises(
+        ValueError, match=r"no scenario 7; there are 1, 2, 3, 4, 5, 6, random, random-possible"
+    ):
         triggered("7")
 
 
