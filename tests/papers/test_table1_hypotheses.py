@@ -55,9 +55,7 @@ PAIRS = [
         ("event beside a later action", 1 / 2),
     ],
 )
-def test_each_hypothesis_counts_its_own_part_of_the_random_pairs(
-    name: str, accuracy: float
-) -> None:
+def test_each_hypothesis_has_its_own_part_of_the_pairs(name: str, accuracy: float) -> None:
     found = {own.name: own.part for own in hypotheses(PAIRS, GOAL)}
     row = {row.name: row for row in found[name].table.rows}["3"]
     assert row.baseline is not None
