@@ -61,9 +61,9 @@ $(VENV)/.demo: pyproject.toml constraints.txt
 
 $(VENV)/.test: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(PIP) --editable '.[test]'
+	$(PIP) --editable '.[test,cluster]'
 	touch $@ $(VENV)/.demo
 
 $(VENV)/.bench: $(VENV)/.test
-	$(PIP) --editable '.[test,bench]'
+	$(PIP) --editable '.[test,cluster,bench]'
 	touch $@

@@ -1,7 +1,10 @@
 """What all tests share: small experiments, and settings for a machine that is busy."""
 
+import os
 import signal
+from collections.abc import Generator
 from pathlib import Path
+from typing import TypeVar
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -20,6 +23,29 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+Report = TypeVar("Report", pytest.TestReport, pytest.CollectReport)
+WANTING = "could not import"
+"""How the reason of a skip begins that pytest.importorskip gives."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """In CI a test fails that is skipped for want of a package."""
+    return _failed((yield))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """Likewise a whole file."""
+    return _failed((yield))
+
+
+def _failed(report: Report) -> Report:
+    if os.environ.get("CI") == "true" and report.skipped and WANTING in str(report.longrepr):
+        report.outcome = "failed"
+    return report
 
 
 @pytest.fixture
