@@ -22,6 +22,7 @@ from asp.translation import translate
 from testbed.config.levels import map_findings, refinements, settings_findings
 from testbed.config.models import GOAL, Drawing, ExperimentConfig, ScenarioSettings
 from testbed.config.places import ConfigError, Diction, Finding, Key, Places, dotted, unfit_literals
+from testbed.config.running import runner_findings
 from testbed.config.scenarios import scenario_findings, scenarios_of, script_findings
 from testbed.config.values import NONE
 from testbed.world import StateError, World, world_of
@@ -43,7 +44,9 @@ def check(config: ExperimentConfig, places: Places, checks: Sequence[Check]) -> 
 
     `checks` are further ones, which do not need the domain.
     """
-    findings = [found for own in (_twice, _compared, *checks) for found in own(config)]
+    findings = [
+        found for own in (_twice, _compared, runner_findings, *checks) for found in own(config)
+    ]
     if config.is_fine:
         lines = places.lines(findings) + _of_the_levels(config, places)
     else:

@@ -84,10 +84,14 @@ def _located(config: ExperimentConfig, path: Path) -> ExperimentConfig:
     files = {"refinement": config.refinement} if config.refinement is not None else {}
     if config.domain.endswith(".al"):
         files["domain"] = config.domain
-    for key, file in files.items():
-        found = filter(Path.is_file, (path.parent / file, Path(file)))
-        files[key] = str(next((candidate.resolve() for candidate in found), file))
-    return config.model_copy(update=files)
+    located = {key: _beside(path, file) for key, file in files.items()}
+    tls = {key: _beside(path, file) for key, file in config.tls.files.items()}
+    return config.model_copy(update={**located, "tls": config.tls.model_copy(update=tls)})
+
+
+def _beside(path: Path, file: str) -> str:
+    found = filter(Path.is_file, (path.parent / file, Path(file)))
+    return str(next((candidate.resolve() for candidate in found), file))
 
 
 SUFFIX = ".yaml"

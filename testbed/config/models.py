@@ -11,6 +11,7 @@ from pydantic import Field, model_validator
 
 from asp import language
 from testbed import environment
+from testbed.config.running import Runner, Tls
 from testbed.config.sweep import Sweep
 from testbed.config.values import (
     LARGEST_SEED,
@@ -146,7 +147,8 @@ class ExperimentConfig(Section):
     whether some outcomes of a plan's actions have to reach the goal, or all. `repeats`: so many
     pairs of trials from each initial state, in scenarios in which something is drawn. `protocol` is
     the study that the trials are for: a name, or `module:OBJECT`. `sweep` says under which
-    conditions trials are played, each under all of them.
+    conditions trials are played, each under all of them. `runner` is what plays them: processes of
+    this machine, or Dask: the workers of a `scheduler`, without one a cluster on this machine.
 
     With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
     resolution. They are drawn: each has its initial state and its goal unless these are given.
@@ -170,6 +172,9 @@ class ExperimentConfig(Section):
     repeats: Count = 1
     limit: Count | None = None
     link: LinkKind = "zenoh"
+    runner: Runner = "local"
+    scheduler: Name | None = None
+    tls: Tls = Tls()
     knowledge: Knowledge = "complete"
     relevance: Relevance = "definition"
     plans: Plans = "optimistic"

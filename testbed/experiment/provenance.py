@@ -1,7 +1,6 @@
 """Where a run came from: versions, platform, command, revision, start and end."""
 
 import hashlib
-import importlib.metadata
 import json
 import os
 import platform
@@ -14,10 +13,10 @@ from typing import Any
 import asp
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
+from testbed.experiment.fingerprint import versions
 from testbed.experiment.run_folder import PROVENANCE, replace_text
-from testbed.registry import OURS, PATH_VARIABLE
+from testbed.registry import PATH_VARIABLE
 
-LIBRARIES = ("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic")
 DIFFERENCE = "difference.patch"
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -42,8 +41,8 @@ class Provenance:
         }
         self._write()
 
-    def close(self, code: int, workers: int) -> None:
-        """Record the end of the session, its exit code and how many processes played."""
+    def close(self, code: int, workers: int | None) -> None:
+        """Record the end of the session, its exit code and how many processes played, if known."""
         self._entry |= {"end": _now(), "exit": code, "workers": workers}
         self._write()
 
@@ -56,17 +55,6 @@ def modules_of(folder: Path) -> Path | None:
     sessions = _sessions(folder / PROVENANCE)
     found = next((own["modules"] for own in reversed(sessions) if own.get("modules")), None)
     return Path(found) if isinstance(found, str) else None
-
-
-def versions() -> dict[str, str]:
-    """Versions of Python, of this distribution and of the libraries that results rest on."""
-    found = {"python": platform.python_version()}
-    for name in (OURS, *LIBRARIES):
-        try:
-            found[name] = importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
-            found[name] = "not installed"
-    return found
 
 
 def revision(folder: Path, root: Path = ROOT) -> dict[str, object] | None:

@@ -160,10 +160,10 @@ def _explained(step: int, trace: Trace, explanation: Explanation) -> Explained:
     )
 
 
-def lost_worker(spec: TrialSpec, exit_code: int | None) -> Result:
-    """The result of a trial whose worker process ended in the middle of it."""
+def lost_worker(spec: TrialSpec, how: str) -> Result:
+    """The result of a trial whose worker process ended in the middle of it; `how` is the reason."""
     recorder = Recorder(spec)
-    recorder.fail("error", f"worker process ended with exit code {exit_code}", "infrastructure")
+    recorder.fail("error", how, "infrastructure")
     return Result(recorder.record)
 
 

@@ -14,7 +14,8 @@ from testbed.experiment.errors import StoreError
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
 SUMMARY, REPORT, ERRORS = "summary.json", "report.html", "errors"
 LOCK = ".lock"
-ANY_RESULT = ("link", "limits.answer_s")  # keys on which no logical result depends
+# Keys on which no logical result depends.
+ANY_RESULT = ("link", "limits.answer_s", "runner", "scheduler", "tls.ca", "tls.cert", "tls.key")
 MOST_CHANGES = 8
 OWN_FILES = ("domain", "refinement")
 """Keys that may lead to a file which is not packaged."""

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 
 from testbed.config import ConfigError, ExperimentConfig, dotted
@@ -25,6 +26,7 @@ from testbed.experiment.run_folder import (
     naming,
     stored_text,
 )
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
 from testbed.experiment.worker_pool import Play, Results, play_all, workers_for
@@ -39,14 +41,14 @@ class RunStatus:
     """A run as it stands: trials planned, on record, and failed; whether it was stopped.
 
     `reason` is that of the first failed trial, None where none failed; `workers` are the processes
-    that play what was missing.
+    that play what was missing, None where they are those of a scheduler.
     """
 
     planned: int
     done: int
     failed: int
     reason: str | None = None
-    workers: int = 1
+    workers: int | None = 1
     interrupted: bool = False
 
     @property
@@ -130,14 +132,35 @@ def play_missing(
         missing = [spec for spec in specs if spec.trial not in done]
         status = RunStatus(len(specs), len(specs) - len(missing), len(failed))
         status.reason = next(iter(failed.values()), None)
-        status.workers = workers_for(len(missing)) if workers is None else workers
+        status.workers = _workers(config, len(missing)) if workers is None else workers
         notify(status)
         if missing:
-            open_player = partial(player, config.link, config.name, config.limits.answer_s)
-            results = play_all(missing, status.workers, open_player)
+            results = _results(config, missing, status.workers)
             record = partial(_record, folder, writer, status, sha256(stored_text(config)))
             _put_on_record(results, record, status, notify)
     return status
+
+
+def _workers(config: ExperimentConfig, missing: int) -> int | None:
+    """The processes that are to play; None where they are a scheduler's."""
+    return workers_for(missing) if config.scheduler is None else None
+
+
+def _results(config: ExperimentConfig, specs: Sequence[TrialSpec], workers: int | None) -> Results:
+    """The results of trials by the configuration's runner; 0 workers are this process."""
+    open_player = partial(player, config.link, config.name, config.limits.answer_s)
+    if workers is not None and (config.runner == "local" or workers == 0):
+        return play_all(specs, workers, open_player)
+    if workers is not None and config.scheduler is not None:
+        raise WorkerError("--workers: is not for a scheduler, which has workers of its own")
+    if find_spec("distributed") is None:
+        raise WorkerError("runner: dask is not installed; pip install 'intention-testbed[cluster]'")
+    from testbed.experiment import dask_pool  # noqa: PLC0415  # of an extra
+
+    if config.scheduler is None:
+        return dask_pool.play_all(specs, workers or 1, open_player)
+    scheduler = dask_pool.Scheduler(config.scheduler, **config.tls.files)
+    return dask_pool.play_all(specs, scheduler, open_player)
 
 
 def _put_on_record(

@@ -34,7 +34,7 @@ class FineSetting(msgspec.Struct, frozen=True, kw_only=True):
     pace: Pace
 
 
-class Setting(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
+class Setting(msgspec.Struct, frozen=True, kw_only=True):
     """What holds in every trial of one scenario, or at one level, of a configuration.
 
     `script` is `((step, action), ...)`, or None for the `strategy` of an adversary, None being the

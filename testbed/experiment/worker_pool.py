@@ -12,7 +12,7 @@ group leaves nobody behind, whatever they are doing.
 import os
 import signal
 from collections import deque
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
 from itertools import groupby
 from multiprocessing import get_context, parent_process
@@ -49,7 +49,7 @@ def play_all(specs: Sequence[TrialSpec], workers: int, open_player: OpenPlayer) 
     """
     if workers == 0:
         with open_player() as play:
-            yield from _play_here(specs, play)
+            yield from play_here(specs, play)
         return
     crew = _Crew(specs, open_player)
     try:
@@ -65,7 +65,8 @@ def workers_for(trials: int) -> int:
     return max(1, min(cores(), trials // WORTH))
 
 
-def _play_here(specs: Sequence[TrialSpec], play: Play) -> Iterator[tuple[int, Result]]:
+def play_here(specs: Iterable[TrialSpec], play: Play) -> Iterator[tuple[int, Result]]:
+    """As `play_all`, in this process."""
     failed: dict[int, str] = {}
     for position, spec in enumerate(specs):
         result = play(spec)
@@ -104,7 +105,7 @@ class Worker:
 
     def start(self) -> None:
         """Start the process, deaf to the signals that this one gets."""
-        with _safe_path(), interrupts_later():
+        with safe_path(), interrupts_later():
             self._process.start()
         self._far_end.close()
 
@@ -127,9 +128,9 @@ class Worker:
             if self.ready:
                 raise EOFError from None
             code = self.end(at_once=True)
-            raise _not_ready(f"a process ended with exit code {code} as it started") from None
+            raise not_ready(f"a process ended with exit code {code} as it started") from None
         if isinstance(said, str):
-            raise _not_ready(said)
+            raise not_ready(said)
         self.ready = True
         return said
 
@@ -150,8 +151,14 @@ class Worker:
         return self._process.exitcode
 
 
-def _not_ready(reason: str) -> WorkerError:
+def not_ready(reason: str) -> WorkerError:
+    """The error of a process that cannot play."""
     return WorkerError(f"no trial can be played: {reason}")
+
+
+def why_not_ready(error: Exception) -> str:
+    """Why a process cannot play, in one line."""
+    return str(error) if isinstance(error, RobotLost) else in_one_line(error)
 
 
 def _serve(pipe: Connection, open_player: OpenPlayer) -> None:
@@ -164,7 +171,7 @@ def _serve(pipe: Connection, open_player: OpenPlayer) -> None:
         try:
             play = stack.enter_context(open_player())
         except Exception as error:
-            pipe.send(str(error) if isinstance(error, RobotLost) else in_one_line(error))
+            pipe.send(why_not_ready(error))
             return
         pipe.send(None)
         while True:
@@ -179,7 +186,7 @@ def _end_with_driver() -> None:
 
 
 @contextmanager
-def _safe_path() -> Iterator[None]:
+def safe_path() -> Iterator[None]:
     """Let a Python that is started in this block import nothing from the working directory."""
     before = os.environ.get(SAFE_PATH)
     os.environ[SAFE_PATH] = "1"
@@ -252,7 +259,8 @@ class _Crew:
             result = worker.receive()
         except EOFError:
             assert position is not None
-            result = lost_worker(self._specs[position], worker.end(at_once=True))
+            how = f"worker process ended with exit code {worker.end(at_once=True)}"
+            result = lost_worker(self._specs[position], how)
             worker = self._replaced(worker)
         if not was_ready:
             return

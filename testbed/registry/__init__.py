@@ -61,11 +61,15 @@ class Registry(Generic[T]):
                 cannot be imported, and what cannot be used.
         """
         if name not in self._found:
-            found = _attribute(name if ":" in name else self._place(name))
+            found = _attribute(self.place(name))
             if fault := self.fault(found):
                 raise RegistryError(f"'{name}' is no {self.kind}: it {fault}")
             self._found[name] = found
         return self._found[name]
+
+    def forget(self) -> None:
+        """Look for everything anew: modules may have been replaced."""
+        self._found.clear()
 
     def usable(self) -> Iterator[tuple[str, T]]:
         """The registered ones by name, without those that cannot be used."""
@@ -75,7 +79,10 @@ class Registry(Generic[T]):
             except RegistryError:
                 continue
 
-    def _place(self, name: str) -> str:
+    def place(self, name: str) -> str:
+        """Where something stands, as `module:attribute`. Raises RegistryError as `find` does."""
+        if ":" in name:
+            return name
         claims = self._claims()
         if name not in claims:
             module, dot, attribute = name.rpartition(".")
@@ -145,6 +152,17 @@ def search_last(folder: Path) -> None:
     """Let this process, and those that it starts, import from a folder after everything else."""
     os.environ[PATH_VARIABLE] = str(folder)
     search_as_told()
+
+
+def search_no_more(folder: Path) -> None:
+    """Import no more from a folder that was searched last, and forget what came from there."""
+    sys.path[:] = [own for own in sys.path if own != str(folder)]
+    if os.environ.get(PATH_VARIABLE) == str(folder):
+        del os.environ[PATH_VARIABLE]
+    for name, module in list(sys.modules.items()):
+        file = getattr(module, "__file__", None)
+        if file is not None and Path(file).is_relative_to(folder):
+            del sys.modules[name]
 
 
 def search_as_told() -> None:
