@@ -1,12 +1,15 @@
 """Run a configuration."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from testbed.cli.common import Config, Overrides, examples, input_errors, refuse
 from testbed.text import warn
+
+if TYPE_CHECKING:
+    from testbed.experiment.shard import Shard
 
 EPILOG = examples(
     "testbed run quickstart",
@@ -54,6 +57,13 @@ def command(
             help="With --resume: play trials again that ended in error or without a robot.",
         ),
     ] = False,
+    shard: Annotated[
+        str | None,
+        typer.Option(
+            metavar="I/N",
+            help="Play only the I-th of N parts of the trials; `testbed merge` makes them one run.",
+        ),
+    ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", help="Say nothing but errors.")] = False,
 ) -> None:
     """Run every trial of a configuration and print a table of what came out."""
@@ -62,11 +72,21 @@ def command(
 
     if retry_failed and not resume:
         refuse(["--retry-failed: needs --resume; it plays trials of a run folder again"])
+    part = _shard(shard)
     with input_errors():
         loaded = load(config, with_sweep(overrides or []) if sweep else overrides or [])
         if not quiet:
             warn(f"preparing {loaded.name}: statistics, the plan of its trials, robots")
         from testbed.cli.session import run_session
 
-        code = run_session(loaded, out, workers, resume, quiet, retry_failed)
+        code = run_session(loaded, out, workers, resume, quiet, retry_failed, part)
     raise typer.Exit(code)
+
+
+def _shard(text: str | None) -> "Shard | None":
+    from testbed.experiment.shard import Shard
+
+    try:
+        return None if text is None else Shard.parse(text)
+    except ValueError as error:
+        refuse([f"--shard: '{text}' {error}"])

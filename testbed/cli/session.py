@@ -12,6 +12,7 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
 from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_run, locked
 from testbed.experiment.runner import RunStatus, run_in
+from testbed.experiment.shard import Shard
 from testbed.protocol import shortened
 from testbed.report import Tables, grid, write_report
 from testbed.text import Printer, Say, columns, counted
@@ -27,6 +28,7 @@ def run_session(
     resume: bool,
     quiet: bool,
     retry_failed: bool = False,
+    shard: Shard | None = None,
 ) -> int:
     """Run a configuration and report; the exit code.
 
@@ -38,12 +40,12 @@ def run_session(
     say = Printer(quiet)
     if resume and not holds_run(folder):
         say(f"nothing to resume: a new run in {folder}")
-    with locked(folder), stoppable(_to_go_on(folder), quiet):
+    with locked(folder), stoppable(_to_go_on(folder, shard), quiet):
         with progress(quiet) as notify:
             command = ["testbed", *sys.argv[1:]]
-            run = run_in(folder, config, workers, notify, resume, retry_failed, command)
+            run = run_in(folder, config, workers, notify, resume, retry_failed, command, shard)
         try:
-            _conclude(folder, config, run, say)
+            _conclude(folder, config, run, say, shard)
         except KeyboardInterrupt:  # the trials are on record, the report is not made
             say(f"interrupted; for the report: testbed report {shlex.quote(str(folder))}")
             return INTERRUPTED
@@ -59,14 +61,16 @@ def report_again(folder: Path, config: ExperimentConfig) -> None:
     say(f"report: {folder / REPORT}")
 
 
-def _conclude(folder: Path, config: ExperimentConfig, run: RunStatus, say: Say) -> None:
+def _conclude(
+    folder: Path, config: ExperimentConfig, run: RunStatus, say: Say, shard: Shard | None
+) -> None:
     tables = write_report(folder, config)
     if tables.rows:
         for line in _told(tables):
             say(line)
     if run.interrupted:
         say(f"interrupted: {run.done} of {counted(run.planned, 'trial')} kept in {folder}")
-        say(_to_go_on(folder))
+        say(_to_go_on(folder, shard))
         if not tables.rows:
             return
     if run.failed:
@@ -95,6 +99,7 @@ def _told(tables: Tables) -> Iterator[str]:
         yield f"digest of {counted(played - tables.late, 'trial')}{late}: {tables.digest}"
 
 
-def _to_go_on(folder: Path) -> str:
+def _to_go_on(folder: Path, shard: Shard | None) -> str:
     run = ["testbed", "run", str(folder / CONFIG), "--out", str(folder), "--resume"]
+    run += [] if shard is None else ["--shard", str(shard)]
     return f"to go on: {shlex.join(run)}"

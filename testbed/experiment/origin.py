@@ -8,7 +8,8 @@ from pathlib import Path
 
 import msgspec
 
-from testbed.experiment.provenance import ROOT, git, versions
+from testbed.experiment.fingerprint import versions
+from testbed.experiment.provenance import ROOT, git
 from testbed.protocol import Count
 
 CPUS = Path("/proc/cpuinfo")

@@ -24,7 +24,13 @@ ROOT = Path(__file__).resolve().parents[2]
 class Provenance:
     """The provenance of one session of a run; those of earlier sessions are kept under `before`."""
 
-    def __init__(self, folder: Path, config: ExperimentConfig, command: Sequence[str]) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        config: ExperimentConfig,
+        command: Sequence[str],
+        before: Sequence[dict[str, Any]] | None = None,
+    ) -> None:
         self._folder, description = folder, asp.load_description(config.domain)
         own = config.refinement
         self._entry: dict[str, Any] = {
@@ -37,7 +43,7 @@ class Provenance:
             "domain": _text(description.name, description.source),
             "refinement": own and _text(Path(own).stem, read_refinement(own)[1]),
             "modules": os.environ.get(PATH_VARIABLE) or None,
-            "before": _sessions(folder / PROVENANCE),
+            "before": sessions_of(folder) if before is None else before,
         }
         self._write()
 
@@ -52,7 +58,7 @@ class Provenance:
 
 def modules_of(folder: Path) -> Path | None:
     """The folder that was searched for modules of a run's own; None where that is not known."""
-    sessions = _sessions(folder / PROVENANCE)
+    sessions = sessions_of(folder)
     found = next((own["modules"] for own in reversed(sessions) if own.get("modules")), None)
     return Path(found) if isinstance(found, str) else None
 
@@ -76,9 +82,10 @@ def _text(name: str, text: str) -> dict[str, str]:
     return {"name": name, "sha256": hashlib.sha256(text.encode()).hexdigest()}
 
 
-def _sessions(path: Path) -> list[dict[str, Any]]:
+def sessions_of(folder: Path) -> list[dict[str, Any]]:
+    """The sessions of a run, as far as they are known, the last one last."""
     try:
-        last = json.loads(path.read_text(encoding="utf-8"))
+        last = json.loads((folder / PROVENANCE).read_text(encoding="utf-8"))
         return [*last.pop("before", []), last]
     except (OSError, ValueError, AttributeError):
         return []

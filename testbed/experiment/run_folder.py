@@ -186,21 +186,27 @@ def check_unchanged(folder: Path, config: ExperimentConfig) -> None:
     Of a long difference the beginning is shown: the keys that were given, then defaults. Raises
     ConfigError where the stored configuration is not valid any more.
     """
-    stored, given = flat_config(read_config(folder)), flat_config(config)
-    changed = [
-        key
-        for key in dict.fromkeys((*stored, *given))
-        if stored.get(key) != given.get(key) and key not in ANY_RESULT
-    ]
+    changed = differences(read_config(folder), config)
     if changed:
-        changed.sort(key=lambda key: key.partition(".")[0] not in config.model_fields_set)
         lines = [
             f"{folder}: its configuration is another one; resume it unchanged or choose --out",
-            *(f"  {k}: {stored.get(k, 'absent')} -> {given.get(k, 'absent')}" for k in changed),
+            *(f"  {change}" for change in changed),
         ]
         if len(changed) > MOST_CHANGES:
             lines[MOST_CHANGES + 1 :] = [f"  and {len(changed) - MOST_CHANGES} more"]
         raise StoreError("\n".join(lines))
+
+
+def differences(stored: ExperimentConfig, given: ExperimentConfig) -> list[str]:
+    """What results depend on and is not the same in both: the keys that were given come first."""
+    old, new = flat_config(stored), flat_config(given)
+    changed = [
+        key
+        for key in dict.fromkeys((*old, *new))
+        if old.get(key) != new.get(key) and key not in ANY_RESULT
+    ]
+    changed.sort(key=lambda key: key.partition(".")[0] not in given.model_fields_set)
+    return [f"{key}: {old.get(key, 'absent')} -> {new.get(key, 'absent')}" for key in changed]
 
 
 def flat_config(config: ExperimentConfig) -> dict[str, object]:

@@ -26,6 +26,7 @@ from testbed.experiment.run_folder import (
     naming,
     stored_text,
 )
+from testbed.experiment.shard import Shard
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
@@ -67,12 +68,13 @@ def run(
     *,
     resume: bool = False,
     retry_failed: bool = False,
+    shard: Shard | None = None,
 ) -> RunStatus:
     """Play the trials of a configuration into a folder, without one into `runs/NAME`.
 
     With `resume` a run that the folder holds goes on, with `retry_failed` its failed trials are
-    played again. `workers` are the processes that play, 0 for this one; without a number there
-    are as many as the trials are worth.
+    played again. Of a `shard` only its trials are played. `workers` are the processes that play,
+    0 for this one; without a number there are as many as the trials are worth.
 
     Raises:
         ConfigError: for robots or an adversary that there are not, or that cannot do what is asked.
@@ -84,7 +86,9 @@ def run(
         raise ConfigError([f"{dotted(key)}: {message}" for key, message in findings])
     folder = choose_folder(folder, config.name, resume)
     with locked(folder):
-        return run_in(folder, config, workers, lambda _: None, resume, retry_failed, sys.argv)
+        return run_in(
+            folder, config, workers, lambda _: None, resume, retry_failed, sys.argv, shard
+        )
 
 
 def run_in(
@@ -95,12 +99,13 @@ def run_in(
     resume: bool,
     retry_failed: bool,
     command: Sequence[str],
+    shard: Shard | None = None,
 ) -> RunStatus:
     """As `run`, in a folder that is locked; `command` is put on record."""
     begin_or_resume(folder, config, resume)
     provenance = Provenance(folder, config, command)
     try:
-        played = play_missing(config, folder, workers, notify, retry_failed)
+        played = play_missing(config, folder, workers, notify, retry_failed, shard)
     except WorkerError:
         provenance.close(BAD_INPUT, workers=0)
         raise
@@ -112,11 +117,17 @@ def run_in(
 
 
 def play_missing(
-    config: ExperimentConfig, folder: Path, workers: int | None, notify: Notify, retry: bool = False
+    config: ExperimentConfig,
+    folder: Path,
+    workers: int | None,
+    notify: Notify,
+    retry: bool = False,
+    shard: Shard | None = None,
 ) -> RunStatus:
     """Play every trial of `config` that `folder` has no record of; append them in their order.
 
-    With `retry` those that failed are played, too, and their records replaced.
+    With `retry` those that failed are played, too, and their records replaced. Of a `shard` only
+    its trials are played.
     Without a number of `workers` there are as many as the missing trials are worth; 0 plays them
     in this process. An interrupt ends the run early: what was finished is on record, and the run
     says so. `notify` is called once at the start and after every trial.
@@ -127,10 +138,11 @@ def play_missing(
     """
     specs = plan_trials(config)
     with TrialWriter(folder, specs) as writer:
-        failed = {} if retry else {t: own[-1] for t, own in writer.failures.items()}
+        failed = {} if retry else {t: why[-1] for t, why in writer.failures.items()}
         done = writer.done.difference(writer.failures) | failed.keys()
-        missing = [spec for spec in specs if spec.trial not in done]
-        status = RunStatus(len(specs), len(specs) - len(missing), len(failed))
+        own = specs if shard is None else shard.of(specs)
+        missing = [spec for spec in own if spec.trial not in done]
+        status = RunStatus(len(own), len(own) - len(missing), len(failed))
         status.reason = next(iter(failed.values()), None)
         status.workers = _workers(config, len(missing)) if workers is None else workers
         notify(status)
