@@ -15,6 +15,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from itertools import groupby
 
+import dask
 from distributed import (
     CancelledError,
     Client,
@@ -40,6 +41,7 @@ from testbed.text import warn
 TASK_S = 1.0
 TASKS_PER_WORKER = 2  # one that is played, and the next
 RETRIES = 1  # of a task whose worker cannot open its player
+LOST_S = 3600.0
 DASHBOARD = "127.0.0.1:8787"
 
 
@@ -92,6 +94,8 @@ def _client(cluster: int | Scheduler) -> Iterator[Client]:
             own = Client(cluster.address, security=security, loop=runner.loop, set_as_default=False)
         else:
             stack.enter_context(safe_path())
+            # Dask gives up a worker whose successor takes longer, as on a busy machine it may.
+            stack.enter_context(dask.config.set({"distributed.deploy.lost-worker-timeout": LOST_S}))
             with warnings.catch_warnings():
                 warnings.filterwarnings("ignore", r"\s*Port \d+ is already in use")
                 local = LocalCluster(
