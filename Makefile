@@ -18,6 +18,9 @@ BIN    := $(VENV)/bin
 PIP    := PIP_CONSTRAINT=$(CURDIR)/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1 \
           $(BIN)/python -m pip install --quiet
 
+# What the browser tests look at the report with, where there is npm.
+AXE := $(if $(shell command -v npm),tests/report/node_modules/axe-core/axe.min.js)
+
 # The test files with a mark: to collect all the others takes longer than to run these.
 marked  = $$(grep -rl --include='test_*.py' 'mark\.$(1)' tests)
 BESIDE  = $(BIN)/python -m tests.beside $(BUSY)
@@ -27,7 +30,7 @@ BESIDE  = $(BIN)/python -m tests.beside $(BUSY)
 demo: $(VENV)/.demo
 	$(BIN)/testbed run configs/quickstart.yaml
 
-test: $(VENV)/.test
+test: $(VENV)/.test $(AXE)
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 check: $(VENV)/.test
@@ -63,6 +66,10 @@ $(VENV)/.test: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
 	$(PIP) --editable '.[test,cluster]'
 	touch $@ $(VENV)/.demo
+
+$(AXE): tests/report/package-lock.json
+	npm ci --prefix tests/report --ignore-scripts --no-audit --no-fund
+	touch $@
 
 $(VENV)/.bench: $(VENV)/.test
 	$(PIP) --editable '.[test,cluster,bench]'

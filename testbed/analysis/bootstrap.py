@@ -6,7 +6,7 @@ replacement, each with all of its values; without labels each value is a cluster
 """
 
 from collections.abc import Callable, Hashable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -29,8 +29,8 @@ Labels: TypeAlias = Iterable[Hashable]
 class Estimate:
     """A value, and the interval in which it lies with 95% confidence.
 
-    One that is `single` is of one independent observation alone, and has no interval: its ends are
-    the value.
+    One that is `single` is of one independent observation alone, or of a whole population, and has
+    no interval: its ends are the value.
     """
 
     value: float
@@ -42,6 +42,17 @@ class Estimate:
     def ends(self) -> tuple[float, ...]:
         """The ends of its interval, if it has one."""
         return () if self.single else (self.low, self.high)
+
+    @property
+    def numbers(self) -> dict[str, float | None]:
+        """The value and the ends of its interval, which are None where it has none."""
+        low, high = self.ends or (None, None)
+        return {"value": self.value, "low": low, "high": high}
+
+    @property
+    def exactly(self) -> "Estimate":
+        """The same without an interval, as of a whole population."""
+        return replace(self, low=self.value, high=self.value, single=True)
 
     def covers(self, other: float, half_digit: float) -> bool | None:
         """Whether a value, rounded to twice `half_digit`, may lie in the interval, if any."""

@@ -11,7 +11,8 @@ from testbed.analysis import quality
 from testbed.analysis.bootstrap import Estimate, bootstrap, means, proportion, sample_of
 from testbed.analysis.comparison import compared, eventful, measured, with_apart
 from testbed.analysis.explanations import PREFIX
-from testbed.analysis.pairs import OTHER, Compared, Sample, cluster_of, pairs_of
+from testbed.analysis.pairs import Compared, Sample, cluster_of, pairs_of
+from testbed.analysis.population import exhausted
 from testbed.analysis.table import Run
 
 VALUES: Mapping[str, pl.Expr] = {
@@ -49,13 +50,15 @@ def estimates(run: Run, measures: Iterable[str]) -> tuple[Compared, dict[str, Co
 def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
     rows = measured(run.trials).with_columns(told=run.trials["explanations"].list.len())
     counted = with_apart(rows, main, eventful(run.config)).filter(pl.col("apart").is_null())
-    both = pairs_of(counted, main).filter("achieved", "achieved" + OTHER)
-    cost = Sample(both, cluster=cluster_of(both)).ended.ratio("actions").mean
+    whole = set(counted["scenario"]) <= exhausted(run)
+    pairs = pairs_of(counted, main)
+    cost = Sample(pairs, cluster_of(pairs), whole=whole).achieved.ratio("actions").mean
     return Condition(
         counted["pair"].n_unique(),
         {
             measure: {
-                name: _estimate(counted.filter(robot=name), measure) for name in run.config.robots
+                name: _estimate(counted.filter(robot=name), measure, whole)
+                for name in run.config.robots
             }
             for measure in measures
         },
@@ -63,8 +66,11 @@ def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
     )
 
 
-def _estimate(trials: pl.DataFrame, measure: str) -> Estimate | None:
-    """The mean of a measure; what is of events or explanations has the weight of their number."""
+def _estimate(trials: pl.DataFrame, measure: str, whole: bool) -> Estimate | None:
+    """The mean of a measure; what is of events or explanations has the weight of their number.
+
+    There is no interval where the trials are a whole population.
+    """
     known = trials.with_columns(value=VALUES[measure]).filter(pl.col("value").is_not_null())
     if not len(known):
         return None
@@ -73,4 +79,5 @@ def _estimate(trials: pl.DataFrame, measure: str) -> Estimate | None:
     of = quality.OF.get(measure)
     weights = None if of is None else known[PREFIX + of].to_numpy()
     sample = sample_of(known["value"].to_numpy(), weights, labels)
-    return proportion(sample) if measure in SHARES else bootstrap(means, sample)
+    found = proportion(sample) if measure in SHARES else bootstrap(means, sample)
+    return found.exactly if found and whole else found

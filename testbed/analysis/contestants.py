@@ -11,6 +11,7 @@ from asp.language import suggestion
 from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.comparison import MEASURES, compared, eventful, measured, with_apart
 from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, cluster_of, corrected, pairs_of
+from testbed.analysis.population import exhausted
 from testbed.analysis.statistics import Test
 from testbed.analysis.table import Run
 from testbed.experiment import StoreError
@@ -103,20 +104,28 @@ def _trials(run: Run, several: bool) -> pl.DataFrame:
     """The measured trials of a run; `robot` is the name of what is compared, `pair` the start."""
     parts = [pl.lit(run.folder.name)] * several + [pl.col("cell")] * run.config.is_sweep
     named = run.trials.with_columns(robot=pl.concat_str([*parts, pl.col("robot")], separator=MARK))
-    return _paired(named, START)
+    return _paired(run, named, START)
 
 
-def _paired(trials: pl.DataFrame, key: Sequence[str]) -> pl.DataFrame:
-    """Measured trials, whose `pair` is what these columns hold."""
+def _paired(run: Run, trials: pl.DataFrame, key: Sequence[str]) -> pl.DataFrame:
+    """Measured trials of a run, whose `pair` is what these columns hold.
+
+    `whole`: they are of a scenario whose population is played exhaustively.
+    """
+    whole = [
+        pl.col("scenario").is_in(exhausted(own)) & (pl.col("cell") == cell)
+        for cell, own in run.conditions.items()
+    ]
     told = trials.with_columns(
         start=pl.col("initial").list.join(" "), goal=pl.col("goal").list.sort().list.join(" ")
     )
-    return measured(told.with_columns(pair=pl.concat_str(key, separator=MARK)))
+    found = measured(told.with_columns(pair=pl.concat_str(key, separator=MARK)))
+    return found.with_columns(trials.select(whole=pl.any_horizontal(whole)))
 
 
 def _over_conditions(run: Run, sure: frozenset[str]) -> Iterator[Contrast]:
     """The robots of a swept run over all of its conditions, under each of which a start counts."""
-    trials = _paired(run.trials, ("cell", *START))
+    trials = _paired(run, run.trials, ("cell", *START))
     for robots in compared(run.config):
         yield _contrast(_counted(trials, robots, sure), robots, CONDITIONS)
 
@@ -139,8 +148,9 @@ def _counted(trials: pl.DataFrame, robots: Compared, sure: frozenset[str]) -> pl
 
 
 def _contrast(pairs: pl.DataFrame, robots: Compared, place: str) -> Contrast:
-    sample = Sample(pairs, cluster_of(pairs))
-    both = sample.where("achieved", "achieved" + OTHER).ended
+    whole = pairs.select("whole", "whole" + OTHER).to_numpy().all()
+    sample = Sample(pairs, cluster_of(pairs), whole=bool(whole))
+    both = sample.achieved
     return Contrast(
         robots,
         place,

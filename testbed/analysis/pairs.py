@@ -60,12 +60,14 @@ class Ratio:
 class Sample:
     """Pairs as `pairs_of` has them, with the columns of their clusters and weights, if any.
 
-    Pairs of one cluster say the same again; without such a column each says something new.
+    Pairs of one cluster say the same again; without such a column each says something new. Where
+    the pairs are `whole`, the population itself and no sample of it, estimates have no interval.
     """
 
     pairs: pl.DataFrame
     cluster: str | None = "state"
     weight: str | None = None
+    whole: bool = False
 
     def where(self, *holds: str | pl.Expr) -> Sample:
         """The pairs for which this holds."""
@@ -77,18 +79,23 @@ class Sample:
         return self.where("ended", "ended" + OTHER)
 
     @property
+    def achieved(self) -> Sample:
+        """The pairs in which both achieve their goal: who fails early has not needed less."""
+        return self.ended.where("achieved", "achieved" + OTHER)
+
+    @property
     def decided(self) -> Sample:
         """The pairs of which it is known of both trials if they were correct."""
         return self.where(*(pl.col("correct" + who).is_not_null() for who in ("", OTHER)))
 
     def mean(self, value: pl.Expr) -> Estimate | None:
         """The mean of a value of pairs; None of none."""
-        return bootstrap(means, sample_of(self._values(value), **self._labels))
+        return self._estimate(bootstrap, means, sample_of(self._values(value), **self._labels))
 
     def share(self, holds: str) -> Estimate | None:
         """The share of the pairs, of which it is known, for which this holds; None of none."""
         known = self.where(pl.col(holds).is_not_null())
-        return proportion(sample_of(known.pairs[holds], **known._labels))
+        return self._estimate(proportion, sample_of(known.pairs[holds], **known._labels))
 
     def ratio(self, name: str) -> Ratio:
         """A measure of the baseline divided by the treatment's."""
@@ -99,8 +106,8 @@ class Sample:
         sums = self.pairs.select(a=(weight * above).sum(), b=(weight * below).sum()).row(0)
         return Ratio(
             pairs=len(known.pairs),
-            mean=bootstrap(means, quotients),
-            median=bootstrap(medians, quotients),
+            mean=self._estimate(bootstrap, means, quotients),
+            median=self._estimate(bootstrap, medians, quotients),
             test=self.signed_rank(name),
             of_sums=sums[0] / sums[1] if sums[1] else None,
         )
@@ -113,6 +120,10 @@ class Sample:
         """McNemar's test of what holds of trials; above 0 where it does of more treatments."""
         own, base = (self.pairs[who].to_numpy() for who in (name + OTHER, name))
         return mcnemar(own, base, **self._labels)
+
+    def _estimate(self, estimate: Callable[..., Estimate | None], *of: object) -> Estimate | None:
+        found = estimate(*of)
+        return found.exactly if found and self.whole else found
 
     def _values(self, value: pl.Expr) -> Any:
         return self.pairs.select(value.cast(pl.Float64)).to_series().to_numpy()

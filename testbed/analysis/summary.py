@@ -8,8 +8,10 @@ from typing import Any, TypeAlias
 import polars as pl
 
 from testbed.analysis import comparison, quality
+from testbed.analysis.answers import answers_of
 from testbed.analysis.comparison import ACCURACY, COUNTS, DIVIDED, MEASURES, TIMES
 from testbed.analysis.pairs import OTHER, Compared, Sample, corrected, pairs_of
+from testbed.analysis.population import exhausted
 from testbed.analysis.statistics import Test
 from testbed.analysis.table import Run
 from testbed.experiment.digest import digest
@@ -27,11 +29,18 @@ def write_summary(
 ) -> dict[str, Any]:
     """Summarise a run into its `summary.json`, and return what was written.
 
-    Beside what `summarise` says, `digest` is the one number for all of its results; `covered`, how
-    much of the plan they are, is added as it is, and what is `added` key by key.
+    Beside what `summarise` says, `digest` is the one number for all of its results, `answers` are
+    those of `answers_of`, `exhaustive` the scenarios that are `exhausted`; `covered`, how much of
+    the plan they are, is added as it is, and what is `added` key by key.
     """
     found = summarise(run.trials, comparison.compared(run.config), comparison.eventful(run.config))
-    summary: dict[str, Any] = {"digest": digest(run.records()), **covered, **found}
+    summary: dict[str, Any] = {
+        "digest": digest(run.records()),
+        **covered,
+        "answers": answers_of(run),
+        "exhaustive": sorted(exhausted(run)),
+        **found,
+    }
     for own in added:
         summary = _joined(summary, own)
     replace_text(run.folder / SUMMARY, json.dumps(summary, indent=2) + "\n")
@@ -55,7 +64,8 @@ def summarise(
 
     `deadline` counts the trials with a decision that was cut off by the clock, which are in none of
     these numbers. `sure` are the eventful scenarios: a pair of theirs without its event is counted
-    apart, and so is every other that compares nothing (`with_apart`). A ratio is left out of the
+    apart, and so is every other that compares nothing (`with_apart`). Ratios, and the tests of what
+    is divided, are of the pairs in which both achieve their goal. A ratio is left out of the
     mean where the treatment's measure is 0; a measure without any ratio, and a test without any
     difference, is null. P-values are corrected over all groups, those of explanations apart; those
     of the same robots and pairs, as of the only scenario of a level, are one. A group is that of
@@ -103,14 +113,15 @@ def _group(
     played = set(trials["robot"].unique())
     own = {name: counted.filter(pl.col("robot") == name) for name in names if name in played}
     both = Sample(pairs_of(counted, robots))
-    ended = both.ended
-    ratios = _ratios(ended.pairs)
-    tests = {name: ended.signed_rank(name) for name in MEASURES}
+    achieved = both.achieved
+    ratios = _ratios(achieved.pairs)
+    tests = {name: achieved.signed_rank(name) for name in MEASURES}
     values = {
         "pairs": counted["pair"].n_unique(),
         **{key: reasons[reason] for reason, key in COUNTS.items()},
         "robot_errors": {name: (~rows["ended"]).sum() for name, rows in own.items()},
         "accuracy": {name: rows["correct"].mean() for name, rows in own.items()},
+        "both_achieve": len(achieved.pairs),
         "undecided": {name: rows["correct"].null_count() for name, rows in own.items()},
         "ratios": {name: ratios[name]["ratio"] for name in MEASURES},
         "ratios_of_sums": {name: ratios[name]["of_sums"] for name in MEASURES},
@@ -124,7 +135,11 @@ def _group(
         },
     }
     tests[ACCURACY] = both.decided.mcnemar("correct")
-    return frozenset(counted["pair"]), values, {MAIN: tests, EXPLANATIONS: quality.tests(ended)}
+    return (
+        frozenset(counted["pair"]),
+        values,
+        {MAIN: tests, EXPLANATIONS: quality.tests(both.ended)},
+    )
 
 
 def _of_tests(tests: Tests) -> dict[str, dict[str, float | None]]:
@@ -135,12 +150,12 @@ def _of_tests(tests: Tests) -> dict[str, dict[str, float | None]]:
     }
 
 
-def _ratios(ended: pl.DataFrame) -> dict[str, dict[str, Any]]:
+def _ratios(pairs: pl.DataFrame) -> dict[str, dict[str, Any]]:
     """The mean ratio of each measure, where the treatment's is not 0, and the ratio of the sums."""
     found = {}
     for name in DIVIDED:
         own, other = pl.col(name), pl.col(name + OTHER)
         mean = (own / other).filter(other != 0).mean()
         of_sums = pl.when(other.sum() != 0).then(own.sum() / other.sum())
-        found[name] = ended.select(ratio=mean, of_sums=of_sums).row(0, named=True)
+        found[name] = pairs.select(ratio=mean, of_sums=of_sums).row(0, named=True)
     return found

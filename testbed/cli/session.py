@@ -83,7 +83,10 @@ def _conclude(
 
 def _told(tables: Tables) -> Iterator[str]:
     """The tables of a run; the digest is of the trials that the clock had no part in."""
+    for answer in tables.answers:
+        yield from wrap(answer, columns(), subsequent_indent="    ")
     if tables.rows:
+        yield from [""] * bool(tables.answers)
         yield from grid(tables.rows).lines(columns())
         for own in tables.grids:
             yield from ("", *own.lines(columns()))

@@ -63,6 +63,25 @@ def planned_trials(config: ExperimentConfig) -> dict[str, int]:
     return {name: len(list(_starts(config, name, world))) * robots for name in config.scenarios}
 
 
+def enumerated(config: ExperimentConfig) -> dict[str, int]:
+    """How many trials the scenarios have in the plan that are a whole population and no sample.
+
+    They are played from every initial state of the domain, and nothing in them is drawn.
+    """
+    if config.is_fine:
+        return {}
+    world = load_world(config.domain)
+    names = [
+        name
+        for name in config.scenarios
+        if config.settings(name).initial is None and not _is_drawn(config, name, world.description)
+    ]
+    states = len(world.initial_states()) if names else 0
+    if config.limit is not None and config.limit < states:
+        return {}
+    return dict.fromkeys(names, states * len(config.robots))
+
+
 def _in_scenarios(config: ExperimentConfig) -> Iterator[TrialSpec]:
     world = load_world(config.domain)
     domain = world.description.name
@@ -87,14 +106,17 @@ def _starts(config: ExperimentConfig, scenario: str, world: World) -> Iterator[t
 def _repeats(config: ExperimentConfig, scenario: str, description: Description) -> int:
     """Pairs from each initial state of a scenario.
 
-    What others do, what the robot is told of it, and which of several outcomes an action has is
-    what a seed draws; where nothing is left open, another pair would be the same trial again.
+    Where nothing is left open to a seed, another pair would be the same trial again.
     """
-    own = config.settings(scenario)
+    drawn = _is_drawn(config, scenario, description)
+    return config.settings(scenario).repeats or 1 if drawn else 1
+
+
+def _is_drawn(config: ExperimentConfig, scenario: str, description: Description) -> bool:
+    """Whether a seed draws what others do, what is told of it, or an action's outcome."""
     triggers = [t for t in description.triggers if t.scenario == scenario]
-    drawn = own.script is None and _events_are_drawn(config, triggers)
-    drawn = drawn or _news_is_drawn(config) or not deterministic_by_form(description)
-    return own.repeats or 1 if drawn else 1
+    events = config.settings(scenario).script is None and _events_are_drawn(config, triggers)
+    return events or _news_is_drawn(config) or not deterministic_by_form(description)
 
 
 def _events_are_drawn(config: ExperimentConfig, triggers: Sequence[Trigger]) -> bool:

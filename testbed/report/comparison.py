@@ -44,13 +44,14 @@ def optima(summary: Mapping[str, Any]) -> list[tuple[str, ...]]:
 def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
     """The accuracies and each ratio by scenario or level; none without pairs to compare.
 
-    `trials` are those of the main comparison, with the column `apart`.
+    `trials` are those of the main comparison, with the column `apart`. Of the scenarios that the
+    summary says are `exhaustive` there are no intervals.
     """
     robots = Compared(summary["baseline"], summary["treatment"])
     where = pl.when(pl.col("level") == COARSE).then("scenario").otherwise("level")
     pairs = pairs_of(trials.filter(pl.col("apart").is_null()), robots).with_columns(place=where)
     groups = {
-        str(name): Sample(own)
+        str(name): Sample(own, whole=name in summary["exhaustive"])
         for (name,), own in pairs.partition_by("place", as_dict=True).items()
         if len(own) >= ENOUGH
     }
@@ -64,11 +65,12 @@ def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
         Series(robots.treatment, "first", drawn(lambda own: own.share("correct" + OTHER))),
         Series(robots.baseline, "second", drawn(lambda own: own.share("correct")), "s"),
     ]
+    divided = f"{robots.baseline} / {robots.treatment}"
     ratios = {name: Series("ratio", "first", drawn(partial(_mean, name))) for name in MEASURES}
     return [
         Chart("compared-correct", "correct", list(groups), shares, "shares"),
         *(
-            Chart(f"compared-{name}", f"{in_words(name)}, ratio", list(groups), [own])
+            Chart(f"compared-{name}", f"{in_words(name)}, {divided}", list(groups), [own])
             for name, own in ratios.items()
         ),
     ]
@@ -76,4 +78,4 @@ def charts(trials: pl.DataFrame, summary: Mapping[str, Any]) -> list[Chart]:
 
 def _mean(measure: str, sample: Sample) -> Estimate | None:
     above, below = pl.col(measure), pl.col(measure + OTHER)
-    return sample.ended.where(below != 0).mean(above / below)
+    return sample.achieved.where(below != 0).mean(above / below)

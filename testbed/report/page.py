@@ -25,7 +25,7 @@ from testbed.report.explanations import quality_table
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Chart, Results, Section, grid, left_out, results_of
-from testbed.text import chance, counted, number, plain
+from testbed.text import chance, counted, listed, number, plain
 from testbed.text.grid import Grid
 
 
@@ -33,14 +33,15 @@ from testbed.text.grid import Grid
 class Tables:
     """What a run comes to: one row per scenario or level and robot, and the tables of studies.
 
-    `digest` is the one number for all of its results but those of the `late` trials, which have a
-    deadline; `notice` is what is to be known of a run that is not complete; `condition` is that of
-    its trials in words, `left_out` says why published figures do not stand beside them, where they
-    might.
+    `answers` are sentences, one per question that the run answers. `digest` is the one number for
+    all of its results but those of the `late` trials, which have a deadline; `notice` is what is to
+    be known of a run that is not complete; `condition` is that of its trials in words, `left_out`
+    says why published figures do not stand beside them, where they might.
     """
 
     digest: str
     late: int
+    answers: list[str]
     notice: str | None
     rows: list[Row]
     grids: list[Grid]
@@ -66,6 +67,7 @@ def write_report(
     tables = Tables(
         summary["digest"],
         summary["deadline"],
+        [own["sentence"] for own in summary["answers"]],
         covered.notice(),
         rows_of(run.trials.with_columns(rows["apart"])),
         [grid(view, f"{section.title}: {view.title}") for section, view in views],
@@ -111,6 +113,7 @@ def _compared(
         **{role: summary[role] for role in Compared._fields},
         "counts": COUNTS,
         "measures": list(MEASURES),
+        "exhaustive": summary["exhaustive"],
         "optimum_columns": OPTIMUM,
         "optima": optima(summary) if own else [],
         "quality": quality_table(summary),
@@ -138,6 +141,7 @@ def environment() -> Environment:
         "drawn": _drawn,
         "events": lambda own: ", ".join(f"{e.action} at step {e.step}" for e in own.exogenous),
         "in_words": in_words,
+        "listed": listed,
         "number": number,
         "of_place": lambda own: of_place(own.scenario, own.level),
         "steps": lambda own: list(timeline(own)),

@@ -105,8 +105,8 @@ def numbers(found: Found) -> dict[str, Any]:
     }
 
 
-def _ends(own: Estimate | None) -> dict[str, float] | None:
-    return None if own is None else {"value": own.value, "low": own.low, "high": own.high}
+def _ends(own: Estimate | None) -> dict[str, float | None] | None:
+    return None if own is None else own.numbers
 
 
 def _section(found: Found, measures: Sequence[str], title: str, template: Path | None) -> Section:

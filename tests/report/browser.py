@@ -123,8 +123,9 @@ class Tab:
         return self._browser.call(method, self._session, **parameters)
 
     def evaluate(self, expression: str) -> Any:
-        """The value of an expression of JavaScript."""
-        answer = self.call("Runtime.evaluate", expression=expression, returnByValue=True)
+        """The value of an expression of JavaScript; of a promise what it comes to."""
+        settings = {"returnByValue": True, "awaitPromise": True}
+        answer = self.call("Runtime.evaluate", expression=expression, **settings)
         assert "exceptionDetails" not in answer, answer
         return answer["result"].get("value")
 

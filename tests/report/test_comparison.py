@@ -44,6 +44,7 @@ def _shown(summary: Any) -> dict[str, dict[str, tuple[str, str]]]:
             measures=list(MEASURES),
             compared_charts=[],
             optima=[],
+            exhaustive=[],
             **robots,
         )
     )

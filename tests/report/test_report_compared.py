@@ -18,7 +18,9 @@ def _pair(name: str, scenario: str = "1", **baseline: object) -> list[TrialRecor
 
 def _drawn(records: Iterable[TrialRecord]) -> list[Chart]:
     robots = Compared("traditional", "intentional")
-    return charts(with_apart(measured(table_of(records)), robots, ()), robots._asdict())
+    return charts(
+        with_apart(measured(table_of(records)), robots, ()), robots._asdict() | {"exhaustive": []}
+    )
 
 
 def _charts(*pairs: list[TrialRecord]) -> Mapping[str, Chart]:

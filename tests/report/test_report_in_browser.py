@@ -13,12 +13,17 @@ from tests.report.browser import CHROMIUM, Browser, Tab
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here")
 
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
+"""What `make test` installs by `package.json`."""
 PHONE, DESK = 390, 1300
 RUNS = {
     "table1": ("table1", ["limit=2"]),
     "levels": ("levels", ["levels=[L1,L2]", "limit=1"]),
     "quickstart": ("quickstart", ["link=inprocess"]),
 }
+# Rules of WCAG 2 up to AA, and best practices, that a part of the page breaks.
+VIOLATIONS = """axe.run(document, {resultTypes: ['violations']}).then(found =>
+  found.violations.flatMap(rule => rule.nodes.map(node => [rule.id, node.html.slice(0, 120)])))"""
 TAB, ENTER = ("Tab", 9), ("Enter", 13, "\r")
 
 # The text of least contrast with what is behind it, by WCAG 2, and that contrast.
@@ -125,3 +130,41 @@ def test_a_keyboard_gets_to_every_part_and_opens_what_is_closed(
     assert tab.evaluate("getComputedStyle(document.activeElement).outlineStyle") == "solid"
     tab.press(*ENTER)
     assert tab.evaluate("document.activeElement.parentElement.open") is True
+
+
+@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report")
+@pytest.mark.parametrize(("width", "scheme"), [(DESK, "light"), (DESK, "dark"), (PHONE, "light")])
+def test_no_rule_of_accessibility_is_broken(
+    browser: Browser, page: Path, width: int, scheme: str
+) -> None:
+    tab = Tab(browser, page, width, scheme)
+    tab.evaluate("document.querySelectorAll('details').forEach(own => own.open = true)")
+    tab.evaluate(AXE.read_text(encoding="utf-8") + ";0")
+    assert tab.evaluate(VIOLATIONS) == []
+
+
+def test_each_table_says_what_it_is_and_each_row_whose_it_is(browser: Browser, page: Path) -> None:
+    tab = Tab(browser, page, DESK, "light")
+    tables = "[...document.querySelectorAll('table')]"
+    assert tab.evaluate(f"{tables}.every(own => own.caption.textContent.trim())")
+    rows = f"{tables}.flatMap(own => [...own.tBodies[0].rows])"
+    assert tab.evaluate(f"{rows}.length") > 0
+    assert tab.evaluate(f"{rows}.every(own => own.cells[0].scope === 'row')")
+
+
+def test_steps_that_succeed_fail_and_think_differ_in_shape(browser: Browser, page: Path) -> None:
+    """Not in their colour alone: each is drawn as with one colour for all."""
+    tab = Tab(browser, page, DESK, "light")
+    tab.evaluate("""['done', 'failed', 'mental'].forEach(name =>
+        document.documentElement.style.setProperty('--' + name, 'rgb(1, 2, 3)'))""")
+    shape = "own => (s => s.backgroundColor + s.backgroundImage + s.borderTopWidth)"
+    marks = "[...document.querySelectorAll('.legend .strip i:not(.touched)')]"
+    assert tab.evaluate(f"new Set({marks}.map({shape}(getComputedStyle(own)))).size") == 3
+
+
+def test_a_phone_shows_both_robots_of_a_row_at_once(browser: Browser, page: Path) -> None:
+    tab = Tab(browser, page, PHONE, "light")
+    rows = "[...document.querySelectorAll('table.compared tbody tr')]"
+    assert tab.evaluate(f"{rows}.length") > 0
+    assert tab.evaluate(f"Math.max(...{rows}.map(own => own.clientHeight))") < 800
+    assert tab.evaluate(f"Math.max(...{rows}.map(own => own.scrollWidth))") <= PHONE
