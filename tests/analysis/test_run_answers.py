@@ -7,11 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
 
 from testbed.analysis import load_run
 from testbed.analysis.contestants import contrasts
-from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.runner import run
@@ -122,15 +120,6 @@ def _played(folder: Path, *overrides: str) -> Path:
     run(config, folder / "run", workers=0)
     write_report(folder / "run", config)
     return folder / "run"
-
-
-def test_the_terminal_has_the_same_sentences_first(tmp_path: Path) -> None:
-    folder = _played(tmp_path, "adversary.rate=0.9", "repeats=6")
-    told = " ".join(CliRunner().invoke(app, ["report", str(folder)]).output.split())
-    sentences = [own["sentence"] for own in _summary(folder)["answers"]]
-    assert sentences
-    assert told.startswith(sentences[0])
-    assert all(own in told for own in sentences)
 
 
 def test_a_population_that_is_played_exhaustively_has_no_interval(tmp_path: Path) -> None:

@@ -28,7 +28,9 @@ def _pairs(scenario: str, count: int, actions: int) -> list[TrialRecord]:
     ]
 
 
-ROW = re.compile(r"<tr>\s*<td data-label=.scenario.><div>(.*?)</div></td>(.*?)</tr>", re.DOTALL)
+ROW = re.compile(
+    r"<tr>\s*<th[^>]* data-label=.scenario.><div>(.*?)</div></th>(.*?)</tr>", re.DOTALL
+)
 CELL = re.compile(r'data-label="([^"]+)"><div>(.*?)(?: <small>(.*?)</small>)?</div>')
 
 
