@@ -121,7 +121,7 @@ def test_robots_are_compared_where_both_have_played(tmp_path: Path) -> None:
     assert "How they compare" not in alone.text
     _, both = _report(tmp_path / "both", intentional, traditional)
     table = both.text.partition("How they compare")[2].partition("Behind the shares")[0]
-    assert "1 1 100.0 % 0.0 % - - - - 2.50" in table
+    assert "1 1 100.0 % 0.0 % 1 - - - - 2.50" in table
 
 
 def test_text_does_not_break_inside_of_an_atom(tmp_path: Path) -> None:
@@ -134,7 +134,8 @@ def test_text_does_not_break_inside_of_an_atom(tmp_path: Path) -> None:
 
 def test_on_a_narrow_screen_every_cell_has_its_label(tmp_path: Path) -> None:
     text, page = _report(tmp_path, a_record(steps=2), a_record("b", robot="traditional", steps=2))
-    assert page.tags.count("td") == text.count("<td ") == text.count("data-label=")
+    rows = text.count('<th scope="row"')
+    assert page.tags.count("td") + rows == text.count("<td ") + rows == text.count("data-label=")
     assert page.tags.count("table") == text.count('stack">') == 5
 
 
