@@ -25,7 +25,7 @@ from tests.agents.intentional.lives import (
     Wish,
     live,
 )
-from tests.agents.intentional.test_incremental import Both
+from tests.agents.intentional.test_incremental import BOTH
 from tests.literals import parsed
 from tests.oracle import minimal_actions
 
@@ -126,7 +126,7 @@ def test_it_goes_and_looks_where_it_assumes_its_goal_to_hold() -> None:
 def test_on_kept_controls_it_decides_as_from_scratch(
     initial: int, goal: tuple[str, ...], wishes: dict[int, Wish]
 ) -> None:
-    live(CheckingRobot(Both), initial, goal, wishes, steps=16, feedback=False)
+    live(CheckingRobot(BOTH), initial, goal, wishes, steps=16, feedback=False)
 
 
 def _task(source: str, goal: Sequence[str]) -> Task:

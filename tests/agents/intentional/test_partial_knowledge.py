@@ -11,7 +11,7 @@ from asp.language import parse_description
 from testbed.protocol import Decision
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live, place
-from tests.agents.intentional.test_incremental import Both
+from tests.agents.intentional.test_incremental import BOTH
 from tests.literals import parsed
 
 LIBRARY = place("library", dark=True)
@@ -35,14 +35,14 @@ slow = settings(max_examples=8)
 def test_both_ways_agree_where_defaults_say_where_things_are(
     initial: int, wishes: dict[int, Wish]
 ) -> None:
-    live(IntentionalRobot(Both), initial, DELIVERED, wishes, steps=18, where=LIBRARY)
+    live(IntentionalRobot(BOTH), initial, DELIVERED, wishes, steps=18, where=LIBRARY)
 
 
 @slow
 @given(initial=st.sampled_from(OFFICE_STATES), wishes=wishes)
 def test_both_ways_agree_where_nothing_does(initial: int, wishes: dict[int, Wish]) -> None:
     goal = parsed(["loc(book1,office2)", "loc(book2,office1)"])
-    live(IntentionalRobot(Both), initial, goal, wishes, steps=18, where=OFFICE)
+    live(IntentionalRobot(BOTH), initial, goal, wishes, steps=18, where=OFFICE)
 
 
 @slow
@@ -55,7 +55,7 @@ def test_both_ways_agree_where_nothing_does(initial: int, wishes: dict[int, Wish
 def test_both_ways_agree_whatever_the_goal(
     initial: int, goal: list[str], wishes: dict[int, Wish], where: Place
 ) -> None:
-    live(IntentionalRobot(Both), initial, goal, wishes, steps=12, where=where)
+    live(IntentionalRobot(BOTH), initial, goal, wishes, steps=12, where=where)
 
 
 def _initial(*true: str) -> int:
@@ -134,7 +134,7 @@ def test_a_defined_fluent_that_is_seen_at_the_start_needs_its_reason(locked: boo
     where = Place("office", world, source, dark=True)
     true = parsed(["loc(rob1,office1)", "loc(book1,office1)", "loc(book2,office1)"])
     start = world.state(parsed([*true, *["locked(library)"] * locked]))
-    life = live(IntentionalRobot(Both), start, parsed(["loc(book1,office2)"]), steps=3, where=where)
+    life = live(IntentionalRobot(BOTH), start, parsed(["loc(book1,office2)"]), steps=3, where=where)
     assert ("locked(library)" in life.decisions[0].trace.belief) is locked
 
 

@@ -11,7 +11,7 @@ from asp.language import parse_description
 from benchmarks.offices import book_names, office
 from testbed.world import world_of
 from tests.agents.intentional.lives import Place, Wish, live
-from tests.agents.intentional.test_incremental import Both, wishes
+from tests.agents.intentional.test_incremental import BOTH, wishes
 from tests.literals import parsed
 
 
@@ -44,4 +44,4 @@ def test_every_decision_is_the_same_in_any_office(
     books = book_names(len(place.world.description.sorts["book"]))[:wanted]
     locks = place.world.description.sorts["secure_room"]
     goal = parsed([f"loc({book},{locks[-1]})" for book in books])
-    live(IntentionalRobot(Both), some_state(place, seed), goal, wishes, steps=16, where=place)
+    live(IntentionalRobot(BOTH), some_state(place, seed), goal, wishes, steps=16, where=place)

@@ -9,7 +9,7 @@ from agents.intentional import IntentionalRobot
 from agents.intentional.refined import RefinedRobot
 from asp.refinement import Refinement, load
 from tests.agents.intentional.executor.faulty_world import TEXTS, Faults, play
-from tests.agents.intentional.test_incremental import Both
+from tests.agents.intentional.test_incremental import BOTH
 from tests.experiment.gardens import GARDEN, PIECES
 from tests.literals import parsed
 
@@ -67,7 +67,7 @@ def test_a_thing_that_is_not_found_where_it_has_to_be_was_overlooked() -> None:
 def test_both_ways_of_reasoning_bear_wrong_tests_alike(
     lies: set[tuple[str, int]], failing: int
 ) -> None:
-    robot = RefinedRobot(IntentionalRobot(Both))
+    robot = RefinedRobot(IntentionalRobot(BOTH))
     slips = [("fine_lift(tom,other_head)", number + 1) for number in range(failing)]
     goal = parsed(["stands(rake,south)", "-carries(tom,rake)"])
     went = play(robot, _garden(), START, goal, Faults(lies=lies, slips=slips), steps=150)

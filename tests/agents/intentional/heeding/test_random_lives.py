@@ -13,7 +13,7 @@ from agents.intentional import IntentionalRobot
 from testbed.protocol import Relevance
 from tests.agents.intentional.heeding.domains import BLOCKS, CANAL, SMITHY, port
 from tests.agents.intentional.lives import OFFICE, Life, Place, Wish, live, place
-from tests.agents.intentional.test_incremental import Both
+from tests.agents.intentional.test_incremental import BOTH
 
 TEXTS = {"blocks": BLOCKS, "canal": CANAL, "smithy": SMITHY, "port": port("B", "S")}
 DOMAINS = ["office", *TEXTS]
@@ -70,5 +70,5 @@ def test_what_is_heeded_is_believed_and_the_rest_is_on_record(
 @pytest.mark.parametrize("relevance", get_args(Relevance))
 @pytest.mark.parametrize("domain", DOMAINS)
 def test_both_ways_of_reasoning_agree(domain: str, relevance: Relevance) -> None:
-    for _ in _lives(domain, relevance, 2, Both):
+    for _ in _lives(domain, relevance, 2, BOTH):
         pass
