@@ -45,7 +45,8 @@ def test_each_condition_has_the_shares_of_its_own_trials(folder: Path) -> None:
         for robot, share in own["achieved"].items():
             ours = [record.achieved for record in counted if record.robot == robot]
             assert share["value"] == pytest.approx(sum(ours) / len(ours))
-            assert share["low"] <= share["value"] <= share["high"]
+            if share["low"] is not None:  # some are of a whole population
+                assert share["low"] <= share["value"] <= share["high"]
     undisturbed = told["knowledge=complete, adversary.rate=0"]
     assert undisturbed["cost"]["value"] == 1.0
     assert {share["value"] for share in undisturbed["achieved"].values()} == {1.0}

@@ -10,6 +10,7 @@ import polars as pl
 import pytest
 from rich.cells import cell_len
 
+from asp.language import Literal
 from testbed import studies
 from testbed.analysis.table import table_of
 from testbed.experiment.plan import plan_trials
@@ -24,7 +25,8 @@ from tests.studies.levels.found import views
 
 WIDTHS = (60, 80, 120, 200)
 ROBOTS = ("intentional", "intentional-nozoom", "traditional")
-SEEN = [Explained(3, [At(2, f"exo_move(book{n},office1)") for n in range(9)], ["-loc(b,library)"])]
+MOVES = [At(2, Literal.parse(f"exo_move(book{n},office1)")) for n in range(9)]
+SEEN = [Explained(3, MOVES, [Literal.parse("-loc(b,library)")])]
 ENDINGS = ("achieved", "gave_up", "step_limit", "false_finish")
 
 
