@@ -12,7 +12,8 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.robots import make_robot
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 
 

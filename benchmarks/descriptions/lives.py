@@ -14,7 +14,7 @@ from benchmarks.own import Own
 from testbed.config import ConfigError
 from testbed.experiment.digest import logical
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.trial import Moment
+from testbed.experiment.storyteller import Moment
 
 REFERENCES = {"intentional": "intentional-plain", "traditional": "traditional-plain"}
 """The reference of each robot."""

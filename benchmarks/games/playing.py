@@ -9,7 +9,8 @@ from benchmarks.games.drawing import Game, smaller
 from benchmarks.games.faults import Fault
 from benchmarks.sheets import Row
 from testbed.experiment.robots import make_robot
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Robot
 

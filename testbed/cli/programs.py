@@ -10,8 +10,9 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.replay import stored_trial
 from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
+from testbed.experiment.storyteller import Moment
 from testbed.experiment.timeline import of_place
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 
 

@@ -20,6 +20,8 @@ from testbed.experiment.record import (
     TrialRecord,
 )
 from testbed.experiment.specs import TrialSpec, without_paths
+from testbed.experiment.stories import Story, encode
+from testbed.experiment.storyteller import Storyteller
 from testbed.protocol import FINISH, WAIT, Decision, Event, Explanation, FineTrace, Trace, shortened
 
 NAMED = ("trial", "pair", "scenario", "seed", "robot", "domain", "level", "cell")
@@ -27,10 +29,14 @@ NAMED = ("trial", "pair", "scenario", "seed", "robot", "domain", "level", "cell"
 
 
 class Result(msgspec.Struct):
-    """A record, and where the trial failed what is known of the failure."""
+    """A record, where the trial failed what is known of the failure, and the trial's story.
+
+    `story` is a line of `stories.jsonl`, None once it is kept there.
+    """
 
     record: TrialRecord
     details: str | None = None
+    story: bytes | None = None
 
     def _repr_html_(self) -> str:
         """As of the record."""
@@ -51,6 +57,7 @@ class Recorder:
         self.record = blank_record(spec)
         self.record.origin = self.origin = here()
         self.costs: Mapping[str, int] = {}
+        self.teller: Storyteller | None = None
         # Whether every action and every test comes out as it should.
         self._certain = fine is None or all(p == 1.0 for p in fine.statistics.values())
         self._last: Decision | None = None
@@ -138,6 +145,11 @@ class Recorder:
         self.record.correct = False if cause == "robot" else None
         self.record.reason, self.record.cause = shortened(reason), cause
 
+    def result(self, details: str | None = None) -> Result:
+        """The record with its story; of a trial that did not begin a story of no steps."""
+        story = Story(trial=self.record.trial) if self.teller is None else self.teller.story
+        return Result(self.record, details, encode(story))
+
 
 def _add_times(trace: Trace | FineTrace, sums: TrialRecord | FineCounts) -> None:
     """Add the times of a step to those of the same names in the record."""
@@ -164,7 +176,7 @@ def lost_worker(spec: TrialSpec, how: str) -> Result:
     """The result of a trial whose worker process ended in the middle of it; `how` is the reason."""
     recorder = Recorder(spec)
     recorder.fail("error", how, "infrastructure")
-    return Result(recorder.record)
+    return recorder.result()
 
 
 def blank_record(spec: TrialSpec) -> TrialRecord:

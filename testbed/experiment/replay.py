@@ -13,8 +13,9 @@ from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import read_config
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import read_records
+from testbed.experiment.storyteller import Moment
 from testbed.experiment.timeline import explanation, in_words, of_place, place
-from testbed.experiment.trial import Moment, play_trial, refinement_of
+from testbed.experiment.trial import play_trial, refinement_of
 from testbed.link import InProcessRobot
 from testbed.protocol import FINISH, FineTrace, Trace
 from testbed.text import Say, columns, counted

@@ -2,8 +2,7 @@
 
 import time
 import traceback
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import lru_cache, partial
 
 import msgspec
@@ -21,11 +20,10 @@ from testbed.experiment.recorder import Recorder, Result
 from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import BUDGETS, Setting, TrialSpec
 from testbed.experiment.store import check
+from testbed.experiment.storyteller import Moment, Storyteller, Watch
 from testbed.protocol import (
     NONE,
     NOT_UNDERSTOOD,
-    Decision,
-    Percept,
     RobotClient,
     RobotGone,
     RobotLost,
@@ -37,28 +35,8 @@ from testbed.protocol import (
 from testbed.text import listed
 from testbed.world import World, load_world, world_of
 
-
-@dataclass(frozen=True)
-class Moment:
-    """One step of a trial: what the robot was told, answered, and what became of it.
-
-    `happened` is None unless the robot attempted a physical action; `event` is the exogenous
-    action, or None; `skipped` are those of a script that were not possible; `before` and `after`
-    are states of the world.
-    """
-
-    percept: Percept
-    decision: Decision
-    happened: bool | None
-    event: Action | None
-    before: int
-    after: int
-    skipped: tuple[str, ...] = ()
-
-
 MOST_DETAILS = 100_000
 """Characters of what is known of a failure; of more the end is kept."""
-Watch = Callable[[Moment], None]
 
 
 def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch = lambda _: None) -> Result:
@@ -87,7 +65,7 @@ def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch = lambda _: No
         recorder.fail("robot_lost", f"{NOT_UNDERSTOOD}: {error}", "robot")
     recorder.record.wall_time_s = time.perf_counter() - started
     recorder.record.origin = msgspec.structs.replace(origin, load=load())
-    return Result(recorder.record, details and details[-MOST_DETAILS:])
+    return recorder.result(details and details[-MOST_DETAILS:])
 
 
 def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch) -> None:
@@ -97,12 +75,15 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     recorder.origin.domain_sha256, recorder.origin.refinement_sha256 = setup.hashes
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
     least = partial(setup.judge.minimal, core.situation.state, goal, spec.setting.judge_states)
+    recorder.teller = setup.teller(spec.trial)
     adversary = setup.adversary(spec)
     adversary.reset(for_adversary)
     try:
         client.begin(setup.task(spec, core.situation.state, for_robot))
         while core.situation.ending is None:
-            watch(_step(core, client, adversary, recorder))
+            moment = _step(core, client, adversary, recorder)
+            recorder.teller.tell(moment)
+            watch(moment)
     except RobotGone:
         raise
     except RobotLost:  # its own error: the trial counts if the goal has a plan
@@ -169,6 +150,10 @@ class TrialSetup:
         """A new game."""
         return Core(self._world, _rules(setting), ())
 
+    def teller(self, trial: str) -> Storyteller:
+        """Makes the story of a trial."""
+        return Storyteller(trial, self._world)
+
     def adversary(self, spec: TrialSpec) -> Adversary:
         """The script, or the strategy that the setting has."""
         game = Game(
@@ -221,6 +206,10 @@ class FineTrialSetup(TrialSetup):
         assert setting.fine is not None
         statistics, pace = setting.fine.statistics, setting.fine.pace
         return fine_core(self._refinement, _rules(setting), statistics, pace=pace)
+
+    def teller(self, trial: str) -> Storyteller:
+        """Its story is of both resolutions."""
+        return Storyteller(trial, self._fine, frozenset(self._world.fluents))
 
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
         """As of the coarse state, and of the fine one the inertial literals about the robot."""

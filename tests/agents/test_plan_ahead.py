@@ -7,7 +7,8 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 
 GARDEN = """

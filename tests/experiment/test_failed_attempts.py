@@ -10,7 +10,7 @@ import pytest
 from asp.domains import LEVELS, level_text
 from asp.language import Literal
 from benchmarks.own import Own
-from testbed.experiment.trial import Moment
+from testbed.experiment.storyteller import Moment
 from tests.experiment.gardens import GARDEN, PIECES
 
 ROBOTS = ("intentional", "intentional-nozoom")

@@ -10,7 +10,8 @@ from testbed.experiment.replay import Narrator, list_trials, replay
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import TrialWriter
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, Trace
 from testbed.world import World, load_world

@@ -24,7 +24,8 @@ from testbed.experiment.run_folder import read_config
 from testbed.experiment.runner import RunStatus, play_missing, player
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.experiment.worker_pool import WORTH, Play, play_all, workers_for
 from testbed.link import spawned_robot
 from testbed.protocol import Robot

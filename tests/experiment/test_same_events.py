@@ -9,7 +9,8 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 
 BUSY = ["levels=[L1,L2,L3]", "limit=6", "adversary.rate=0.5"]

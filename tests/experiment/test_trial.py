@@ -11,7 +11,8 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import Result
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import (
     Contradiction,

@@ -10,7 +10,8 @@ from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Activity, At, Attempt, Occurrence, TrialRecord
 from testbed.experiment.robots import make_robot
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.studies.table1.pairs import UNCLASSIFIED, classify, state_at
 from testbed.world import load_world

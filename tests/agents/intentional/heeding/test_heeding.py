@@ -16,7 +16,8 @@ from testbed.cli import app
 from testbed.config import config_names, load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
-from testbed.experiment.trial import Moment, play_trial
+from testbed.experiment.storyteller import Moment
+from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from tests.agents.intentional.heeding.domains import (
     BLOCKS,
