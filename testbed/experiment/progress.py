@@ -1,4 +1,4 @@
-"""How a run goes on, told on standard error: trials done, their rate, and the time left."""
+"""How a run goes on, told on standard error: its plan, trials done, their rate, the time left."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -7,10 +7,14 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from testbed.experiment.pilot import Estimate
 from testbed.experiment.runner import Notify, RunStatus
-from testbed.text import Say, counted, warn
+from testbed.text import Say, columns, counted, warn
+from testbed.text.grid import Grid
 
 EVERY_S = 30.0
+MOST_LINES = 40
+"""Conditions of a sweep that are listed in its plan."""
 
 
 @contextmanager
@@ -25,7 +29,10 @@ def progress(quiet: bool) -> Iterator[Notify]:
         with Progress(*columns, console=console) as bar:
             task = bar.add_task("planning the trials", total=None, rate="")
 
+            plan = Plan(lambda line: bar.console.print(line, markup=False, highlight=False))
+
             def notify(run: RunStatus) -> None:
+                plan.notify(run)
                 bar.update(task, total=run.planned, completed=run.done)
                 speed = bar.tasks[task].speed
                 rate = "" if speed is None else f"{speed:.1f}/s"
@@ -45,11 +52,13 @@ class Lines:
 
     def __init__(self, say: Say, clock: Callable[[], float] = time.monotonic) -> None:
         self._say, self._clock = say, clock
+        self._plan = Plan(say)
         self._began: tuple[float, int] | None = None
         self._due = 0.0
 
     def notify(self, run: RunStatus) -> None:
         """Told at the start and after every trial."""
+        self._plan.notify(run)
         now = self._clock()
         if self._began is None:
             self._began, self._due = (now, run.done), now + EVERY_S
@@ -59,6 +68,47 @@ class Lines:
 
     def _line(self, run: RunStatus, now: float, began: float, done: int) -> str:
         rate = (run.done - done) / (now - began)
-        left = round((run.planned - run.done) / rate)
         trials = f"{run.done} of {counted(run.planned, 'trial')}{_failed(run)}"
-        return f"{trials}, {rate:.1f}/s, {left // 3600}:{left // 60 % 60:02}:{left % 60:02} left"
+        return f"{trials}, {rate:.1f}/s, {_clock((run.planned - run.done) / rate)} left"
+
+
+class Plan:
+    """Says what a sweep plays, and once its first pairs are played what that is to take."""
+
+    def __init__(self, say: Say) -> None:
+        self._say = say
+        self._told: tuple[Estimate, ...] = ()
+
+    def notify(self, run: RunStatus) -> None:
+        """Told at the start and after every trial."""
+        if run.estimates == self._told:
+            return
+        known = run.estimates[0].seconds is not None
+        if not self._told and not known:
+            trials = sum(own.trials for own in run.estimates)
+            of = f"{counted(len(run.estimates), 'condition')}, {counted(trials, 'trial')} to play"
+            self._say(f"{of}; the first of each condition and scenario give the estimated time")
+        if known:
+            for line in plan_of(run).lines(columns()):
+                self._say(line)
+        self._told = run.estimates
+
+
+def plan_of(run: RunStatus) -> Grid:
+    """The conditions of a sweep, their trials, and the time that is estimated for them."""
+    workers, estimates = run.workers or 1, run.estimates
+    rows = [
+        (own.cell, str(own.trials), _clock((own.seconds or 0.0) / workers))
+        for own in estimates[:MOST_LINES]
+    ]
+    if len(estimates) > MOST_LINES:
+        rows.append((f"and {len(estimates) - MOST_LINES} more conditions", "", ""))
+    seconds = sum(own.seconds or 0.0 for own in estimates) / workers
+    rows.append(("all", str(sum(own.trials for own in estimates)), _clock(seconds)))
+    by = "one process" if workers == 1 else f"{workers} processes"
+    return Grid(("condition", "trials", f"estimated time of {by}"), rows, range(1, 3))
+
+
+def _clock(seconds: float) -> str:
+    whole = round(seconds)
+    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"

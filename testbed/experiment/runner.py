@@ -13,6 +13,7 @@ from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import INTERRUPTED
 from testbed.experiment.origin import sha256
+from testbed.experiment.pilot import Estimate, Pilot
 from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.record import FAILURES
@@ -42,7 +43,8 @@ class RunStatus:
     """A run as it stands: trials planned, on record, and failed; whether it was stopped.
 
     `reason` is that of the first failed trial, None where none failed; `workers` are the processes
-    that play what was missing, None where they are those of a scheduler.
+    that play what was missing, None where they are those of a scheduler. `estimates` are those of
+    a sweep, one per condition of which trials were missing.
     """
 
     planned: int
@@ -51,6 +53,7 @@ class RunStatus:
     reason: str | None = None
     workers: int | None = 1
     interrupted: bool = False
+    estimates: tuple[Estimate, ...] = ()
 
     @property
     def exit_code(self) -> int:
@@ -145,12 +148,33 @@ def play_missing(
         status = RunStatus(len(own), len(own) - len(missing), len(failed))
         status.reason = next(iter(failed.values()), None)
         status.workers = _workers(config, len(missing)) if workers is None else workers
+        record = partial(_record, folder, writer, status, sha256(stored_text(config)))
+        if config.is_sweep and missing:
+            _sweep(config, missing, record, status, notify)
+            return status
         notify(status)
         if missing:
-            results = _results(config, missing, status.workers)
-            record = partial(_record, folder, writer, status, sha256(stored_text(config)))
-            _put_on_record(results, record, status, notify)
+            _put_on_record(_results(config, missing, status.workers), record, status, notify)
     return status
+
+
+def _sweep(
+    config: ExperimentConfig,
+    missing: Sequence[TrialSpec],
+    record: Callable[[Result], None],
+    status: RunStatus,
+    notify: Notify,
+) -> None:
+    """Play the trials of a sweep, and tell what they will take as soon as it can be estimated."""
+    pilot = Pilot(missing)
+
+    def tell(status: RunStatus) -> None:
+        status.estimates = pilot.estimates
+        notify(status)
+
+    tell(status)
+    ordered = [missing[position] for position in pilot.order]
+    _put_on_record(pilot.results(_results(config, ordered, status.workers)), record, status, tell)
 
 
 def _workers(config: ExperimentConfig, missing: int) -> int | None:
