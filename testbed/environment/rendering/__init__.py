@@ -13,7 +13,9 @@ from testbed.environment.rendering.picture import Image as Image
 from testbed.environment.rendering.picture import draw_picture as draw_picture
 from testbed.environment.rendering.scene import Place
 from testbed.environment.rendering.scene import Scene as Scene
+from testbed.environment.rendering.scene import Stage as Stage
 from testbed.environment.rendering.scene import scene as scene
+from testbed.environment.rendering.svg import draw_svg as draw_svg
 from testbed.environment.rules import NotResetError
 
 FIGURE = Markup(

@@ -11,7 +11,7 @@ adjacency that says most.
 """
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import permutations
 from typing import TypeAlias
 
@@ -73,7 +73,7 @@ class Scene:
 
     step: int
     places: tuple[Place, ...]
-    rest: tuple[str, ...]
+    rest: tuple[Fluent, ...]
     robot: str
     adversary: str
     outcome: str
@@ -81,55 +81,77 @@ class Scene:
 
 def scene(world: World, now: Situation, robot: str) -> Scene:
     """The scene of a robot's situation in a world."""
-    description, true = world.description, world.true_atoms(now.state)
-    where, robots = layout(description), dict.fromkeys([*description.robots, robot])
-    places = tuple(_place(name, description, robots, true, where) for name in where.walk())
-    located = {name for place in places for name in (place.name, *place.cells)}
-    present = {robot for place in places for robot in place.robots}
-
-    def is_shown(fluent: Fluent) -> bool:
-        arguments = fluent.arguments
-        if len(arguments) == 2:
-            return arguments[1] in located or arguments[0] in present
-        return len(arguments) == 1 and arguments[0] in located
-
     answer = now.answer or ""
-    return Scene(
+    return replace(
+        Stage(world.description, robot).still(world.true_atoms(now.state)),
         step=now.step,
-        places=places,
-        rest=tuple(fluent for fluent in true if not is_shown(fluent)),
         robot=f"{answer} failed" if now.happened is False else answer,
         adversary=now.event or "",
         outcome=now.ending or "",
     )
 
 
-def _place(
-    name: str,
-    description: Description,
-    robots: Collection[str],
-    true: tuple[Fluent, ...],
-    where: Layout,
-) -> Place:
-    # What is said of components only says in which cell their wholes are.
-    found = [pair for pair in pairs(true) if all(where.wholes.get(c, c) == c for c in pair)]
-    held = {
-        robot: tuple(t for one, t in found if one == robot and t not in where.adjacent)
-        for robot in robots
-    }
-    here = [thing for thing, place in found if place == name]
-    in_hand = {thing for things in held.values() for thing in things}
-    marks = [fluent for fluent in description.fluents if fluent.arguments == (name,)]
-    cells = where.cells.get(name, ())
-    return Place(
-        name=name,
-        things=tuple(t for t in here if t not in in_hand and t not in held),
-        robots={robot: things for robot, things in held.items() if robot in here},
-        marks={mark.name: mark in true for mark in marks},
-        next_to=where.adjacent[name],
-        cells=cells,
-        spots={where.wholes.get(t, t): cell for t, cell in pairs(true) if cell in cells},
-    )
+class Stage:
+    """The places of a domain, and scenes there of which only the true fluents are known."""
+
+    def __init__(self, description: Description, robot: str = "") -> None:
+        """`robot` is one even where it does nothing."""
+        self._where = layout(description)
+        actors = {action.arguments[0] for action in description.agent_actions if action.arguments}
+        self._walk = self._where.walk()
+        self._cells = {cell for cells in self._where.cells.values() for cell in cells}
+        acting = [own for own in description.robots if own in actors]  # a thing may see as well
+        self._robots = dict.fromkeys([*acting, *([robot] if robot else [])])
+        self._marks: dict[str, list[Fluent]] = {}
+        for fluent in description.fluents:
+            if len(fluent.arguments) == 1:
+                self._marks.setdefault(fluent.arguments[0], []).append(fluent)
+
+    def still(self, true: Iterable[Fluent]) -> Scene:
+        """The scene in which just these fluents are true; nothing happened before it."""
+        atoms = tuple(true)
+        related, where = pairs(atoms), self._where
+        # What is said of components only says in which cell their wholes are.
+        found = [pair for pair in related if all(where.wholes.get(c, c) == c for c in pair)]
+        present = {robot for robot, place in found if place in where.adjacent} & {*self._robots}
+        held = {
+            robot: tuple(t for one, t in found if one == robot and t not in where.adjacent)
+            for robot in self._robots
+            if robot in present
+        }
+        spots = {where.wholes.get(t, t): cell for t, cell in related if cell in self._cells}
+        places = tuple(self._place(name, {*atoms}, found, held, spots) for name in self._walk)
+        located = {*where.adjacent, *self._cells}
+
+        def is_shown(fluent: Fluent) -> bool:
+            arguments = fluent.arguments
+            if len(arguments) == 2:
+                return arguments[1] in located or arguments[0] in present
+            return len(arguments) == 1 and arguments[0] in where.adjacent
+
+        rest = tuple(fluent for fluent in atoms if not is_shown(fluent))
+        return Scene(step=0, places=places, rest=rest, robot="", adversary="", outcome="")
+
+    def _place(
+        self,
+        name: str,
+        true: Collection[Fluent],
+        found: list[Pair],
+        held: Mapping[str, tuple[str, ...]],
+        spots: Mapping[str, str],
+    ) -> Place:
+        here = dict.fromkeys(thing for thing, place in found if place == name)
+        in_hand = {thing for things in held.values() for thing in things}
+        cells = self._where.cells.get(name, ())
+        return Place(
+            name=name,
+            things=tuple(t for t in here if t not in in_hand and t not in held),
+            robots={robot: things for robot, things in held.items() if robot in here},
+            marks={mark.name: mark in true for mark in self._marks.get(name, ())},
+            next_to=self._where.adjacent[name],
+            cells=cells,
+            spots={thing: cell for thing, cell in spots.items() if cell in cells},
+        )
 
 
 def layout(description: Description) -> Layout:
