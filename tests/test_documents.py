@@ -85,7 +85,9 @@ def test_the_figures_of_the_published_comparison_are_those_of_its_page() -> None
     assert f"and in {random:.0f}% where events were drawn at random" in told
     ways = (_cells(page, way) for way in ("random", "triggered"))
     inside = (next(cell for row in rows for cell in row if " of 20" in cell) for rows in ways)
-    assert "{} lie in our intervals where events were drawn, and {} where".format(*inside) in told
+    random_ones, triggered_ones = inside
+    assert f"{random_ones} lie in our intervals where events were drawn" in told
+    assert f"where scenarios were triggered, {triggered_ones} do" in told
 
 
 def test_the_figures_of_the_levels_are_those_of_their_page() -> None:

@@ -19,7 +19,7 @@ from testbed.experiment.plan import coverage_of, places_of
 from testbed.experiment.store import read_records
 from testbed.studies import rows_of
 from testbed.studies.table1.measures import RANDOM, Analysis, Table
-from testbed.studies.table1.tables import HEADINGS, lines, test_rows
+from testbed.studies.table1.tables import HEADINGS, lines, population, test_rows
 from testbed.world import load_world
 
 TITLES = {
@@ -58,7 +58,7 @@ def document(sources: Sources) -> str:
         incomplete=[(run.config.name, own) for run in runs if (own := _notice(run)) is not None],
         columns=COLUMNS,
         tables=[
-            (TITLES[name], rows_of(lines(table)), _apart(table))
+            (TITLES[name], rows_of(lines(table)), _population(table), _apart(table))
             for name, table in analysis.tables.items()
         ],
         sections=sections,
@@ -114,3 +114,9 @@ def _apart(table: Table) -> str:
     counts = [(name, sum(row.left_out[key] for row in everything)) for name, key in left_out]
     counts.append(("goal out of reach at the end", sum(row.out_of_reach for row in everything)))
     return "; ".join([*apart, *(f"{name}: {count}" for name, count in counts)])
+
+
+def _population(table: Table) -> str:
+    """Why some rows have no interval; "" where all have one."""
+    whole = [row.name for row in table.rows if row.whole]
+    return f"{population(whole)}." if whole else ""

@@ -7,6 +7,7 @@ from pathlib import Path
 from papers.table1.pairs import Pair, each
 from testbed.analysis import load_run
 from testbed.analysis.comparison import eventful
+from testbed.analysis.population import exhausted
 from testbed.config import ExperimentConfig
 from testbed.experiment import StoreError
 from testbed.experiment.run_folder import read_config
@@ -44,9 +45,9 @@ def read_run(folder: Path) -> Run:
     config = read_config(folder)
     if config.protocol != PROTOCOL:
         raise StoreError(f"{folder}: its configuration has no `protocol: {PROTOCOL}`")
-    trials, world = load_run(folder).trials, load_world(config.domain)
+    run, world = load_run(folder), load_world(config.domain)
     pairs = {
-        robots: pairs_in(trials, world, robots, eventful(config))
+        robots: pairs_in(run.trials, world, robots, eventful(config))
         for robots in comparisons_of(config)
     }
     if not any(map(len, pairs.values())):
@@ -56,7 +57,10 @@ def read_run(folder: Path) -> Run:
         folder,
         config,
         {robots.treatment: list(each(own)) for robots, own in pairs.items()},
-        {robots.treatment: analyse(own, robots) for robots, own in pairs.items()},
+        {
+            robots.treatment: analyse(own, robots, exhaustive=exhausted(run))
+            for robots, own in pairs.items()
+        },
     )
 
 

@@ -29,19 +29,20 @@ Labels: TypeAlias = Iterable[Hashable]
 class Estimate:
     """A value, and the interval in which it lies with 95% confidence.
 
-    One that is `single` is of one independent observation alone, or of a whole population, and has
-    no interval: its ends are the value.
+    One that is `single` is of one independent observation alone, one that is `whole` of a whole
+    population: neither has an interval, its ends are the value.
     """
 
     value: float
     low: float
     high: float
     single: bool = False
+    whole: bool = False
 
     @property
     def ends(self) -> tuple[float, ...]:
         """The ends of its interval, if it has one."""
-        return () if self.single else (self.low, self.high)
+        return () if self.single or self.whole else (self.low, self.high)
 
     @property
     def numbers(self) -> dict[str, float | None]:
@@ -52,11 +53,14 @@ class Estimate:
     @property
     def exactly(self) -> "Estimate":
         """The same without an interval, as of a whole population."""
-        return replace(self, low=self.value, high=self.value, single=True)
+        return replace(self, low=self.value, high=self.value, whole=True)
 
     def covers(self, other: float, half_digit: float) -> bool | None:
-        """Whether a value, rounded to twice `half_digit`, may lie in the interval, if any."""
-        if self.single:
+        """Whether a value, rounded to twice `half_digit`, may lie in the interval.
+
+        Of a whole population: whether it may be the same value. None of a single observation.
+        """
+        if self.single and not self.whole:
             return None
         return self.low - half_digit <= other <= self.high + half_digit
 

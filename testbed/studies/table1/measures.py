@@ -1,7 +1,7 @@
 """From pairs to Table 1: one row per scenario, all of them, and those in which nobody failed."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from math import lcm
 
@@ -11,6 +11,7 @@ from testbed.analysis import Run
 from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.comparison import TIMES, Apart, eventful, optimum
 from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, corrected
+from testbed.analysis.population import exhausted
 from testbed.analysis.statistics import Test
 from testbed.config import ExperimentConfig
 from testbed.studies.table1.pairs import Meeting, pairs_in
@@ -51,6 +52,7 @@ class Row:
 
     `undecided` pairs count, but in no accuracy: of these it is not known whether both trials were
     correct.
+    `whole` says that they are the whole population: their estimates have no interval.
     The test of the accuracies has its effect above 0 where the treatment was right more often;
     `advantage` is that difference of the proportions with its interval. `out_of_reach` are goals
     that could not be achieved any more where a trial ended. `optimum` is, by robot, what it needed
@@ -71,6 +73,7 @@ class Row:
     left_out: Mapping[str, int] = field(default_factory=lambda: dict.fromkeys(LEFT_OUT, 0))
     undecided: int = 0
     out_of_reach: int = 0
+    whole: bool = False
 
 
 @dataclass(frozen=True)
@@ -108,11 +111,13 @@ def measures(run: Run, as_published: bool) -> list[Analysis]:
     whole = set(SCENARIOS) <= set(run.config.scenarios)
     parts = {name: row for name, row in PUBLISHED.items() if whole or not name.startswith(ALL)}
     paper = {"triggered": parts, "random": PUBLISHED}
+    exhaustive = exhausted(run)
     return [
         analyse(
             pairs_in(run.trials, world, robots, sure),
             robots,
             paper if as_published and robots.treatment == INTENTIONAL else {},
+            exhaustive,
         )
         for robots in comparisons_of(run.config)
     ]
@@ -126,9 +131,15 @@ def comparisons_of(config: ExperimentConfig) -> list[Compared]:
 
 
 def analyse(
-    pairs: pl.DataFrame, robots: Compared, published: Mapping[str, Mapping[str, Published]] = EACH
+    pairs: pl.DataFrame,
+    robots: Compared,
+    published: Mapping[str, Mapping[str, Published]] = EACH,
+    exhaustive: Collection[str] = (),
 ) -> Analysis:
-    """Both tables of `pairs_in`, beside these published rows."""
+    """Both tables of `pairs_in`, beside these published rows.
+
+    Of scenarios that are `exhausted` estimates have no interval.
+    """
     # Failures and goals that nothing achieves are told in the row of their scenario.
     apart = pl.col("apart").is_in([Apart.NOTHING_TO_DO, Apart.WITHOUT_EVENT])
     drawn = pl.col("scenario") == RANDOM
@@ -139,20 +150,31 @@ def analyse(
         own["scenario"][0]: dict(sorted(Counter(own["happened"]).items()))
         for own in pairs.partition_by("scenario")
     }
+    whole: Mapping[str, Collection[str]] = {"triggered": exhaustive, "random": ()}
     tables = {
-        way: _table(own, robots, published.get(way, {})) for way, own in ways.items() if len(own)
+        way: _table(own, robots, published.get(way, {}), whole[way])
+        for way, own in ways.items()
+        if len(own)
     }
     return Analysis(robots, tables, became)
 
 
-def _table(pairs: pl.DataFrame, robots: Compared, published: Mapping[str, Published]) -> Table:
+def _table(
+    pairs: pl.DataFrame,
+    robots: Compared,
+    published: Mapping[str, Published],
+    exhaustive: Collection[str],
+) -> Table:
     groups = dict(sorted(Counter(pairs["row"]).items()))
     scenarios = [name for name in groups if name.isdigit()]
     # Weights in whole numbers: sums of them are exact, and what is alike stays alike.
     whole = float(lcm(*Counter(pairs["scenario"]).values()))
     weighed = pairs.with_columns(weight=whole / pl.len().over("scenario"))
     sample = Sample(weighed.sort("row", maintain_order=True), weight="weight")
-    rows = [_row(name, sample.where(holds), robots) for name, holds in _rows(scenarios)]
+    rows = [
+        _row(name, replace(sample.where(holds), whole=name in exhaustive), robots)
+        for name, holds in _rows(scenarios)
+    ]
     apart = {name: count for name, count in groups.items() if not name.isdigit()}
     return Table(tuple(corrected(rows)), apart, published)
 
@@ -192,6 +214,7 @@ def _row(name: str, sample: Sample, robots: Compared) -> Row:
             robots.baseline: optimum(ended.pairs, "", "weight"),
         },
         times={name: _seconds(ended, name) for name in TIMES},
+        whole=sample.whole,
     )
 
 

@@ -1,6 +1,6 @@
 """Table 1 beside the published one, for the terminal and the report."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from testbed.studies.table1.measures import Analysis, Row, Table
 from testbed.studies.table1.pairs import MEETINGS
 from testbed.studies.table1.published import MEASURES, PLANNING, PUBLISHED
 from testbed.studies.tables import Cell, Cells, Line, Rounded, Sheet, View, effect
-from testbed.text import counted, number
+from testbed.text import counted, listed, number
 
 HEADINGS = ("total time", "plans", "planning time", "exec. time", "actions")
 """The published names of the measures."""
@@ -124,7 +124,7 @@ def _right(row: Row) -> str:
     own, test = row.advantage, row.accuracy
     if test is None or own is None:
         return "-"
-    interval = "" if own.single else f" [{own.low:+.2f}, {own.high:+.2f}]"
+    interval = f" [{own.low:+.2f}, {own.high:+.2f}]" if own.ends else ""
     return effect(test).replace(" (", f"{interval} (")
 
 
@@ -158,6 +158,8 @@ def _notes(table: Table) -> Iterator[str]:
         count = sum(row.left_out[key] for row in rows)
         apart += [f"{counted(count, 'pair')} {words}"] * (count > 0)
     undecided = sum(row.undecided for row in rows)
+    if whole := [row.name for row in rows if row.whole]:
+        yield population(whole)
     if undecided:
         yield f"In no accuracy: {counted(undecided, 'pair')} whose fewest actions are not known"
     if apart:
@@ -166,6 +168,15 @@ def _notes(table: Table) -> Iterator[str]:
         count = sum(row.meetings.get(meeting, 0) for row in rows)
         if count:
             yield f"{counted(count, 'pair')}: {words}"
+
+
+def population(scenarios: Sequence[str]) -> str:
+    """Why scenarios have no interval, and what a mark says of their values."""
+    return (
+        f"Scenario{'s' * (len(scenarios) > 1)} {listed(scenarios)}: every initial state was played "
+        "and nothing was drawn; values are those of the whole population, without an interval, and "
+        "a published one is marked by whether it is the same"
+    )
 
 
 def charts(own: Analysis) -> list[Chart]:

@@ -1,6 +1,6 @@
 """Pairs made by hand, from which the numbers of a page can be worked out on paper."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 import polars as pl
 
@@ -88,6 +88,10 @@ def _columns(side: Side, who: str, apart: str | None) -> dict[str, object]:
     return {name + who: value for name, value in own.items()}
 
 
-def analysed(pairs: Iterable[Pair], least: Mapping[str, int | None] | None = None) -> Analysis:
+def analysed(
+    pairs: Iterable[Pair],
+    least: Mapping[str, int | None] | None = None,
+    exhaustive: Collection[str] = (),
+) -> Analysis:
     """What the study finds in the pairs."""
-    return analyse(frame_of(pairs, least or {}), ROBOTS)
+    return analyse(frame_of(pairs, least or {}), ROBOTS, exhaustive=exhaustive)
