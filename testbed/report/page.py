@@ -22,6 +22,7 @@ from testbed.experiment.specs import TrialSpec
 from testbed.experiment.timeline import in_words, of_place, timeline
 from testbed.report.comparison import OPTIMUM, charts, groups_of, optima
 from testbed.report.explanations import quality_table
+from testbed.report.explorer import payload
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Chart, Results, Section, grid, left_out, results_of
@@ -96,6 +97,7 @@ def _write_page(
         "failures": failures(run.trials),
         "chapters": list(chapters(run.trials, notes)),
         "replay": lambda trial: command_of(run.folder, trial),
+        "explorer": payload(run),
     }
     replace_text(run.folder / REPORT, environment().get_template("page.html.j2").render(parts))
 

@@ -1,0 +1,140 @@
+"""The data of a page's explorer: trials step by step, with what there is to see at each.
+
+Of a large run the page holds a sample. What it holds is chosen by the table of the run; records and
+stories are read of these trials alone.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import Any, BinaryIO
+
+import msgspec
+import polars as pl
+from markupsafe import Markup
+
+from testbed.analysis import Run
+from testbed.experiment.record import TrialRecord
+from testbed.experiment.stories import Story, decode
+from testbed.report.sample import sampled
+from testbed.report.scenes import Scenes, theatre_of
+from testbed.report.stories import command_of
+from testbed.report.telling import Told, facts, with_story, without_story
+
+MOST_BYTES = 3 * 2**20
+"""Of the trials and drawings that a page holds."""
+STORIES = "stories.jsonl"
+
+
+class Teller:
+    """Tells trials of a run from their records and stories."""
+
+    def __init__(self, run: Run) -> None:
+        self._run = run
+        settings = (name for name in run.trials.columns if name.startswith("condition."))
+        varied = (name for name in settings if run.trials[name].n_unique() > 1)
+        self._varied = [name.partition(".")[2] for name in varied]
+        self._stories = StoryFile(run)
+
+    def tell(self, ids: Iterable[str], scenes: Scenes) -> list[Told]:
+        """What a page knows of these trials, in the order of the table; drawings are added."""
+        chosen = self._run.records(pl.col("trial").is_in(list(ids)))
+        return [self._told(record, scenes) for record in chosen]
+
+    def about(self, record: TrialRecord) -> Told:
+        """What is known of a trial besides its steps."""
+        run = self._run
+        return facts(record) | {
+            "study": [run.config.protocol or run.config.name],
+            "condition": {key: _value(record, key) for key in self._varied},
+            "command": command_of(run.folder, record.trial),
+        }
+
+    def _told(self, record: TrialRecord, scenes: Scenes) -> Told:
+        theatre = theatre_of(self._run.config, record.level)
+        story = self._stories.get(record.trial)
+        if story is not None and story.steps:
+            steps = with_story(record, story, theatre, scenes)
+        else:
+            steps = without_story(record, theatre, scenes)
+        return self.about(record) | {"story": steps}
+
+
+def _value(record: TrialRecord, key: str) -> object:
+    """What a trial was played under; of what has parts the text."""
+    value = getattr(record.condition, key, None)
+    known = isinstance(value, bool | int | float | str | None)
+    return value if known else msgspec.json.encode(value, enc_hook=str).decode()
+
+
+class StoryFile:
+    """The stories of a run, of which each is read when it is asked for."""
+
+    def __init__(self, run: Run) -> None:
+        self._path = run.folder / STORIES
+
+    @cached_property
+    def _places(self) -> Mapping[str, int]:
+        """Where the last line of each trial begins."""
+        places: dict[str, int] = {}
+        if self._path.is_file():
+            with self._path.open("rb") as file:
+                for start, line in _lines(file):
+                    head, _, rest = line.partition(b'"trial":"')
+                    if head == b"{":
+                        places[rest.partition(b'"')[0].decode(errors="replace")] = start
+        return places
+
+    def get(self, trial: str) -> Story | None:
+        """The story of a trial; None where there is none, or it is damaged."""
+        if trial not in self._places:
+            return None
+        with self._path.open("rb") as file:
+            file.seek(self._places[trial])
+            try:
+                return decode(file.readline())
+            except msgspec.DecodeError:
+                return None
+
+
+def _lines(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
+    """The whole lines, each with where it begins."""
+    start = 0
+    for line in file:
+        if line.endswith(b"\n"):
+            yield start, line
+        start += len(line)
+
+
+def payload(run: Run, served: bool = False) -> Markup:
+    """The data of the explorer, as JSON that may stand in a script."""
+    scenes, teller = Scenes(), Teller(run)
+    trials = list(_within(MOST_BYTES, sampled(run.trials), teller, scenes))
+    told = {
+        "folder": str(run.folder),
+        "total": len(run.trials),
+        "kept": len(trials),
+        "served": served,
+        "scenes": scenes.drawn,
+        "trials": trials,
+    }
+    return Markup(encoded(told).decode().replace("<", r"\u003c"))
+
+
+def _within(
+    most: int, pairs: Iterable[Sequence[str]], teller: Teller, scenes: Scenes
+) -> Iterator[Told]:
+    """The trials of the first pairs that have so many bytes together with their drawings."""
+    size = 0
+    for ids in pairs:
+        before = len(scenes.drawn)
+        trials = teller.tell(ids, scenes)
+        size += len(encoded(trials)) + len(encoded(scenes.drawn[before:]))
+        if size > most and before:
+            scenes.keep(before)
+            return
+        yield from trials
+
+
+def encoded(told: Any) -> bytes:
+    """What is told as JSON."""
+    return msgspec.json.encode(told, enc_hook=str)
