@@ -11,6 +11,7 @@ from testbed.experiment.plan import coverage_of, plan_trials
 from testbed.experiment.provenance import Provenance, sessions_of
 from testbed.experiment.run_folder import (
     ERRORS,
+    STORIES,
     TRIALS,
     choose_folder,
     differences,
@@ -21,6 +22,7 @@ from testbed.experiment.run_folder import (
 )
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records, settle
+from testbed.experiment.stories import story_lines
 
 Line = tuple[Path, int, int]
 """A line of records: its file, where it begins, how long it is."""
@@ -51,6 +53,8 @@ def merge(folders: Sequence[Path], out: Path, command: Sequence[str]) -> Experim
         write_config(out, config)
         provenance = Provenance(out, config, command, sessions)
         replace_lines(out / TRIALS, _read(lines[spec.trial] for spec in specs))
+        stories = (line for folder in folders for _, line in story_lines(folder))
+        replace_lines(out / STORIES, stories)
         for folder in folders:
             if (folder / ERRORS).is_dir():
                 shutil.copytree(folder / ERRORS, out / ERRORS, dirs_exist_ok=True)

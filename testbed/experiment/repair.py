@@ -3,7 +3,7 @@
 import shutil
 from collections import defaultdict
 from collections.abc import Mapping
-from itertools import chain, count
+from itertools import chain, compress, count
 from pathlib import Path
 
 import msgspec
@@ -11,9 +11,10 @@ import msgspec
 from testbed.experiment.digest import logical
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import strangeness
-from testbed.experiment.run_folder import TRIALS, locked, read_config, replace_lines
+from testbed.experiment.run_folder import STORIES, TRIALS, locked, read_config, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_lines, settle
+from testbed.experiment.stories import is_whole
 from testbed.text import Say, counted
 
 
@@ -22,7 +23,7 @@ def repair(folder: Path, say: Say) -> None:
 
     Dropped are lines that are no records or do not match their checksums, records of no planned
     trial, and further ones of a trial; all of it where these have different results. The old file
-    is kept beside the new one.
+    is kept beside the new one. Of the stories the lines are dropped that are none.
 
     Raises:
         StoreError: for a folder without a run, with one that goes on, or with records that a
@@ -43,8 +44,20 @@ def repair(folder: Path, say: Say) -> None:
             with path.open("rb") as file:
                 kept = (line for number, line in enumerate(file, 1) if number not in dropped)
                 replace_lines(path, kept)
+        _repair_stories(folder / STORIES, say)
         whole = len(faults) - len(dropped)
         say(f"{path}: {whole} of {counted(len(planned), 'trial')} whole, {len(dropped)} dropped")
+
+
+def _repair_stories(path: Path, say: Say) -> None:
+    if not path.is_file():
+        return
+    with path.open("rb") as file:
+        whole = [is_whole(line) for line in file]
+        if not all(whole):
+            file.seek(0)
+            replace_lines(path, compress(file, whole))
+            say(f"{path}: dropped {counted(whole.count(False), 'line')} not whole")
 
 
 def _faults(path: Path, planned: Mapping[str, TrialSpec]) -> dict[int, str | None]:

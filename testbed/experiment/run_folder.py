@@ -12,6 +12,7 @@ from testbed.config import SCENARIO_KEYS, ExperimentConfig, load_config, write_y
 from testbed.experiment.errors import StoreError
 
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
+STORIES = "stories.jsonl"
 SUMMARY, REPORT, ERRORS = "summary.json", "report.html", "errors"
 LOCK = ".lock"
 # Keys on which no logical result depends.
@@ -125,6 +126,12 @@ def replace_lines(path: Path, lines: Iterable[bytes]) -> None:
         file.flush()
         os.fsync(file.fileno())
     os.replace(draft, path)
+
+
+def drop_torn_line(path: Path) -> None:
+    """Cut off what stands behind the last line of a file that is whole."""
+    with path.open("r+b") as file:
+        file.truncate(sum(len(line) for line in file if line.endswith(b"\n")))
 
 
 def read_config(folder: Path) -> ExperimentConfig:

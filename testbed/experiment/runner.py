@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
@@ -149,17 +149,21 @@ def play_missing(
         status.reason = next(iter(failed.values()), None)
         status.workers = _workers(config, len(missing)) if workers is None else workers
         record = partial(_record, folder, writer, status, sha256(stored_text(config)))
+
+        def play(specs: Sequence[TrialSpec]) -> Results:
+            return _told(_results(config, specs, status.workers), writer)
+
         if config.is_sweep and missing:
-            _sweep(config, missing, record, status, notify)
+            _sweep(play, missing, record, status, notify)
             return status
         notify(status)
         if missing:
-            _put_on_record(_results(config, missing, status.workers), record, status, notify)
+            _put_on_record(play(missing), record, status, notify)
     return status
 
 
 def _sweep(
-    config: ExperimentConfig,
+    play: Callable[[Sequence[TrialSpec]], Results],
     missing: Sequence[TrialSpec],
     record: Callable[[Result], None],
     status: RunStatus,
@@ -174,7 +178,7 @@ def _sweep(
 
     tell(status)
     ordered = [missing[position] for position in pilot.order]
-    _put_on_record(pilot.results(_results(config, ordered, status.workers)), record, status, tell)
+    _put_on_record(pilot.results(play(ordered)), record, status, tell)
 
 
 def _workers(config: ExperimentConfig, missing: int) -> int | None:
@@ -197,6 +201,16 @@ def _results(config: ExperimentConfig, specs: Sequence[TrialSpec], workers: int 
         return dask_pool.play_all(specs, workers or 1, open_player)
     scheduler = dask_pool.Scheduler(config.scheduler, **config.tls.files)
     return dask_pool.play_all(specs, scheduler, open_player)
+
+
+def _told(results: Results, writer: TrialWriter) -> Results:
+    """The results; their stories are kept as they come, so that none waits for its turn."""
+    with closing(results):
+        for position, result in results:
+            if result.story is not None:
+                writer.tell(result.story)
+                result.story = None
+            yield position, result
 
 
 def _put_on_record(

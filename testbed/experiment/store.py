@@ -18,7 +18,7 @@ import msgspec
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.recorder import strangeness
-from testbed.experiment.run_folder import TRIALS, naming, replace_lines
+from testbed.experiment.run_folder import STORIES, TRIALS, drop_torn_line, naming, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import Count, literal_within_bounds, shortened
 from testbed.text import warn
@@ -147,9 +147,9 @@ def read_records(folder: Path, specs: Iterable[TrialSpec] | None = None) -> Iter
 
 
 class TrialWriter:
-    """Appends records to a run folder's `trials.jsonl`, which is to be locked meanwhile.
+    """Appends records and stories to those of a run folder, which is to be locked meanwhile.
 
-    Opening it drops a torn last line, and reads the records as `read_records` does; `done` then
+    Opening it drops torn last lines, and reads the records as `read_records` does; `done` then
     holds the ids of the trials on record, and `failures` the reasons of those that failed, the last
     one of each last. A later record of one of these takes its place when the writer is closed, or
     opened again after it was killed.
@@ -161,8 +161,9 @@ class TrialWriter:
         self._folder = folder
         self._files: dict[str, BinaryIO] = {}
         self._open(TRIALS)
-        with (folder / TRIALS).open("r+b") as file:
-            file.truncate(sum(len(line) for line in file if line.endswith(b"\n")))
+        for path in (folder / TRIALS, folder / STORIES):
+            if path.is_file():
+                drop_torn_line(path)
         self.done: set[str] = set()
         self.failures: dict[str, list[str]] = {}
         for record in read_records(folder, specs):
@@ -173,11 +174,18 @@ class TrialWriter:
     def append(self, record: TrialRecord) -> None:
         """Write one record, visible to readers at once, or in the place of another later."""
         record.retried = [*self.failures.get(record.trial, ()), *record.retried]
-        file = self._open(RETRIES if record.trial in self.done else TRIALS)
-        with naming(Path(file.name)):
-            file.write(encode(record))
-            file.flush()
+        self._write(RETRIES if record.trial in self.done else TRIALS, encode(record))
         self.done.add(record.trial)
+
+    def tell(self, story: bytes) -> None:
+        """Write a line of `stories.jsonl`, visible at once; the last one of a trial counts."""
+        self._write(STORIES, story)
+
+    def _write(self, name: str, line: bytes) -> None:
+        file = self._open(name)
+        with naming(Path(file.name)):
+            file.write(line)
+            file.flush()
 
     def _open(self, name: str) -> BinaryIO:
         if name not in self._files:

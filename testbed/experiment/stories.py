@@ -4,16 +4,20 @@ A story has what a replay tells, so that a trial can be shown without being play
 at the step before is not kept again: the world is told by its changes.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from pathlib import Path
 
 import msgspec
 
 from asp.language import Action, Fluent, Literal
 from testbed.experiment.record import At
+from testbed.experiment.run_folder import STORIES
 from testbed.protocol import Contradiction, Count, Explanation, NoPlan, literal_within_bounds
 
 MOST_BYTES = 4 * 2**20
-"""Of one story as a line; one that is longer is not kept."""
+"""Of one story as a line; of one that is longer no steps are kept."""
+START = b'{"trial":"'
+"""How a line begins, before the id of its trial."""
 
 
 class FineStep(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -117,3 +121,42 @@ def decode(line: bytes) -> Story:
         return _decoder.decode(line)
     except (UnicodeDecodeError, RecursionError) as error:
         raise msgspec.DecodeError(str(error)) from error
+
+
+def story_lines(folder: Path) -> Iterator[tuple[str, bytes]]:
+    """The lines of a run's stories, each with the id of its trial, none of them decoded.
+
+    What is no such line is left out, as is a torn last one; without the file there are none.
+    """
+    path = folder / STORIES
+    if not path.is_file():
+        return
+    with path.open("rb") as file:
+        for line in file:
+            end = line.find(b'"', len(START))
+            if line.startswith(START) and line.endswith(b"\n") and end > 0:
+                yield line[len(START) : end].decode("utf-8", "replace"), line
+
+
+def stories_of(folder: Path, trials: Collection[str]) -> dict[str, Story]:
+    """The stories of these trials of a run, by trial and in the order given.
+
+    A trial whose story the folder lacks, or has damaged, is left out. Of a trial that was played
+    again it is the last one. Other lines are passed over without being decoded.
+    """
+    wanted = frozenset(trials)
+    lines = {trial: line for trial, line in story_lines(folder) if trial in wanted}
+    found = ((trial, _whole(lines[trial])) for trial in trials if trial in lines)
+    return {trial: story for trial, story in found if story is not None}
+
+
+def is_whole(line: bytes) -> bool:
+    """Whether a line is that of a story."""
+    return line.endswith(b"\n") and _whole(line) is not None
+
+
+def _whole(line: bytes) -> Story | None:
+    try:
+        return decode(line)
+    except msgspec.DecodeError:
+        return None

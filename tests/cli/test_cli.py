@@ -16,7 +16,14 @@ from benchmarks import killing
 
 COMMAND = [sys.executable, "-m", "testbed"]
 HELD = [sys.executable, "-m", "tests.held"]
-KEPT = ["config.yaml", "provenance.json", "report.html", "summary.json", "trials.jsonl"]
+KEPT = [
+    "config.yaml",
+    "provenance.json",
+    "report.html",
+    "stories.jsonl",
+    "summary.json",
+    "trials.jsonl",
+]
 
 
 @pytest.fixture(autouse=True)

@@ -7,9 +7,9 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.digest import logical
+from testbed.experiment.narration import narrator_of
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord
-from testbed.experiment.replay import narrator_of
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial, refinement_of, setup_of
 from testbed.link import InProcessRobot
@@ -169,7 +169,11 @@ def _told(steps: Sequence[tuple[str, FineTrace | None]], *overrides: str) -> lis
     (spec,) = _specs(*FIXED, *overrides)
     said: list[str] = []
     robot = InProcessRobot(lambda _: Reciter(steps))
-    play_trial(spec, robot, narrator_of(spec.setting, said.append).tell)
+    teller, narrator = (
+        setup_of(spec.setting).teller(spec.trial),
+        narrator_of(spec.setting, said.append),
+    )
+    play_trial(spec, robot, lambda moment: narrator.tell(teller.tell(moment)))
     return said
 
 

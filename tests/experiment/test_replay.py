@@ -4,13 +4,14 @@ from pathlib import Path
 
 import pytest
 
+from testbed.experiment.narration import Narrator
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.replay import Narrator, list_trials, replay
+from testbed.experiment.replay import list_trials, replay
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.store import TrialWriter
-from testbed.experiment.storyteller import Moment
+from testbed.experiment.storyteller import Moment, Storyteller
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, Trace
@@ -80,14 +81,14 @@ def test_a_run_that_an_older_version_stored_is_told_as_recorded(
 def _told(world: World, *traces: Trace) -> list[dict[str, str]]:
     """The lines that a narrator has for steps with these traces: by their first word."""
     said: list[str] = []
-    narrator = Narrator(world, said.append)
+    teller, narrator = Storyteller("t", world), Narrator(said.append)
     state = world.initial_states()[0]
     steps = []
     for step, trace in enumerate(traces, start=1):
         percept = Percept(trial="t", step=step, visible=[], attempted=None, happened=None)
         decision = Decision(trial="t", step=step, action="wait", believes_goal=False, trace=trace)
         said.clear()
-        narrator.tell(Moment(percept, decision, None, None, state, state))
+        narrator.tell(teller.tell(Moment(percept, decision, None, None, state, state)))
         lines = [line.strip().partition(" ") for line in said]
         steps.append({word: rest.strip() for word, _, rest in lines})
     return steps
