@@ -104,7 +104,10 @@ def _pipe() -> tuple[int, int]:
 class Tab:
     """An open page: what it asked for, what it complained of, and a keyboard before it."""
 
-    def __init__(self, browser: Browser, file: Path, width: int, scheme: str) -> None:
+    def __init__(
+        self, browser: Browser, page: Path | str, width: int, scheme: str, motion: str = ""
+    ) -> None:
+        """`page` is a file, or an address."""
         self._browser = browser
         target = browser.call("Target.createTarget", url="about:blank")["targetId"]
         attached = browser.call("Target.attachToTarget", targetId=target, flatten=True)
@@ -113,9 +116,13 @@ class Tab:
             self.call(f"{domain}.enable")
         screen = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": False}
         self.call("Emulation.setDeviceMetricsOverride", **screen)
-        features = [{"name": "prefers-color-scheme", "value": scheme}]
+        features = [
+            {"name": "prefers-color-scheme", "value": scheme},
+            {"name": "prefers-reduced-motion", "value": motion},
+        ]
         self.call("Emulation.setEmulatedMedia", features=features)
-        self.call("Page.navigate", url=file.as_uri())
+        address = page if isinstance(page, str) else page.as_uri()
+        self.call("Page.navigate", url=address)
         self._wait("Page.loadEventFired")
 
     def call(self, method: str, **parameters: object) -> Event:
@@ -128,6 +135,11 @@ class Tab:
         answer = self.call("Runtime.evaluate", expression=expression, **settings)
         assert "exceptionDetails" not in answer, answer
         return answer["result"].get("value")
+
+    def until(self, condition: str) -> None:
+        """Wait until an expression of JavaScript is true."""
+        look = f"const look = () => ({condition}) ? done() : setTimeout(look, 20)"
+        self.evaluate(f"new Promise(done => {{ {look}; look(); }})")
 
     def press(self, key: str, code: int, text: str = "") -> None:
         """Press a key and let it go."""

@@ -22,6 +22,8 @@ pytestmark = pytest.mark.versions
 
 LOADING = {"src", "srcset", "action", "poster", "data"}
 ROOT = Path(__file__).parents[2]
+NAMESPACE = "http://www.w3.org/2000/svg"
+"""The name of a vocabulary, which nobody asks for."""
 VOID = {"meta", "link", "br", "img", "hr", "input"}
 
 
@@ -47,7 +49,8 @@ class Page(HTMLParser):
         assert self.open.pop() == tag
 
     def handle_data(self, data: str) -> None:
-        self.words.append(data)
+        if not {"script", "style"}.intersection(self.open):
+            self.words.append(data)
 
     @property
     def text(self) -> str:
@@ -85,8 +88,8 @@ def test_the_report_is_one_file_that_loads_nothing(tmp_path: Path) -> None:
     text, page = _report(tmp_path, a_record("a"), a_record("b", outcome="gave_up", achieved=False))
     assert page.open == []
     assert all(address.startswith(("data:", "#")) for address in page.addresses)
-    assert not {"script", "iframe", "object"} & set(page.tags)
-    assert "http" not in text
+    assert not {"iframe", "object"} & set(page.tags)
+    assert "http" not in text.replace(NAMESPACE, "")
     assert "url(" not in text
 
 
@@ -174,7 +177,7 @@ def test_of_many_trials_the_failures_are_told_first(tmp_path: Path) -> None:
     good = [a_record(f"good{number}") for number in range(SHOWN + 20)]
     bad = [a_record(f"bad{number}", achieved=False, outcome="gave_up") for number in range(3)]
     _, page = _report(tmp_path, *good, *bad)
-    told = page.text.partition("someone else acted")[2]
+    told = page.text.partition("someone else acted")[2].partition("The slowest trials")[0]
     assert all(f"--trial bad{number}" in told for number in range(3))
     assert told.count("--trial") == SHOWN
     assert re.search(rf"\b{SHOWN}\D+{SHOWN + 23}\b", page.text)

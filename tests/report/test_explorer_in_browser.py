@@ -1,0 +1,429 @@
+"""The explorer of the report in a real browser: filters, pairs, steps, links, keys, copies."""
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from asp.language import Action, Literal
+from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.record import Attempt, TrialRecord
+from testbed.experiment.robots import make_robot
+from testbed.experiment.run_folder import REPORT
+from testbed.experiment.runner import play_missing
+from testbed.experiment.store import TrialWriter, read_records
+from testbed.experiment.trial import Moment, play_trial
+from testbed.link import InProcessRobot
+from testbed.report import write_report
+from testbed.world import load_world
+from tests.experiment.samples import a_record
+from tests.report.browser import CHROMIUM, Browser, Tab
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here")
+
+PHONE, DESK = 390, 1300
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
+"""What `make test` installs by `package.json`."""
+VIOLATIONS = """axe.run(document, {resultTypes: ['violations']}).then(found =>
+  found.violations.flatMap(rule => rule.nodes.map(node => [rule.id, node.html.slice(0, 120)])))"""
+SWEPT = ["link=inprocess", "sweep.grid={goal_feedback: [true, false]}"]
+"""Trials of two conditions."""
+ROBOT = "document.querySelectorAll('.robot')"
+STEP = "document.querySelector('.transport output').textContent"
+PLAYS = "document.querySelector('.player').matches('.plays')"
+HOME, END, LEFT, RIGHT = ("Home", 36), ("End", 35), ("ArrowLeft", 37), ("ArrowRight", 39)
+SPACE = (" ", 32)
+
+# In which room of the first robot's drawing each of these names stands; of a room its own name.
+ROOMS = """((which, names, rooms) => {
+  const svg = document.querySelector(`.robot [data-part=${which}] svg`);
+  const texts = [...svg.querySelectorAll('text')];
+  const boxes = [...svg.querySelectorAll('rect')].map(own => own.getBoundingClientRect());
+  const around = name => {
+    const text = texts.find(own => own.textContent === name)?.getBoundingClientRect();
+    const holds = box => box.left <= text.left && text.right <= box.right
+      && box.top <= text.top && text.bottom <= box.bottom;
+    return text && boxes.filter(holds).sort((a, b) => b.width * b.height - a.width * a.height)[0];
+  };
+  return names.map(name => rooms.find(room => around(room) === around(name)) ?? null);
+})"""
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    assert CHROMIUM is not None
+    opened = Browser(CHROMIUM, tmp_path_factory.mktemp("profile"))
+    yield opened
+    opened.close()
+
+
+class Played:
+    """A run with its page and its records."""
+
+    def __init__(self, folder: Path, config: ExperimentConfig) -> None:
+        play_missing(config, folder, 1, lambda _: None)
+        write_report(folder, config)
+        self.config, self.page = config, folder / REPORT
+        self.records = list(read_records(folder))
+
+    def one(self, scenario: str, robot: str) -> TrialRecord:
+        """The first record of a robot in a scenario."""
+        found = (r for r in self.records if (r.scenario, r.robot) == (scenario, robot))
+        return next(found)
+
+    def address(self, record: TrialRecord, step: int = 1) -> str:
+        """The link to a step of a trial."""
+        return f"{self.page.as_uri()}#trial={record.trial}&step={step}"
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Played:
+    return Played(tmp_path_factory.mktemp("quickstart"), load_config("quickstart", SWEPT))
+
+
+@pytest.fixture
+def opened(browser: Browser, run: Played) -> Callable[..., Tab]:
+    """Opens the page at a step of a trial."""
+
+    def tab(record: TrialRecord, step: int = 1, width: int = DESK, **media: str) -> Tab:
+        return Tab(browser, run.address(record, step), width, media.pop("scheme", "light"), **media)
+
+    return tab
+
+
+def _chosen(tab: Tab, key: str, value: str) -> list[str]:
+    """The trials that are listed once a filter has a value."""
+    tab.evaluate(f"""(() => {{
+      const select = document.querySelector('select[name={key}]');
+      select.value = {json.dumps(value)};
+      select.dispatchEvent(new Event('change', {{bubbles: true}}));
+    }})()""")
+    listed: list[str] = tab.evaluate(
+        "[...document.querySelectorAll('.found [data-trial]')].map(own => own.dataset.trial)"
+    )
+    return listed
+
+
+def _slide(tab: Tab, step: int) -> None:
+    tab.evaluate(f"""(() => {{
+      const slider = document.querySelector('input[type=range]');
+      slider.value = {step};
+      slider.dispatchEvent(new Event('input', {{bubbles: true}}));
+    }})()""")
+
+
+def _drawn(tab: Tab, names: Sequence[str], rooms: Sequence[str], which: str = "world") -> list[str]:
+    given = ", ".join(json.dumps(own) for own in (which, list(names), list(rooms)))
+    drawn: list[str] = tab.evaluate(f"{ROOMS}({given})")
+    return drawn
+
+
+def _text(tab: Tab, part: str, robot: int = 0) -> str:
+    text: str = tab.evaluate(f"{ROBOT}[{robot}].querySelector('[data-part={part}]').innerText")
+    return text
+
+
+def _moments(run: Played, record: TrialRecord) -> list[Moment]:
+    """The steps of a trial, played again."""
+    moments: list[Moment] = []
+    spec = next(own for own in plan_trials(run.config) if own.trial == record.trial)
+    play_trial(spec, InProcessRobot(make_robot), moments.append)
+    return moments
+
+
+def test_a_filter_leaves_just_the_trials_with_its_value(browser: Browser, run: Played) -> None:
+    tab = Tab(browser, run.page, DESK, "light")
+    keys = {"condition": "cell", "scenario": "scenario", "robot": "robot", "outcome": "outcome"}
+    shown = tab.evaluate("[...document.querySelectorAll('.filters select')].map(own => own.name)")
+    assert sorted(shown) == sorted(keys)
+    for key, column in keys.items():
+        for value in {getattr(record, column) for record in run.records}:
+            expected = [r.trial for r in run.records if getattr(r, column) == value]
+            assert sorted(_chosen(tab, key, value)) == sorted(expected), (key, value)
+            count = tab.evaluate("document.querySelector('.count').textContent")
+            assert count.split()[0] == str(len(expected))
+        assert len(_chosen(tab, key, "")) == len(run.records)
+
+
+def test_pairs_in_which_a_robot_failed_come_first(browser: Browser, run: Played) -> None:
+    tab = Tab(browser, run.page, DESK, "light")
+    failed = "[...document.querySelectorAll('.found li')].map(own => !!own.querySelector('.bad'))"
+    bad = tab.evaluate(failed)
+    pairs = {(r.cell, r.pair) for r in run.records if r.outcome != "achieved"}
+    assert bad == sorted(bad, reverse=True)
+    assert sum(bad) == len(pairs) > 0
+
+
+def test_both_robots_of_a_pair_are_on_one_time_line(
+    opened: Callable[..., Tab], run: Played
+) -> None:
+    record = run.one("5", "traditional")
+    both = [r for r in run.records if (r.pair, r.cell) == (record.pair, record.cell)]
+    tab = opened(record)
+    for number, own in enumerate(sorted(both, key=lambda r: r.robot)):
+        assert _text(tab, "name", number) == own.robot
+        marks = f"document.querySelectorAll('.system .strip')[{number}].querySelectorAll('i')"
+        kinds = tab.evaluate(f"[...{marks}].map(own => own.classList[0])")
+        done = {a.step: "done" if a.happened else "failed" for a in own.actions}
+        steps = range(1, own.steps + 1)
+        assert kinds == [*(done.get(step, "mental") for step in steps), "end"]
+        touched = [e.step for e in own.exogenous]
+        numbers = (
+            f"[...{marks}].filter(own => own.matches('.touched')).map(own => +own.dataset.step)"
+        )
+        assert tab.evaluate(numbers) == touched
+    beneath = """(() => {
+      const middles = [...document.querySelectorAll('.system .strip')]
+        .map(strip => [...strip.children].map(own => own.offsetLeft + own.offsetWidth / 2));
+      return middles[1].every((own, at) => own === (middles[0][at] ?? own));
+    })()"""
+    assert tab.evaluate(beneath) is True
+
+
+@pytest.mark.parametrize(("scenario", "robot"), [("2", "traditional"), ("5", "intentional")])
+def test_the_slider_shows_the_state_of_each_step(
+    opened: Callable[..., Tab], run: Played, scenario: str, robot: str
+) -> None:
+    """The states are followed here from the record by the laws of the domain."""
+    record, world = run.one(scenario, robot), load_world("office")
+    rooms, names = world.description.sorts["room"], ["rob1", "book1", "book2"]
+    tab, state = opened(record), world.state(record.initial)
+    tab.evaluate("document.querySelector('.beside input').click()")
+    for step in range(1, record.steps + 2):
+        _slide(tab, step)
+        assert tab.evaluate(STEP).split()[1] == str(step)
+        at = {a.arguments[0]: a.arguments[1] for a in world.true_atoms(state) if a.name == "loc"}
+        assert _drawn(tab, names, rooms) == [at[name] for name in names], step
+        own = [a.action for a in record.actions if a.step == step and a.happened]
+        others = [e.action for e in record.exogenous if e.step == step]
+        if own or others:
+            state = world.successor(state, [*map(Action.parse, map(str, [*own, *others]))])
+    assert _text(tab, "outcome").split(maxsplit=1)[1] == record.outcome.replace("_", " ")
+
+
+def test_what_a_robot_has_wrong_is_marked_and_listed(
+    opened: Callable[..., Tab], run: Played
+) -> None:
+    """Whatever it believes is compared here with the state of the world at the same step."""
+    record, world = run.one("2", "traditional"), load_world("office")
+    tab, seen = opened(record), 0
+    tab.evaluate("document.querySelector('.beside input').click()")
+    for moment in _moments(run, record):
+        step, belief = moment.percept.step, {*map(str, moment.decision.trace.belief)}
+        _slide(tab, step)
+        marked = tab.evaluate(f"{ROBOT}[0].querySelector('[data-part=belief]').matches('.wrong')")
+        told = tab.evaluate(
+            f"[...{ROBOT}[0].querySelectorAll('.differs code')].map(own => own.textContent)"
+        )
+        true = {*map(str, world.true_atoms(moment.before))}
+        wrong = [*(true - belief), *(f"-{own}" for own in belief - true)] if belief else []
+        assert sorted(told) == sorted(wrong), step
+        assert marked is bool(wrong)
+        for literal in (own for own in wrong if own.startswith("-loc")):
+            thing, room = Literal.parse(literal).complement.arguments
+            rooms = world.description.sorts["room"]
+            assert _drawn(tab, [thing], rooms, "belief") == [room]
+            assert "≠" in _text(tab, "belief").replace("≠ In truth", "")
+            seen += 1
+    assert seen > 0
+
+
+def test_a_step_tells_the_mind_of_the_robot(opened: Callable[..., Tab], run: Played) -> None:
+    record = run.one("2", "intentional")
+    explained = record.explanations[0]
+    trace = _moments(run, record)[explained.step - 1].decision.trace
+    tab = opened(record, explained.step)
+    told = _text(tab, "mind")
+    for event in explained.unobserved:
+        assert event.action in told
+    for contrary in explained.contradictions:
+        assert str(contrary.observed) in told
+    assert str(trace.intention) in told
+    assert trace.reason in told
+    event = record.exogenous[0]
+    _slide(tab, event.step)
+    assert str(event.action) in _text(tab, "event")
+    assert "unseen" in _text(tab, "event")
+
+
+def test_a_link_leads_to_a_step_and_back(opened: Callable[..., Tab], run: Played) -> None:
+    record, other = run.one("5", "intentional"), run.one("6", "intentional")
+    tab = opened(record, 3)
+    assert tab.evaluate(STEP).split()[1] == "3"
+    assert record.trial in _text(tab, "command")
+    tab.press(*RIGHT)
+    tab.until(f"location.hash === '#trial={record.trial}&step=4'")
+    tab.evaluate(f"document.querySelector('.found [data-trial=\"{other.trial}\"]').click()")
+    tab.until(f"{ROBOT}[0].textContent.includes('{other.trial}')")
+    assert f"trial={other.trial}" in tab.evaluate("location.hash")
+    tab.evaluate("history.back()")
+    tab.until(f"{ROBOT}[0].textContent.includes('{record.trial}')")
+    assert tab.evaluate(STEP).split()[1] == "4"
+    link = tab.evaluate(f"{ROBOT}[1].querySelector('[data-part=link]').hash")
+    partner = run.one("5", "traditional")
+    assert link == f"#trial={partner.trial}&step=4"
+
+
+def test_keys_move_through_a_trial(opened: Callable[..., Tab], run: Played) -> None:
+    record = run.one("5", "intentional")
+    tab = opened(record)
+    last = record.steps + 1
+    for key, step in ((END, last), (LEFT, last - 1), (HOME, 1), (RIGHT, 2), (RIGHT, 3), (LEFT, 2)):
+        tab.press(*key)
+        assert tab.evaluate(STEP).split()[1] == str(step)
+    said = tab.evaluate("document.querySelector('[aria-live]').textContent")
+    assert str(record.actions[0].action) in said
+    tab.press(*SPACE)
+    assert tab.evaluate(PLAYS) is True
+    tab.until(f"Number({STEP}.split(' ')[1]) >= 4")
+    tab.press(*SPACE)
+    assert tab.evaluate(PLAYS) is False
+    tab.press(*END)
+    assert tab.evaluate(STEP).split()[1] == str(last)
+
+
+def test_it_plays_to_the_end_and_stops(opened: Callable[..., Tab], run: Played) -> None:
+    record = run.one("2", "intentional")
+    tab = opened(record, 99)
+    tab.evaluate("document.querySelector('[data-go=back]').click()")
+    tab.evaluate("document.querySelector('[data-go=play]').click()")
+    assert tab.evaluate(PLAYS) is True
+    tab.until(f"!{PLAYS}")
+    assert tab.evaluate("document.querySelector('input[type=range]').matches('[max=\"11\"]')")
+    assert tab.evaluate(STEP).split()[1] == tab.evaluate(STEP).split()[3]
+
+
+def test_where_motion_is_to_be_reduced_nothing_moves_by_itself(
+    opened: Callable[..., Tab], run: Played
+) -> None:
+    tab = opened(run.one("5", "intentional"), motion="reduce")
+    tab.press(*SPACE)
+    assert tab.evaluate(STEP).split()[1] == "2"
+    assert tab.evaluate(PLAYS) is False
+
+
+@pytest.mark.parametrize("allowed", [True, False])
+def test_the_command_is_copied_or_else_selected(
+    opened: Callable[..., Tab], run: Played, allowed: bool
+) -> None:
+    record = run.one("6", "traditional")
+    tab = opened(record)
+    clipboard = "{writeText: async text => { window.copied = text; }}" if allowed else "undefined"
+    tab.evaluate(f"Object.defineProperty(navigator, 'clipboard', {{value: {clipboard}}})")
+    own = f"[...{ROBOT}].find(own => own.textContent.includes('{record.trial}'))"
+    tab.evaluate(f"{own}.querySelector('[data-part=copy]').click()")
+    tab.until(f"{own}.querySelector('[data-part=copied]').textContent")
+    copied = tab.evaluate("window.copied" if allowed else "getSelection().toString()")
+    assert copied == f"testbed replay {run.page.parent} --trial {record.trial}"
+
+
+def test_one_robot_can_be_looked_at_alone(opened: Callable[..., Tab], run: Played) -> None:
+    record = run.one("5", "traditional")
+    tab = opened(record, 2)
+    assert tab.evaluate(f"{ROBOT}.length") == 2
+    tab.evaluate("document.querySelector('.beside input').click()")
+    assert tab.evaluate(f"{ROBOT}.length") == 1
+    assert _text(tab, "name") == "traditional"
+    assert tab.evaluate(STEP).split()[1] == "2"
+
+
+def test_a_phone_compares_a_pair(opened: Callable[..., Tab], run: Played) -> None:
+    tab = opened(run.one("2", "traditional"), 5, PHONE)
+    assert tab.evaluate("document.documentElement.scrollWidth") <= PHONE
+    score = "document.querySelector('.score').getBoundingClientRect()"
+    assert tab.evaluate(f"{score}.right <= {PHONE} && {score}.height < 300")
+    assert tab.evaluate("document.querySelectorAll('.system .strip').length") >= 2
+    widths = "[...document.querySelectorAll('.robot svg')].map(own => own.clientWidth)"
+    assert PHONE // 2 < min(tab.evaluate(widths)) <= PHONE
+
+
+@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report")
+@pytest.mark.parametrize(("width", "scheme"), [(DESK, "light"), (DESK, "dark"), (PHONE, "light")])
+def test_no_rule_of_accessibility_is_broken_where_a_belief_is_wrong(
+    opened: Callable[..., Tab], run: Played, width: int, scheme: str
+) -> None:
+    tab = opened(run.one("2", "traditional"), 5, width, scheme=scheme)
+    assert tab.evaluate("document.querySelectorAll('.wrong svg').length") == 1
+    tab.evaluate("document.querySelectorAll('.robot details').forEach(own => own.open = true)")
+    tab.evaluate(AXE.read_text(encoding="utf-8") + ";0")
+    assert tab.evaluate(VIOLATIONS) == []
+
+
+def test_nothing_is_asked_for_or_complained_of_while_it_is_used(
+    opened: Callable[..., Tab], run: Played
+) -> None:
+    tab = opened(run.one("5", "intentional"))
+    for key in (END, HOME, RIGHT):
+        tab.press(*key)
+    for trial in tab.evaluate(
+        "[...document.querySelectorAll('.found [data-trial]')].map(own => own.dataset.trial)"
+    ):
+        tab.evaluate(f"document.querySelector('.found [data-trial=\"{trial}\"]').click()")
+        tab.until(f"document.querySelector('.robots').textContent.includes('{trial}')")
+    asked: list[Any] = tab.events("Network.requestWillBeSent")
+    urls = {event["request"]["url"] for event in asked}
+    assert {url for url in urls if not url.startswith("data:")} == {run.page.as_uri()}
+    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
+    assert tab.events(*complaints) == []
+
+
+def test_texts_that_would_break_out_of_the_page_are_shown_as_text(
+    browser: Browser, tmp_path: Path
+) -> None:
+    hostile = "</script><img src=x onerror='window.broken=1'>\"&amp;<!--<script>\u202e\u2066\u200f"
+    shown = hostile.encode("ascii", "backslashreplace").decode()
+    record = a_record(
+        robot=hostile, reason=hostile, cell=hostile, achieved=False, outcome="gave_up", steps=1
+    )
+    other = a_record("t2", pair=record.pair, cell=hostile, robot=f"B {hostile}", steps=1)
+    with TrialWriter(tmp_path) as writer:
+        writer.append(record)
+        writer.append(other)
+    step = {
+        "step": 1,
+        "action": "move(rob1,library)",
+        "happened": True,
+        "world": [],
+        "mistaken": [],
+    }
+    contrary = {"step": 1, "observed": hostile, "believed": hostile}
+    step |= {"reason": hostile, "contradictions": [contrary]}
+    story = json.dumps({"trial": "t1", "steps": [step]}, separators=(",", ":"))
+    (tmp_path / "stories.jsonl").write_text(story + "\n", encoding="utf-8")
+    write_report(tmp_path, load_config("office"))
+    tab = Tab(browser, tmp_path / REPORT, DESK, "light")
+    tab.evaluate("document.querySelectorAll('details').forEach(own => own.open = true)")
+    assert tab.evaluate("window.broken === undefined && !document.querySelector('img')")
+    for part in ("name", "mind", "facts"):
+        assert shown in " ".join(_text(tab, part).split()), part
+    assert _text(tab, "mind").count(shown) == 3
+    assert shown in tab.evaluate("document.querySelector('.found').textContent")
+    assert _chosen(tab, "robot", hostile) == ["t1"]
+    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
+    assert tab.events(*complaints) == []
+
+
+def test_a_run_without_stories_is_told_as_far_as_its_records_are(
+    browser: Browser, tmp_path: Path
+) -> None:
+    attempts = [Attempt(1, Action.parse("act"), True), Attempt(2, Action.parse("act"), False)]
+    with TrialWriter(tmp_path) as writer:
+        writer.append(a_record(steps=3, actions=attempts))
+    write_report(tmp_path, load_config("office"))
+    tab = Tab(browser, tmp_path / REPORT, DESK, "light")
+    kinds = "[...document.querySelectorAll('.system i')].map(own => own.classList[0])"
+    assert tab.evaluate(kinds) == ["done", "failed", "mental", "end"]
+    _slide(tab, 2)
+    assert "act" in _text(tab, "action")
+    assert "failed" in _text(tab, "result")
+    assert "not" in _text(tab, "belief")
+    assert tab.events("Runtime.exceptionThrown") == []
+
+
+def test_a_link_to_a_trial_that_is_not_there_says_so(browser: Browser, run: Played) -> None:
+    tab = Tab(browser, f"{run.page.as_uri()}#trial=nosuch&step=2", DESK, "light")
+    tab.until("!document.querySelector('[data-part=missing]').hidden")
+    assert "nosuch" in tab.evaluate("document.querySelector('[data-part=missing]').textContent")
