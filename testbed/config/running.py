@@ -43,3 +43,7 @@ def runner_findings(config: "ExperimentConfig") -> Iterator[Finding]:
         yield ("tls",), "goes with a scheduler at tls://"
     if encrypted and not config.tls.files:
         yield ("tls",), "is missing; a scheduler at tls:// wants ca, cert and key, files in PEM"
+    elif encrypted:
+        for key in ("ca", "cert"):
+            if key not in config.tls.files:
+                yield ("tls", key), "is missing; a file in PEM"

@@ -6,53 +6,28 @@ again, where results are until they are fetched. A few tasks per worker are subm
 that their size can follow the times of those before, and the driver's memory stays as it is.
 """
 
-import logging
 import secrets
-import warnings
 from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import dataclass
+from contextlib import suppress
 from itertools import groupby
 
-import dask
-from distributed import (
-    CancelledError,
-    Client,
-    Future,
-    KilledWorker,
-    LocalCluster,
-    Security,
-    as_completed,
-)
-from distributed.utils import LoopRunner
+from distributed import CancelledError, Client, Future, KilledWorker, as_completed
 
+from testbed.experiment.dask_client import Scheduler, connected
 from testbed.experiment.dask_worker import TrialPlayer, play_batch, unlike
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.fingerprint import difference, fingerprint
-from testbed.experiment.interrupts import interrupts_later
 from testbed.experiment.luggage import Luggage
 from testbed.experiment.recorder import Result, lost_worker
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.worker_pool import AHEAD, OpenPlayer, Results, safe_path
+from testbed.experiment.worker_pool import AHEAD, OpenPlayer, Results
 from testbed.protocol import in_one_line
 from testbed.text import warn
 
 TASK_S = 1.0
 TASKS_PER_WORKER = 2  # one that is played, and the next
 RETRIES = 1  # of a task whose worker cannot open its player
-LOST_S = 3600.0
-DASHBOARD = "127.0.0.1:8787"
-
-
-@dataclass(frozen=True)
-class Scheduler:
-    """Where a scheduler listens, and the files for TLS: authority, certificate, key."""
-
-    address: str
-    ca: str | None = None
-    cert: str | None = None
-    key: str | None = None
 
 
 def play_all(
@@ -67,48 +42,15 @@ def play_all(
         WorkerError: when a worker cannot play, none may, or the scheduler is not there, or no more.
     """
     run = f"testbed-{secrets.token_hex(4)}"
+    where = "Dask" if isinstance(cluster, int) else cluster.address
     try:
-        with _client(cluster) as client, _Crew(client, run, specs) as crew:
+        with connected(cluster) as client, _Crew(client, run, specs) as crew:
             crew.prepare(open_player)
             yield from crew.work()
     except CancelledError:
-        raise WorkerError(f"the scheduler has lost the trials of {run}; --resume goes on") from None
+        raise WorkerError(f"{where}: the scheduler was lost; --resume goes on") from None
     except (OSError, TimeoutError) as error:
-        where = "Dask" if isinstance(cluster, int) else cluster.address
         raise WorkerError(f"{where}: {in_one_line(error)}") from None
-
-
-@contextmanager
-def _client(cluster: int | Scheduler) -> Iterator[Client]:
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    with ExitStack() as stack:
-        runner = LoopRunner()
-        with interrupts_later():  # its thread, and processes that it starts, are deaf to signals
-            runner.start()
-        stack.callback(runner.stop)
-        if isinstance(cluster, Scheduler):
-            given = (cluster.ca, cluster.cert, cluster.key)
-            names = ("tls_ca_file", "tls_client_cert", "tls_client_key")
-            files = {name: file for name, file in zip(names, given, strict=True) if file}
-            security = Security(require_encryption=bool(files), **files)
-            own = Client(cluster.address, security=security, loop=runner.loop, set_as_default=False)
-        else:
-            stack.enter_context(safe_path())
-            # Dask gives up a worker whose successor takes longer, as on a busy machine it may.
-            stack.enter_context(dask.config.set({"distributed.deploy.lost-worker-timeout": LOST_S}))
-            with warnings.catch_warnings():
-                warnings.filterwarnings("ignore", r"\s*Port \d+ is already in use")
-                local = LocalCluster(
-                    n_workers=cluster,
-                    threads_per_worker=1,
-                    memory_limit=0,
-                    dashboard_address=DASHBOARD,
-                    loop=runner.loop,
-                    silence_logs=logging.CRITICAL,
-                )
-            stack.enter_context(local)
-            own = Client(local, loop=runner.loop, set_as_default=False)
-        yield stack.enter_context(own)
 
 
 class _Batches:
@@ -146,14 +88,16 @@ class _Crew:
         self._suspects: deque[int] = deque()
         self._alone: list[int] = []  # the suspect that is played, or was the last
         self._told: set[str] = set()
+        self._scheduler = client.scheduler_info(n_workers=0)["id"]
 
     def __enter__(self) -> "_Crew":
         return self
 
     def __exit__(self, *_: object) -> None:
-        with suppress(Exception):  # the scheduler may be gone, and its workers with it
-            self._client.cancel(list(self._submitted))
-            self._client.unregister_worker_plugin(self._run)
+        if self._client.status == "running":  # else the scheduler is gone, and all that it had
+            with suppress(Exception):
+                self._client.cancel(list(self._submitted))
+                self._client.unregister_worker_plugin(self._run)
 
     def prepare(self, open_player: OpenPlayer) -> None:
         """Have a player in each worker that is like this process, now and whenever one joins."""
@@ -204,18 +148,28 @@ class _Crew:
             self._submit_more()
 
     def _submit_more(self) -> None:
+        tasks = TASKS_PER_WORKER * max(1, self._workers())
         if self._suspects:
             if not self._submitted:
                 self._alone = [self._suspects.popleft()]
                 self._submit(self._alone)
             return
-        tasks = TASKS_PER_WORKER * max(1, len(self._client.nthreads()))
         while len(self._submitted) < tasks:
             first = min(map(min, self._submitted.values()), default=len(self._specs))
             positions = self._batches.next(before=first + AHEAD)
             if not positions:
                 return
             self._submit(positions)
+
+    def _workers(self) -> int:
+        """How many workers there are. Raises CancelledError where the scheduler is gone.
+
+        Another one that was started in its place knows nothing of this run.
+        """
+        info = self._client.scheduler_info(n_workers=0)
+        if self._client.status != "running" or info["id"] != self._scheduler:
+            raise CancelledError
+        return int(info["n_workers"])
 
     def _submit(self, positions: list[int]) -> None:
         specs = [self._specs[position] for position in positions]

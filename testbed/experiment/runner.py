@@ -105,6 +105,8 @@ def run_in(
     shard: Shard | None = None,
 ) -> RunStatus:
     """As `run`, in a folder that is locked; `command` is put on record."""
+    if workers and config.scheduler is not None:
+        raise WorkerError("--workers: does not go with scheduler, which has workers of its own")
     begin_or_resume(folder, config, resume)
     provenance = Provenance(folder, config, command)
     try:
@@ -191,15 +193,13 @@ def _results(config: ExperimentConfig, specs: Sequence[TrialSpec], workers: int 
     open_player = partial(player, config.link, config.name, config.limits.answer_s)
     if workers is not None and (config.runner == "local" or workers == 0):
         return play_all(specs, workers, open_player)
-    if workers is not None and config.scheduler is not None:
-        raise WorkerError("--workers: is not for a scheduler, which has workers of its own")
     if find_spec("distributed") is None:
         raise WorkerError("runner: dask is not installed; pip install 'intention-testbed[cluster]'")
-    from testbed.experiment import dask_pool  # noqa: PLC0415  # of an extra
+    from testbed.experiment import dask_client, dask_pool  # noqa: PLC0415  # of an extra
 
     if config.scheduler is None:
         return dask_pool.play_all(specs, workers or 1, open_player)
-    scheduler = dask_pool.Scheduler(config.scheduler, **config.tls.files)
+    scheduler = dask_client.Scheduler(config.scheduler, **config.tls.files)
     return dask_pool.play_all(specs, scheduler, open_player)
 
 

@@ -15,6 +15,7 @@ from testbed.link import RemoteRobot, endpoint, open_driver
 from testbed.protocol import Percept, RobotLost, Task
 from testbed.registry import PATH_VARIABLE
 from tests.greenhouse import GREENHOUSE
+from tests.pots import CARRIED
 
 ROOT = Path(__file__).parents[2]
 PATIENCE_S = 600.0
@@ -26,25 +27,19 @@ goal: ["stands(fern,sill)"]
 initial: ["stands(fern,bench)", "stands(rose,floor)"]
 scenarios: none
 """
-ROBOT = """\
-from testbed.protocol import Capabilities, Decision, Trace
+ROBOT = f"""\
+from testbed.protocol import Capabilities
 
+{CARRIED}
 
 class Carrier:
-    capabilities = Capabilities({able})
+    capabilities = Capabilities({{able}})
 
     def begin(self, task):
         pass
 
     def act(self, percept):
-        holds = "stands(fern,sill)" in percept.visible
-        return Decision(
-            trial=percept.trial,
-            step=percept.step,
-            action="finish" if holds else "carry(gardener,fern,sill)",
-            believes_goal=holds,
-            trace=Trace(),
-        )
+        return carried(percept)
 
 
 class Idle:

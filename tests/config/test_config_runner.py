@@ -18,6 +18,8 @@ CLUSTER = ("runner=dask", "scheduler=tls://head:8786")
         (["runner=dask", "tls.ca=ca.pem"], "tls"),
         (["runner=dask", "scheduler=tcp://head:8786", "tls.ca=ca.pem"], "tls"),
         ([*CLUSTER], "tls"),
+        ([*CLUSTER, "tls.cert=own.pem"], "tls.ca"),
+        ([*CLUSTER, "tls.ca=ca.pem", "tls.key=own.key"], "tls.cert"),
         (["runner=remote"], "runner"),
     ],
 )

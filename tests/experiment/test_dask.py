@@ -10,13 +10,14 @@ import dask
 import pytest
 from distributed import Client
 
+from benchmarks.clusters import ROOT, scheduler, until, worker
 from testbed.cli.loading import load
 from testbed.config import ExperimentConfig
 from testbed.experiment import WorkerError, run
 from testbed.experiment.digest import digest, logical
 from testbed.experiment.store import read_records
 from testbed.registry import PATH_VARIABLE
-from tests.clusters import ROOT, scheduler, until, worker, write_pots
+from tests.pots import CARRIED, write_pots
 
 pytestmark = pytest.mark.load
 
@@ -49,20 +50,6 @@ class Mortal(Carrier):
             lives[0].unlink()
             os.kill(os.getpid(), signal.SIGKILL)
 """
-HELPING = """\
-from testbed.protocol import Decision, Trace
-
-
-def carried(percept):
-    holds = "stands(fern,sill)" in percept.visible
-    return Decision(
-        trial=percept.trial,
-        step=percept.step,
-        action="finish" if holds else "carry(gardener,fern,sill)",
-        believes_goal=holds,
-        trace=Trace(),
-    )
-"""
 ADVERSARY = """\
 class Calm:
     sees = ()
@@ -80,12 +67,10 @@ def pots(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv(PATH_VARIABLE, "")
     monkeypatch.setattr(sys, "path", list(sys.path))
     monkeypatch.chdir(tmp_path)
-    own = {"carriers_at_work": ROBOTS, "helping_carriers": HELPING, "calm_weather": ADVERSARY}
-    file = write_pots(tmp_path / "beside")
-    for name, text in own.items():
+    own = {"carriers_at_work": ROBOTS, "helping_carriers": CARRIED, "calm_weather": ADVERSARY}
+    for name in own:
         monkeypatch.delitem(sys.modules, name, raising=False)
-        (tmp_path / f"beside/{name}.py").write_text(text, encoding="utf-8")
-    return file
+    return write_pots(tmp_path / "beside", **own)
 
 
 def _played(config: ExperimentConfig, folder: str, workers: int | None) -> list[dict[str, object]]:
@@ -96,7 +81,7 @@ def _played(config: ExperimentConfig, folder: str, workers: int | None) -> list[
 def test_the_same_trials_come_out_of_any_number_of_workers(pots: Path) -> None:
     here = _played(load(pots), "here", workers=0)
     assert len(here) == 36
-    for runner, workers in [("local", 1), ("local", 2), ("dask", 2), ("dask", 4)]:
+    for runner, workers in [("local", 1), ("local", 2), ("dask", 1), ("dask", 2), ("dask", 4)]:
         folder = f"{runner}-{workers}"
         assert _played(load(pots, [f"runner={runner}"]), folder, workers) == here
         assert digest(read_records(Path(folder))) == digest(read_records(Path("here")))
@@ -105,9 +90,8 @@ def test_the_same_trials_come_out_of_any_number_of_workers(pots: Path) -> None:
 @pytest.fixture
 def address(tmp_path: Path) -> Iterator[str]:
     """Of a scheduler without workers."""
-    (tmp_path / "scheduler").mkdir()
     with scheduler(tmp_path / "scheduler") as own:
-        yield own
+        yield own.address
 
 
 def test_domains_robots_and_adversaries_travel(pots: Path, tmp_path: Path, address: str) -> None:
@@ -137,7 +121,7 @@ def test_a_worker_with_other_code_is_told_and_plays_nothing(
     with (tmp_path / "other/agents/traditional/robot.py").open("a") as source:
         source.write("# is another one\n")
     config = load(pots, ["runner=dask", f"scheduler={address}"])
-    with Client(address) as client, worker(address, tmp_path / "unlike", path=tmp_path / "other"):
+    with Client(address) as client, worker(address, tmp_path / "unlike", path=[tmp_path / "other"]):
         client.wait_for_workers(1)
         with pytest.raises(WorkerError, match="source of agents"):
             run(config, tmp_path / "run")
