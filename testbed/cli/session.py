@@ -2,7 +2,8 @@
 
 import shlex
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from textwrap import wrap
 
@@ -14,7 +15,7 @@ from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_r
 from testbed.experiment.runner import RunStatus, run_in
 from testbed.experiment.shard import Shard
 from testbed.protocol import shortened
-from testbed.report import Tables, grid, write_report
+from testbed.report import Report, Tables, grid, write_report, written_report
 from testbed.text import Printer, Say, columns, counted
 
 MOST_OF_REASON = 200
@@ -52,13 +53,26 @@ def run_session(
     return run.exit_code
 
 
-def report_again(folder: Path, config: ExperimentConfig) -> None:
+def report_again(folder: Path, config: ExperimentConfig) -> Report:
     """Table, summary and report of a run, made again. Raises StoreError."""
     say = Printer()
     specs = None if config.is_fine else plan_trials(config)  # to draw levels again takes long
-    for line in _told(write_report(folder, config, specs)):
+    report = written_report(folder, config, specs)
+    for line in _told(report.tables):
         say(line)
     say(f"report: {folder / REPORT}")
+    return report
+
+
+def serve_reports(reports: Iterable[Report], port: int) -> None:
+    """Serve reports to browsers of this machine until interrupted. Raises OSError."""
+    from testbed.report.serving import Server, Site  # few serve
+
+    say = Printer()
+    sites = [Site(own.page(served=True), own.run) for own in reports]
+    with Server(sites, port) as server, suppress(KeyboardInterrupt):
+        say(f"serving {server.address} (Ctrl-C ends it)")
+        server.serve_forever()
 
 
 def _conclude(

@@ -35,16 +35,26 @@ class Teller:
         self._varied = [name.partition(".")[2] for name in varied]
         self._stories = StoryFile(run)
 
+    @property
+    def study(self) -> str:
+        """What the run is for."""
+        return self._run.config.protocol or self._run.config.name
+
+    def records(self, ids: Iterable[str]) -> list[TrialRecord]:
+        """The records of these trials, in this order."""
+        place = {trial: number for number, trial in enumerate(ids)}
+        found = self._run.records(pl.col("trial").is_in(list(place)))
+        return sorted(found, key=lambda record: place[record.trial])
+
     def tell(self, ids: Iterable[str], scenes: Scenes) -> list[Told]:
-        """What a page knows of these trials, in the order of the table; drawings are added."""
-        chosen = self._run.records(pl.col("trial").is_in(list(ids)))
-        return [self._told(record, scenes) for record in chosen]
+        """What a page knows of these trials; drawings are added."""
+        return [self._told(record, scenes) for record in self.records(ids)]
 
     def about(self, record: TrialRecord) -> Told:
         """What is known of a trial besides its steps."""
         run = self._run
         return facts(record) | {
-            "study": [run.config.protocol or run.config.name],
+            "study": [self.study],
             "condition": {key: _value(record, key) for key in self._varied},
             "command": command_of(run.folder, record.trial),
         }
@@ -106,9 +116,13 @@ def _lines(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
 
 
 def payload(run: Run, served: bool = False) -> Markup:
-    """The data of the explorer, as JSON that may stand in a script."""
+    """The data of the explorer, as JSON that may stand in a script.
+
+    Where the page is `served` it holds no trials, for it asks for them.
+    """
     scenes, teller = Scenes(), Teller(run)
-    trials = list(_within(MOST_BYTES, sampled(run.trials), teller, scenes))
+    pairs = () if served else sampled(run.trials)
+    trials = list(_within(MOST_BYTES, pairs, teller, scenes))
     told = {
         "folder": str(run.folder),
         "total": len(run.trials),

@@ -50,6 +50,20 @@ class Tables:
     left_out: str | None = None
 
 
+@dataclass(frozen=True)
+class Report:
+    """The report of a run: its tables, and what its page is made of."""
+
+    run: Run
+    tables: Tables
+    parts: Mapping[str, Any]
+
+    def page(self, served: bool = False) -> str:
+        """The page, which holds some of the trials; one that is `served` asks for all of them."""
+        explorer = payload(self.run, served)
+        return environment().get_template("page.html.j2").render(self.parts, explorer=explorer)
+
+
 def write_report(
     folder: Path, config: ExperimentConfig, specs: Iterable[TrialSpec] | None = None
 ) -> Tables:
@@ -57,6 +71,13 @@ def write_report(
 
     With `specs` records are to be those of these trials. Raises StoreError for one that is not.
     """
+    return written_report(folder, config, specs).tables
+
+
+def written_report(
+    folder: Path, config: ExperimentConfig, specs: Iterable[TrialSpec] | None = None
+) -> Report:
+    """The same; the whole report."""
     run = load_run(folder, config, specs)
     found = results_of(run)
     covered = coverage_of(run.trials.select("scenario", "level").iter_rows(), config)
@@ -75,16 +96,17 @@ def write_report(
         condition(config),
         left_out(config),
     )
-    _write_page(run, tables, sections, _compared(rows, found, summary))
-    return tables
+    report = Report(run, tables, _parts(run, tables, sections, _compared(rows, found, summary)))
+    replace_text(folder / REPORT, report.page())
+    return report
 
 
-def _write_page(
+def _parts(
     run: Run, tables: Tables, sections: Sequence[Section], compared: Mapping[str, Any]
-) -> None:
+) -> dict[str, Any]:
     source = reversed(read_domain(run.config.domain))
     notes = scenario_notes(*source) if run.config.plays_triggers else {}
-    parts = {
+    return {
         "config": run.config,
         "domain": Path(run.config.domain).stem,
         "tables": tables,
@@ -97,9 +119,7 @@ def _write_page(
         "failures": failures(run.trials),
         "chapters": list(chapters(run.trials, notes)),
         "replay": lambda trial: command_of(run.folder, trial),
-        "explorer": payload(run),
     }
-    replace_text(run.folder / REPORT, environment().get_template("page.html.j2").render(parts))
 
 
 def _compared(

@@ -71,6 +71,13 @@ def data_of(folder: Path) -> dict[str, Any]:
     return told
 
 
+def test_a_served_page_asks_for_its_trials(garden: Played) -> None:
+    folder, records, _ = garden
+    told = json.loads(explorer.payload(load_run(folder), served=True))
+    assert (told["served"], told["total"], told["kept"]) == (True, len(records), 0)
+    assert told["trials"] == told["scenes"] == []
+
+
 def test_each_step_has_what_its_story_has(garden: Played) -> None:
     folder, records, stories = garden
     told = data_of(folder)
