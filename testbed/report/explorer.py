@@ -6,7 +6,7 @@ stories are read of these trials alone.
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import Any, BinaryIO
+from typing import Any
 
 import msgspec
 import polars as pl
@@ -14,7 +14,8 @@ from markupsafe import Markup
 
 from testbed.analysis import Run
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.stories import Story, decode
+from testbed.experiment.run_folder import STORIES
+from testbed.experiment.stories import START, Story, decode
 from testbed.report.sample import sampled
 from testbed.report.scenes import Scenes, theatre_of
 from testbed.report.stories import command_of
@@ -22,7 +23,6 @@ from testbed.report.telling import Told, facts, with_story, without_story
 
 MOST_BYTES = 3 * 2**20
 """Of the trials and drawings that a page holds."""
-STORIES = "stories.jsonl"
 
 
 class Teller:
@@ -88,10 +88,12 @@ class StoryFile:
         places: dict[str, int] = {}
         if self._path.is_file():
             with self._path.open("rb") as file:
-                for start, line in _lines(file):
-                    head, _, rest = line.partition(b'"trial":"')
-                    if head == b"{":
-                        places[rest.partition(b'"')[0].decode(errors="replace")] = start
+                start = 0
+                for line in file:
+                    if line.startswith(START) and line.endswith(b"\n"):
+                        trial = line.removeprefix(START).partition(b'"')[0]
+                        places[trial.decode(errors="replace")] = start
+                    start += len(line)
         return places
 
     def get(self, trial: str) -> Story | None:
@@ -104,15 +106,6 @@ class StoryFile:
                 return decode(file.readline())
             except msgspec.DecodeError:
                 return None
-
-
-def _lines(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
-    """The whole lines, each with where it begins."""
-    start = 0
-    for line in file:
-        if line.endswith(b"\n"):
-            yield start, line
-        start += len(line)
 
 
 def payload(run: Run, served: bool = False) -> Markup:

@@ -272,7 +272,8 @@ def test_the_command_serves_until_it_is_interrupted(played: Path) -> None:
         assert process.wait() == 0
     assert found["pairs"] == 1
     assert (played / "report.html").is_file()
-    assert "<title>played" in page
+    data = page.partition('id="explorer-data">')[2].partition("</script>")[0]
+    assert json.loads(data)["served"] is True
 
 
 def test_a_port_that_is_taken_is_one_line(played: Path) -> None:
