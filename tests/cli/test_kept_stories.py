@@ -12,7 +12,7 @@ from testbed.config import load_config
 from testbed.experiment import run
 from testbed.experiment.shard import Shard
 from testbed.experiment.stories import Story, stories_of
-from tests.clusters import write_pots
+from tests.pots import write_pots
 
 STORIES = "stories.jsonl"
 

@@ -13,7 +13,7 @@ from testbed.experiment import run
 from testbed.experiment.digest import logical
 from testbed.experiment.shard import Shard
 from testbed.experiment.store import read_records
-from tests.clusters import write_pots
+from tests.pots import write_pots
 
 COUNT = 5
 
