@@ -105,7 +105,8 @@ class Catalogue:
         if not len(places):
             return None
         scenes = Scenes()
-        told = self._teller.tell(self._trials.filter(place=places[0])["trial"], scenes)
+        records = self._teller.records(self._trials.filter(place=places[0])["trial"])
+        told = self._teller.tell(records, scenes)
         return {"scenes": scenes.drawn, "trials": told}
 
     def _facet(self, query: Query, key: str) -> dict[str, int]:

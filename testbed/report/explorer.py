@@ -6,6 +6,7 @@ stories are read of these trials alone.
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import msgspec
@@ -46,9 +47,9 @@ class Teller:
         found = self._run.records(pl.col("trial").is_in(list(place)))
         return sorted(found, key=lambda record: place[record.trial])
 
-    def tell(self, ids: Iterable[str], scenes: Scenes) -> list[Told]:
+    def tell(self, records: Iterable[TrialRecord], scenes: Scenes) -> list[Told]:
         """What a page knows of these trials; drawings are added."""
-        return [self._told(record, scenes) for record in self.records(ids)]
+        return [self._told(record, scenes) for record in records]
 
     def about(self, record: TrialRecord) -> Told:
         """What is known of a trial besides its steps."""
@@ -114,8 +115,10 @@ def payload(run: Run, served: bool = False) -> Markup:
     Where the page is `served` it holds no trials, for it asks for them.
     """
     scenes, teller = Scenes(), Teller(run)
-    pairs = () if served else sampled(run.trials)
-    trials = list(_within(MOST_BYTES, pairs, teller, scenes))
+    pairs = [] if served else list(sampled(run.trials))
+    records = {own.trial: own for own in teller.records(chain.from_iterable(pairs))}
+    chosen = ([records[trial] for trial in pair] for pair in pairs)
+    trials = list(_within(MOST_BYTES, chosen, teller, scenes))
     told = {
         "folder": str(run.folder),
         "total": len(run.trials),
@@ -128,13 +131,13 @@ def payload(run: Run, served: bool = False) -> Markup:
 
 
 def _within(
-    most: int, pairs: Iterable[Sequence[str]], teller: Teller, scenes: Scenes
+    most: int, pairs: Iterable[Sequence[TrialRecord]], teller: Teller, scenes: Scenes
 ) -> Iterator[Told]:
     """The trials of the first pairs that have so many bytes together with their drawings."""
     size = 0
-    for ids in pairs:
+    for pair in pairs:
         before = len(scenes.drawn)
-        trials = teller.tell(ids, scenes)
+        trials = teller.tell(pair, scenes)
         size += len(encoded(trials)) + len(encoded(scenes.drawn[before:]))
         if size > most and before:
             scenes.keep(before)
