@@ -1,12 +1,13 @@
 """A run whose driver is killed in the middle, and which then goes on.
 
 `python -m benchmarks.killing RECORDS run CONFIG ...` is `testbed run CONFIG ...`, whose driver says
-that it is held, and stands still, as soon as so many records are written.
+that it is held, and stands still, as soon as so many records are written. Of several numbers
+(`8,16`) it is held at each, until it gets a line.
 """
 
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
 from testbed import cli
@@ -47,16 +48,16 @@ def whole_lines(path: Path) -> bytes:
     return kept[: kept.rfind(b"\n") + 1]
 
 
-def _held_at(records: int) -> type[TrialWriter]:
-    """A writer that stands still after so many records, until it is killed or its parent ends."""
+def _held_at(records: Collection[int]) -> type[TrialWriter]:
+    """A writer that stands still at each of these numbers, until it gets a line or is killed."""
 
     class Held(TrialWriter):
         def append(self, record: TrialRecord) -> None:
             super().append(record)
-            if len(self.done) == records:
+            if len(self.done) in records:
                 print(HELD, flush=True)
-                sys.stdin.read()
-                raise SystemExit("its parent has ended")
+                if not sys.stdin.readline():
+                    raise SystemExit("its parent has ended")
 
     return Held
 
@@ -65,7 +66,8 @@ def main() -> None:
     """The command line with a writer that stands still."""
     _, records, *arguments = sys.argv
     sys.argv = ["testbed", *arguments]
-    runner.TrialWriter = _held_at(int(records))  # type: ignore[attr-defined]
+    numbers = {int(number) for number in records.split(",") if number}
+    runner.TrialWriter = _held_at(numbers)  # type: ignore[attr-defined]
     cli.main()
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from benchmarks import (
     ablation,
+    chaos,
     decisions,
     driver,
     equality,
@@ -32,6 +33,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "peers": peers.main,
     "memory": memory.main,
     "driver": driver.main,
+    "chaos": chaos.main,
     "mutation": mutation.main,
     "games": games.main,
     "joint_growth": joint_growth.main,
