@@ -116,6 +116,8 @@ def run_in(
         raise
     except KeyboardInterrupt:  # while the trials were planned: none was played
         planned, done = sum(planned_trials(config).values()), sum(1 for _ in read_records(folder))
+        if shard is not None:
+            planned = shard.share(planned, len(config.robots))
         played = RunStatus(planned, done, failed=0, workers=0, interrupted=True)
     provenance.close(played.exit_code, played.workers)
     return played

@@ -36,5 +36,9 @@ class Shard:
         own = (list(pair) for index, (_, pair) in enumerate(pairs) if self._has(index))
         return [spec for pair in own for spec in pair]
 
+    def share(self, trials: int, robots: int) -> int:
+        """How many of so many trials are of this part, where each pair has as many as robots."""
+        return robots * len(range(self.number - 1, trials // robots, self.count))
+
     def _has(self, index: int) -> bool:
         return index % self.count == self.number - 1

@@ -12,6 +12,9 @@ import pytest
 from typer.testing import CliRunner
 
 from testbed.cli import app
+from testbed.config import load_config
+from testbed.experiment.plan import plan_trials
+from testbed.experiment.shard import Shard
 
 pytestmark = pytest.mark.load
 
@@ -102,6 +105,20 @@ def test_an_interrupt_while_trials_are_planned_is_put_on_record(
     provenance = json.loads(Path("run/provenance.json").read_text(encoding="utf-8"))
     assert (provenance["exit"], provenance["workers"]) == (130, 0)
     assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+
+
+def test_a_part_that_is_interrupted_while_it_is_planned_counts_its_own_trials(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def interrupted(_: object) -> None:
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    config = ["quickstart", "scenarios=[2,4,5,6]"]
+    own = len(Shard(1, 3).of(plan_trials(load_config(config[0], config[1:]))))
+    monkeypatch.setattr("testbed.experiment.runner.plan_trials", interrupted)
+    done = CliRunner().invoke(app, ["run", *config, "--out", "run", "--shard", "1/3"])
+    assert done.exit_code == 130
+    assert f" 0 of {own} trials " in done.stdout
 
 
 def test_a_run_that_has_nothing_to_resume_says_so() -> None:
