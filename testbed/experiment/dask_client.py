@@ -99,3 +99,11 @@ def _local(workers: int, runner: LoopRunner) -> Iterator[LocalCluster]:
             )
         with cluster:
             yield cluster
+
+
+def dashboard_of(client: Client) -> str | None:
+    """The address of the page on which Dask shows what the cluster does; None without one."""
+    try:
+        return client.dashboard_link or None
+    except KeyError:  # a scheduler that was started without
+        return None

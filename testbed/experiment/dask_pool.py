@@ -8,13 +8,13 @@ that their size can follow the times of those before, and the driver's memory st
 
 import secrets
 from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import groupby
 
 from distributed import CancelledError, Client, Future, KilledWorker, as_completed
 
-from testbed.experiment.dask_client import Scheduler, connected
+from testbed.experiment.dask_client import Scheduler, connected, dashboard_of
 from testbed.experiment.dask_worker import TrialPlayer, play_batch, unlike
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.fingerprint import difference, fingerprint
@@ -31,12 +31,16 @@ RETRIES = 1  # of a task whose worker cannot open its player
 
 
 def play_all(
-    specs: Sequence[TrialSpec], cluster: int | Scheduler, open_player: OpenPlayer
+    specs: Sequence[TrialSpec],
+    cluster: int | Scheduler,
+    open_player: OpenPlayer,
+    shown_at: Callable[[str], None],
 ) -> Results:
     """Results with their position in `specs`, as they come.
 
     `cluster` is how many workers a cluster on this machine has, or the scheduler of another one.
-    `open_player` is called once per worker, and must be picklable.
+    `open_player` is called once per worker, and must be picklable. `shown_at` is called with the
+    address of the cluster's dashboard, where it has one.
 
     Raises:
         WorkerError: when a worker cannot play, none may, or the scheduler is not there, or no more.
@@ -45,6 +49,8 @@ def play_all(
     where = "Dask" if isinstance(cluster, int) else cluster.address
     try:
         with connected(cluster) as client, _Crew(client, run, specs) as crew:
+            if (dashboard := dashboard_of(client)) is not None:
+                shown_at(dashboard)
             crew.prepare(open_player)
             yield from crew.work()
     except CancelledError:

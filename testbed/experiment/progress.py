@@ -29,10 +29,14 @@ def progress(quiet: bool) -> Iterator[Notify]:
         with Progress(*columns, console=console) as bar:
             task = bar.add_task("planning the trials", total=None, rate="")
 
-            plan = Plan(lambda line: bar.console.print(line, markup=False, highlight=False))
+            def say(line: str) -> None:
+                bar.console.print(line, markup=False, highlight=False)
+
+            plan, dashboard = Plan(say), Dashboard(say)
 
             def notify(run: RunStatus) -> None:
                 plan.notify(run)
+                dashboard.notify(run)
                 bar.update(task, total=run.planned, completed=run.done)
                 speed = bar.tasks[task].speed
                 rate = "" if speed is None else f"{speed:.1f}/s"
@@ -52,13 +56,14 @@ class Lines:
 
     def __init__(self, say: Say, clock: Callable[[], float] = time.monotonic) -> None:
         self._say, self._clock = say, clock
-        self._plan = Plan(say)
+        self._plan, self._dashboard = Plan(say), Dashboard(say)
         self._began: tuple[float, int] | None = None
         self._due = 0.0
 
     def notify(self, run: RunStatus) -> None:
         """Told at the start and after every trial."""
         self._plan.notify(run)
+        self._dashboard.notify(run)
         now = self._clock()
         if self._began is None:
             self._began, self._due = (now, run.done), now + EVERY_S
@@ -92,6 +97,20 @@ class Plan:
             for line in plan_of(run).lines(columns()):
                 self._say(line)
         self._told = run.estimates
+
+
+class Dashboard:
+    """Says once where the cluster that plays shows what it does."""
+
+    def __init__(self, say: Say) -> None:
+        self._say = say
+        self._told: str | None = None
+
+    def notify(self, run: RunStatus) -> None:
+        """Told at the start, when it is known, and after every trial."""
+        if run.dashboard != self._told:
+            self._told = run.dashboard
+            self._say(f"dashboard: {run.dashboard}")
 
 
 def plan_of(run: RunStatus) -> Grid:

@@ -44,7 +44,7 @@ class RunStatus:
 
     `reason` is that of the first failed trial, None where none failed; `workers` are the processes
     that play what was missing, None where they are those of a scheduler. `estimates` are those of
-    a sweep, one per condition of which trials were missing.
+    a sweep, one per condition of which trials were missing; `dashboard` is the address of Dask's.
     """
 
     planned: int
@@ -54,6 +54,7 @@ class RunStatus:
     workers: int | None = 1
     interrupted: bool = False
     estimates: tuple[Estimate, ...] = ()
+    dashboard: str | None = None
 
     @property
     def exit_code(self) -> int:
@@ -137,7 +138,8 @@ def play_missing(
     its trials are played.
     Without a number of `workers` there are as many as the missing trials are worth; 0 plays them
     in this process. An interrupt ends the run early: what was finished is on record, and the run
-    says so. `notify` is called once at the start and after every trial.
+    says so. `notify` is called once at the start, when Dask's dashboard is known, and after every
+    trial.
 
     Raises:
         StoreError: when the folder cannot be written to, or has records of other trials.
@@ -155,7 +157,11 @@ def play_missing(
         record = partial(_record, folder, writer, status, sha256(stored_text(config)))
 
         def play(specs: Sequence[TrialSpec]) -> Results:
-            return _told(_results(config, specs, status.workers), writer)
+            return _told(_results(config, specs, status.workers, shown_at), writer)
+
+        def shown_at(dashboard: str) -> None:
+            status.dashboard = dashboard
+            notify(status)
 
         if config.is_sweep and missing:
             _sweep(play, missing, record, status, notify)
@@ -190,7 +196,12 @@ def _workers(config: ExperimentConfig, missing: int) -> int | None:
     return workers_for(missing) if config.scheduler is None else None
 
 
-def _results(config: ExperimentConfig, specs: Sequence[TrialSpec], workers: int | None) -> Results:
+def _results(
+    config: ExperimentConfig,
+    specs: Sequence[TrialSpec],
+    workers: int | None,
+    shown_at: Callable[[str], None],
+) -> Results:
     """The results of trials by the configuration's runner; 0 workers are this process."""
     open_player = partial(player, config.link, config.name, config.limits.answer_s)
     if workers is not None and (config.runner == "local" or workers == 0):
@@ -200,9 +211,9 @@ def _results(config: ExperimentConfig, specs: Sequence[TrialSpec], workers: int 
     from testbed.experiment import dask_client, dask_pool  # noqa: PLC0415  # of an extra
 
     if config.scheduler is None:
-        return dask_pool.play_all(specs, workers or 1, open_player)
+        return dask_pool.play_all(specs, workers or 1, open_player, shown_at)
     scheduler = dask_client.Scheduler(config.scheduler, **config.tls.files)
-    return dask_pool.play_all(specs, scheduler, open_player)
+    return dask_pool.play_all(specs, scheduler, open_player, shown_at)
 
 
 def _told(results: Results, writer: TrialWriter) -> Results:
