@@ -12,6 +12,7 @@ from tempfile import TemporaryDirectory
 from tests.report.browser import CHROMIUM, Browser, Tab
 
 PLACE = "(own => [own.x + scrollX, own.y + scrollY, own.width, own.height])"
+SETTLED = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 MARGIN = 8
 
 
@@ -31,20 +32,22 @@ def main() -> None:
         browser = Browser(CHROMIUM, Path(profile))
         try:
             tab = Tab(browser, address, given.width, "dark" if given.dark else "light")
-            tab.call("Emulation.setScrollbarsHidden", hidden=True)
             given.picture.write_bytes(picture(tab, given.part))
         finally:
             browser.close()
 
 
 def picture(tab: Tab, part: str) -> bytes:
-    """The first element of this selector, as PNG."""
+    """The first element of this selector, as PNG, in a window as high as the page."""
+    width, height = tab.evaluate("[innerWidth, document.documentElement.scrollHeight]")
+    screen = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+    tab.call("Emulation.setDeviceMetricsOverride", **screen)
+    tab.evaluate(SETTLED)
     element = f"document.querySelector({part!r})"
     x, y, width, height = tab.evaluate(f"{PLACE}({element}.getBoundingClientRect())")
     clip = {"x": max(0, x - MARGIN), "y": max(0, y - MARGIN), "scale": 1}
     clip |= {"width": width + 2 * MARGIN, "height": height + 2 * MARGIN}
-    settings = {"format": "png", "captureBeyondViewport": True, "clip": clip}
-    return b64decode(tab.call("Page.captureScreenshot", **settings)["data"])
+    return b64decode(tab.call("Page.captureScreenshot", format="png", clip=clip)["data"])
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import pytest
@@ -18,6 +19,8 @@ from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 from testbed.report import write_report
+from testbed.report.page import written_report
+from testbed.report.serving import Server, Site
 from testbed.world import load_world
 from tests.experiment.samples import a_record
 from tests.report.browser import CHROMIUM, Browser, Tab
@@ -425,5 +428,93 @@ def test_a_run_without_stories_is_told_as_far_as_its_records_are(
 
 def test_a_link_to_a_trial_that_is_not_there_says_so(browser: Browser, run: Played) -> None:
     tab = Tab(browser, f"{run.page.as_uri()}#trial=nosuch&step=2", DESK, "light")
-    tab.until("!document.querySelector('[data-part=missing]').hidden")
-    assert "nosuch" in tab.evaluate("document.querySelector('[data-part=missing]').textContent")
+    tab.until("!document.querySelector('[data-part=warning]').hidden")
+    assert "nosuch" in tab.evaluate("document.querySelector('[data-part=warning]').textContent")
+
+
+PAIRS = 30
+"""More than are listed at once."""
+
+
+@pytest.fixture(scope="module")
+def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a run with many pairs, of which one robot fails in the last."""
+    folder = tmp_path_factory.mktemp("many")
+    initial = ["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]
+    moved = [Attempt(1, Action.parse("move(rob1,office2)"), True)]
+    with TrialWriter(folder) as writer:
+        for number in range(PAIRS):
+            for robot in ("intentional", "traditional"):
+                lost = number == PAIRS - 1 and robot == "traditional"
+                writer.append(
+                    a_record(
+                        f"{robot}-{number}",
+                        pair=f"pair-{number:02}",
+                        robot=robot,
+                        steps=2,
+                        actions=moved,
+                        initial=[*map(Literal.parse, initial)],
+                        achieved=not lost,
+                        outcome="gave_up" if lost else "achieved",
+                    )
+                )
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(many: Path) -> Iterator[str]:
+    """Where the page of this run is served."""
+    report = written_report(many, load_config("office"))
+    with Server([Site(report.page(served=True), report.run)]) as server:
+        thread = Thread(target=server.serve_forever)
+        thread.start()
+        yield server.address
+        server.shutdown()
+        thread.join()
+
+
+def test_a_served_page_has_all_trials_page_by_page(browser: Browser, address: str) -> None:
+    tab = Tab(browser, address, DESK, "light")
+    listed = "document.querySelectorAll('.found li').length"
+    tab.until(f"{listed} && {ROBOT}.length")
+    assert tab.evaluate("document.querySelector('.count').textContent").split()[0] == "60"
+    assert tab.evaluate(listed) < PAIRS
+    assert _text(tab, "outcome", 1).startswith("✗")
+    tab.evaluate("document.querySelector('[data-part=more]').click()")
+    tab.until(f"{listed} === {PAIRS}")
+    assert tab.evaluate("document.querySelector('[data-part=more]').hidden") is True
+    tab.evaluate("document.querySelector('[data-trial=intentional-7]').click()")
+    tab.until(f"{ROBOT}[0].textContent.includes('intentional-7')")
+    assert _drawn(tab, ["rob1"], ["kitchen", "office2"]) == ["kitchen"]
+    _slide(tab, 2)
+    assert _drawn(tab, ["rob1"], ["kitchen", "office2"]) == ["office2"]
+    _chosen(tab, "outcome", "gave_up")
+    tab.until(f"{listed} === 1")
+    assert tab.evaluate("[...document.querySelectorAll('.found .bad')].length") == 1
+    asked = {event["request"]["url"] for event in tab.events("Network.requestWillBeSent")}
+    assert all(url.startswith((address, "data:")) for url in asked)
+    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
+    assert tab.events(*complaints) == []
+
+
+def test_a_link_to_a_served_page_opens_the_trial(browser: Browser, address: str) -> None:
+    tab = Tab(browser, f"{address}#trial=traditional-3&step=2", DESK, "light")
+    tab.until(f"{ROBOT}.length")
+    assert tab.evaluate(STEP).split()[1] == "2"
+    assert "traditional-3" in _text(tab, "command", 1)
+    tab = Tab(browser, f"{address}#trial=nosuch", DESK, "light")
+    tab.until("document.querySelector('[data-part=warning]').textContent.includes('nosuch')")
+
+
+def test_a_page_with_some_of_the_trials_says_so(
+    browser: Browser, many: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("testbed.report.explorer.MOST_BYTES", 20_000)
+    write_report(many, load_config("office"))
+    tab = Tab(browser, many / REPORT, DESK, "light")
+    kept = "JSON.parse(document.getElementById('explorer-data').textContent).trials.length"
+    held = tab.evaluate(kept)
+    said = tab.evaluate("document.querySelector('[data-part=partial]').innerText")
+    assert 0 < held < 2 * PAIRS
+    assert said.startswith(f"{held} of {2 * PAIRS} ")
+    assert f"testbed report --serve {many}" in said
