@@ -77,7 +77,7 @@ class Scenes:
     def _number(self, stage: Stage, true: Atoms, marked: tuple[Literal, ...]) -> int:
         key = id(stage), true, marked
         if key not in self._known:
-            svg = draw_svg(stage.still(sorted(true)), marked)
+            svg = draw_svg(stage.still(true), marked)
             self._known[key] = self._numbers.setdefault(svg, len(self.drawn))
             if self._known[key] == len(self.drawn):
                 self.drawn.append(svg)

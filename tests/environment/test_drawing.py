@@ -195,6 +195,15 @@ def test_without_places_what_stands_on_what_is_drawn_so() -> None:
     )
 
 
+def test_of_relations_that_say_as_much_the_first_one_declared_is_drawn() -> None:
+    text = SHELF.replace("  inertial dark.", "  inertial beneath_all(jar, under).")
+    true = "beneath_all(salt,plank) beneath_all(sage,plank) rests(salt,plank) rests(sage,plank)"
+    for order in (true.split(), true.split()[::-1]):
+        shown = texts(parsed(parse_description(text), order))
+        assert any("rests(" in own for own in shown)
+        assert "beneath_all plank" in shown
+
+
 def test_what_stands_on_itself_in_the_end_is_a_list() -> None:
     drawing = drawn(SHELF, "rests(salt,sage) rests(sage,salt) rests(mint,mint)")
     assert {"rests(salt,sage)", "rests(sage,salt)", "rests(mint,mint)"} <= set(texts(drawing))
@@ -222,9 +231,10 @@ def test_where_nothing_is_true_there_is_a_drawing_too(text: str) -> None:
 
 
 def test_equal_scenes_are_one_drawing() -> None:
-    one, other = (
-        Stage(parse_description(FARM)).still([Literal.parse("parked(t7,heath)")]) for _ in "ab"
-    )
+    true = ["parked(t7,heath)", "lies(hay,heath)", "lies(wheat,heath)", "fenced(heath)"]
+    stage = Stage(parse_description(FARM))
+    one, other = (stage.still(map(Literal.parse, own)) for own in (true, true[::-1]))
+    assert one == other
     assert draw_svg(one) == draw_svg(other)
 
 

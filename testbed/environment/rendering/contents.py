@@ -76,7 +76,8 @@ def contents(scene: Scene, marked: Iterable[Literal]) -> Contents:
 def _towers(fluents: Sequence[Fluent]) -> tuple[str, dict[str, list[str]]]:
     """Of the relations that can be seen as standing on each other that which says most.
 
-    In one of these each thing stands on one other at most, and none on itself, however far down.
+    It is the first one declared of those that say as much. In one of these each thing stands on one
+    other at most, and none on itself, however far down.
     """
     found: dict[str, list[Fluent]] = {}
     for fluent in fluents:

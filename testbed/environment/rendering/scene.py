@@ -102,14 +102,18 @@ class Stage:
         self._cells = {cell for cells in self._where.cells.values() for cell in cells}
         acting = [own for own in description.robots if own in actors]  # a thing may see as well
         self._robots = dict.fromkeys([*acting, *([robot] if robot else [])])
+        self._order = {fluent: number for number, fluent in enumerate(description.fluents)}
         self._marks: dict[str, list[Fluent]] = {}
         for fluent in description.fluents:
             if len(fluent.arguments) == 1:
                 self._marks.setdefault(fluent.arguments[0], []).append(fluent)
 
     def still(self, true: Iterable[Fluent]) -> Scene:
-        """The scene in which just these fluents are true; nothing happened before it."""
-        atoms = tuple(true)
+        """The scene in which just these fluents are true; nothing happened before it.
+
+        Whatever their order, it is that of declaration in the scene.
+        """
+        atoms = tuple(sorted(true, key=lambda fluent: (self._order.get(fluent, -1), fluent)))
         related, where = pairs(atoms), self._where
         # What is said of components only says in which cell their wholes are.
         found = [pair for pair in related if all(where.wholes.get(c, c) == c for c in pair)]
