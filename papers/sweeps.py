@@ -15,6 +15,7 @@ from testbed.experiment import StoreError
 from testbed.experiment.digest import digest
 from testbed.studies import Section, results_of, rows_of
 from testbed.studies.sweeps import Found, found_in
+from testbed.studies.table1.published import BASELINE, INTENTIONAL
 
 BAD_INPUT = 2
 PAGE = "docs/sweeps.md"
@@ -29,6 +30,7 @@ class Study:
     found: Found
     trials: int
     digest: str
+    rate: float | None
     commands: list[str]
 
     @property
@@ -58,6 +60,14 @@ class Study:
         return [own.value for own in shares if own is not None]
 
     @property
+    def ceiling(self) -> str:
+        """Where not every trial of the intentional robot achieves the goal, as a sentence."""
+        robot, other = INTENTIONAL, BASELINE
+        least = f"its least share is {self.least(robot)}, that of TP {self.least(other)}"
+        below = f"{self.below(robot)} of {len(self.keys)} conditions"
+        return f" ATI leaves its ceiling in {below}; {least}."
+
+    @property
     def columns(self) -> Sequence[str]:
         return self.section.views[0].columns
 
@@ -78,7 +88,13 @@ def study_of(folder: Path) -> Study:
         f"$ python -m papers {where} docs/images/{name}.svg",
     ]
     return Study(
-        name, found.sections[0], found_in(run), len(run.trials), digest(run.records()), commands
+        name,
+        found.sections[0],
+        found_in(run),
+        len(run.trials),
+        digest(run.records()),
+        run.config.adversary.rate,
+        commands,
     )
 
 
