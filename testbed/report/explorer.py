@@ -22,7 +22,7 @@ from testbed.report.scenes import Scenes, theatre_of
 from testbed.report.stories import command_of
 from testbed.report.telling import Told, facts, with_story, without_story
 
-MOST_BYTES = 3 * 2**20
+MOST_BYTES = 4 * 2**20
 """Of the trials and drawings that a page holds."""
 
 

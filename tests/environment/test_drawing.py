@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from asp import load_description, parse_description
+from asp.domains import LEVELS, level_text
 from asp.language import Description, Literal, SourceError
 from asp.refinement import load
 from benchmarks.descriptions.drawing import random_description
@@ -223,6 +224,24 @@ def test_at_the_fine_resolution_cells_show_what_is_in_them() -> None:
     assert {"north", "south", "c1", "tea", "a", "b"} == set(texts(drawing))
     assert "c1 in north_b" in label(drawing)
     assert "tea in south_a" in label(drawing)
+
+
+@pytest.mark.parametrize("name", ["L1", "L3", "L6"])
+def test_the_published_levels_are_drawn_with_all_that_is_in_them(name: str) -> None:
+    size = LEVELS[name]
+    coarse, fine = level_text(size.rooms, size.rows, size.columns, size.objects)
+    world = world_of(load(coarse, "level.al", fine, "level.fine"))
+    things = [f"object{n}" for n in range(1, sum(count for count, _ in size.objects) + 1)]
+    spots = {thing: f"room{1 + n % size.rooms}_1" for n, thing in enumerate(things)}
+    given = [f"fine_loc({thing}_1,{cell})" for thing, cell in spots.items()]
+    drawing = parsed(
+        world.description, world.true_atoms(world.state(["fine_loc(rob1,room1_2)", *given]))
+    )
+    said = label(drawing)
+    for thing, cell in spots.items():
+        assert f"{thing} in {cell}" in said
+        assert thing in texts(drawing)
+    assert {f"room{n}" for n in range(1, size.rooms + 1)} <= set(texts(drawing))
 
 
 @pytest.mark.parametrize("text", [FARM, SHELF, GREENHOUSE])

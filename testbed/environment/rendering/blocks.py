@@ -18,29 +18,24 @@ _SIZE, _SMALL, _WIDE = 12, 10, 0.58
 PAD, _HEAD, _LINE, _GLYPH, _SIGN = 6, 22, 13, 20, 14
 _HUES = ("first", "second", "others", "mental")
 
-_BOX = '<rect x=".5" y=".5" width="{w:g}" height="{h:g}" rx="5" fill="var(--page)" stroke="var(--'
+_BOX = '<rect width="{w:.0f}" height="{h:.0f}" rx="5" fill="var(--page)" stroke="var(--'
 _PLAIN = Markup(_BOX + 'line)"/>')
 _BODY = Markup(_BOX + 'link)"/>')
 _DASHED = Markup(_BOX + 'others)" stroke-width="2" stroke-dasharray="5 3"/>')
 _TEXT = Markup('<text x="{x:g}" y="{y:g}"{look}>{text}</text>')
 _TITLED = Markup("<title>{whole}</title>{short}")
-_MOVED = Markup('<g transform="translate({x:g} {y:g})">{svg}</g>')
+_MOVED = Markup('<g transform="translate({x:.4g} {y:.4g})">{svg}</g>')
 _ROBOT = Markup(
-    '<g transform="translate(3 3)" stroke="var(--link)" stroke-width="1.5">'
+    '<g transform="translate(3 3)" stroke="var(--link)">'
     '<path d="M8 0v4M2 4h12v8H2zM4 15h8" fill="none"/><path d="M5.5 7v2M10.5 7v2"/></g>'
 )
 _THING = Markup(
-    '<path d="M6 7l5-3 5 3v7l-5 3-5-3zM6 7l5 3 5-3M11 10v7" fill="none" stroke="var(--{hue})"'
-    ' stroke-width="1.5" stroke-linejoin="round"/>'
+    '<path d="M6 7l5-3 5 3v7l-5 3-5-3zM6 7l5 3 5-3M11 10v7" fill="none" stroke="var(--{hue})"/>'
 )
 _SHUT = Markup(
-    '<path d="M7 10V8a4 4 0 0 1 8 0v2" fill="none" stroke="var(--ink)" stroke-width="1.5"/>'
-    '<path d="M5 10h12v8H5z"/>'
+    '<path d="M7 10V8a4 4 0 0 1 8 0v2" fill="none" stroke="var(--ink)"/><path d="M5 10h12v8H5z"/>'
 )
-_OPEN = Markup(
-    '<path d="M7 10V6a4 4 0 0 1 7-2.5M5 10h12v8H5z" fill="none" stroke="var(--soft)"'
-    ' stroke-width="1.5"/>'
-)
+_OPEN = Markup('<path d="M7 10V6a4 4 0 0 1 7-2.5M5 10h12v8H5z" fill="none" stroke="var(--soft)"/>')
 PLAIN, SOFT = Markup(""), Markup(' fill="var(--soft)" font-size="10"')
 STRONG = Markup(' font-weight="600"')
 _SIGNED = Markup(' fill="var(--others)" font-weight="700" font-size="14"')
@@ -56,7 +51,7 @@ class Block:
 
     def at(self, x: float, y: float) -> Markup:
         """The part where it stands in a larger one."""
-        return _MOVED.format(x=x, y=y, svg=self.svg) if self.svg else self.svg
+        return _MOVED.format(x=x, y=y, svg=self.svg) if self.svg and (x or y) else self.svg
 
 
 def words(text: str, x: float, y: float, most: float, look: Markup = PLAIN) -> Markup:
@@ -99,7 +94,7 @@ def card(
         *(block.width + 2 * PAD for block in held),
     )
     width = min(most, max(least, *needed))
-    lines = [words(name, left, 15, width - left - right, PLAIN)]
+    lines = [words(name, left, 15, width - left - right + PAD / 2)]
     lines += [
         words(note, left, _HEAD + 6 + _LINE * number, width - left - PAD, SOFT)
         for number, note in enumerate(notes)

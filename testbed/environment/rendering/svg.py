@@ -35,19 +35,18 @@ FEW = 12
 _PAD, _DOOR, _LEAST, _CELL = 8, 14, 84, 16
 
 _SVG = Markup(
-    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height:g}" role="img"'
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-1 -1 {width} {height:g}" role="img"'
     ' aria-label="{label}" width="100%" style="max-width:{most}px" font-size="12"'
-    ' font-family="system-ui,sans-serif" fill="var(--ink)">{drawn}</svg>'
+    ' font-family="system-ui,sans-serif" fill="var(--ink)" stroke-width="1.5"'
+    ' stroke-linejoin="round">{drawn}</svg>'
 )
 _ROOM = Markup(
     '<rect x="{x:g}" y="{y:g}" width="{w:g}" height="{h:g}" rx="9" fill="var(--card)"'
-    ' stroke="var(--mental)" stroke-width="1.5"/>'
+    ' stroke="var(--mental)"/>'
 )
-_OPENING = Markup('<path d="{d}" fill="var(--card)" stroke="var(--mental)" stroke-width="1.5"/>')
-_DOOR_TO = Markup(
-    '<path d="M1 10V1h6v9" fill="none" stroke="var(--mental)" stroke-width="1.5"/>{name}'
-)
-_CELLS = Markup('<path d="{d}" fill="none" stroke="var(--line)"/>')
+_OPENING = Markup('<path d="{d}" fill="var(--card)" stroke="var(--mental)"/>')
+_DOOR_TO = Markup('<path d="M1 10V1h6v9" fill="none" stroke="var(--mental)"/>{name}')
+_CELLS = Markup('<path d="{d}" fill="none" stroke="var(--line)" stroke-width="1"/>')
 
 
 def draw_svg(scene: Scene, marked: Collection[Literal] = ()) -> str:
@@ -61,7 +60,9 @@ def draw_svg(scene: Scene, marked: Collection[Literal] = ()) -> str:
     label = ". ".join(_sentences(scene, told)) or "nothing is true"
     most = WIDTH * 3 // 2
     return str(
-        _SVG.format(width=WIDTH, height=drawn.height + 1, label=label, most=most, drawn=drawn.svg)
+        _SVG.format(
+            width=WIDTH + 2, height=drawn.height + 2, label=label, most=most, drawn=drawn.svg
+        )
     )
 
 
