@@ -26,6 +26,7 @@ from testbed.cli import (
     robot,
     run,
     translate,
+    watch,
 )
 from testbed.cli.common import BAD_INPUT, DONE, refuse
 from testbed.cli.importing import displaced
@@ -39,6 +40,7 @@ COMMANDS = (
     compare,
     export,
     replay,
+    watch,
     merge,
     repair,
     translate,

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterator
 
 from asp.language import Action, Fluent
+from asp.refinement import Refinement
 from testbed.experiment.specs import Setting
 from testbed.experiment.stories import FineStep, StoryStep, applied, believed
 from testbed.experiment.timeline import explanation
@@ -127,9 +128,12 @@ class FineNarrator(Narrator):
 
 def narrator_of(setting: Setting, say: Say) -> Narrator:
     """Tells the trials of a setting."""
-    if setting.fine is None:
+    return narrator_in(None if setting.fine is None else refinement_of(setting), say)
+
+
+def narrator_in(refinement: Refinement | None, say: Say) -> Narrator:
+    """Tells trials at the fine resolution of a refinement; without one at the coarse resolution."""
+    if refinement is None:
         return Narrator(say)
-    refinement = refinement_of(setting)
-    return FineNarrator(
-        say, world_of(refinement).description.inertial, refinement.description.fluents
-    )
+    inertial = world_of(refinement).description.inertial
+    return FineNarrator(say, inertial, refinement.description.fluents)

@@ -69,12 +69,16 @@ class Lines:
             self._began, self._due = (now, run.done), now + EVERY_S
         elif now >= self._due:
             self._due = now + EVERY_S
-            self._say(self._line(run, now, *self._began))
+            began, done = self._began
+            self._say(in_line(run, (run.done - done) / (now - began)))
 
-    def _line(self, run: RunStatus, now: float, began: float, done: int) -> str:
-        rate = (run.done - done) / (now - began)
-        trials = f"{run.done} of {counted(run.planned, 'trial')}{_failed(run)}"
-        return f"{trials}, {rate:.1f}/s, {_clock((run.planned - run.done) / rate)} left"
+
+def in_line(run: RunStatus, rate: float | None) -> str:
+    """Trials that are done and that failed; with a rate per second, that and the time left."""
+    trials = f"{run.done} of {counted(run.planned, 'trial')}{_failed(run)}"
+    if not rate:
+        return trials
+    return f"{trials}, {rate:.1f}/s, {_clock((run.planned - run.done) / rate)} left"
 
 
 class Plan:

@@ -15,6 +15,7 @@ from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
 from testbed.experiment.fingerprint import versions
 from testbed.experiment.run_folder import PROVENANCE, replace_text
+from testbed.experiment.shard import Shard
 from testbed.registry import PATH_VARIABLE
 
 DIFFERENCE = "difference.patch"
@@ -30,11 +31,13 @@ class Provenance:
         config: ExperimentConfig,
         command: Sequence[str],
         before: Sequence[dict[str, Any]] | None = None,
+        shard: Shard | None = None,
     ) -> None:
         self._folder, description = folder, asp.load_description(config.domain)
         own = config.refinement
         self._entry: dict[str, Any] = {
             "command": list(command),
+            "shard": None if shard is None else str(shard),
             "start": _now(),
             **dict.fromkeys(("end", "exit", "workers")),
             "versions": versions(),

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import count, takewhile
 from pathlib import Path
+from typing import BinaryIO
 
 from testbed.config import SCENARIO_KEYS, ExperimentConfig, load_config, write_yaml
 from testbed.experiment.errors import StoreError
@@ -95,11 +96,34 @@ def locked(folder: Path) -> Iterator[None]:
     """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / LOCK).open("ab") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise StoreError(f"{folder}: another run is writing here") from None
+        while not _got(lock, fcntl.LOCK_EX):
+            if _is_taken(lock):  # else somebody has only asked whether it is
+                raise StoreError(f"{folder}: another run is writing here")
         yield
+
+
+def is_written(folder: Path) -> bool:
+    """Whether a process writes into a run folder."""
+    try:
+        with (folder / LOCK).open("rb") as lock:
+            return _is_taken(lock)
+    except FileNotFoundError:
+        return False
+
+
+def _is_taken(lock: BinaryIO) -> bool:
+    if not _got(lock, fcntl.LOCK_SH):
+        return True
+    fcntl.flock(lock, fcntl.LOCK_UN)
+    return False
+
+
+def _got(lock: BinaryIO, kind: int) -> bool:
+    try:
+        fcntl.flock(lock, kind | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
 
 
 @contextmanager
@@ -126,12 +150,6 @@ def replace_lines(path: Path, lines: Iterable[bytes]) -> None:
         file.flush()
         os.fsync(file.fileno())
     os.replace(draft, path)
-
-
-def drop_torn_line(path: Path) -> None:
-    """Cut off what stands behind the last line of a file that is whole."""
-    with path.open("r+b") as file:
-        file.truncate(sum(len(line) for line in file if line.endswith(b"\n")))
 
 
 def read_config(folder: Path) -> ExperimentConfig:

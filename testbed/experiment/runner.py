@@ -109,7 +109,7 @@ def run_in(
     if workers and config.scheduler is not None:
         raise WorkerError("--workers: does not go with scheduler, which has workers of its own")
     begin_or_resume(folder, config, resume)
-    provenance = Provenance(folder, config, command)
+    provenance = Provenance(folder, config, command, shard=shard)
     try:
         played = play_missing(config, folder, workers, notify, retry_failed, shard)
     except WorkerError:

@@ -18,7 +18,7 @@ import msgspec
 from testbed.experiment.errors import StoreError
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.recorder import strangeness
-from testbed.experiment.run_folder import STORIES, TRIALS, drop_torn_line, naming, replace_lines
+from testbed.experiment.run_folder import STORIES, TRIALS, naming, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.protocol import Count, literal_within_bounds, shortened
 from testbed.text import warn
@@ -163,7 +163,7 @@ class TrialWriter:
         self._open(TRIALS)
         for path in (folder / TRIALS, folder / STORIES):
             if path.is_file():
-                drop_torn_line(path)
+                _drop_torn_line(path)
         self.done: set[str] = set()
         self.failures: dict[str, list[str]] = {}
         for record in read_records(folder, specs):
@@ -201,6 +201,12 @@ class TrialWriter:
                 os.fsync(file.fileno())
                 file.close()
         settle(self._folder)
+
+
+def _drop_torn_line(path: Path) -> None:
+    """Cut off what stands behind the last line of a file that is whole."""
+    with path.open("r+b") as file:
+        file.truncate(sum(len(line) for line in file if line.endswith(b"\n")))
 
 
 def settle(folder: Path) -> None:

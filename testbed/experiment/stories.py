@@ -133,9 +133,15 @@ def story_lines(folder: Path) -> Iterator[tuple[str, bytes]]:
         return
     with path.open("rb") as file:
         for line in file:
-            end = line.find(b'"', len(START))
-            if line.startswith(START) and line.endswith(b"\n") and end > 0:
-                yield line[len(START) : end].decode("utf-8", "replace"), line
+            trial = trial_of(line)
+            if trial is not None and line.endswith(b"\n"):
+                yield trial, line
+
+
+def trial_of(line: bytes) -> str | None:
+    """The id of the trial whose story a line is, not decoded; None of another line."""
+    end = line.find(b'"', len(START))
+    return line[len(START) : end].decode("utf-8", "replace") if line.startswith(START) else None
 
 
 def stories_of(folder: Path, trials: Collection[str]) -> dict[str, Story]:

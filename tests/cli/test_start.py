@@ -37,6 +37,7 @@ main()
         "report no_such_folder",
         "export no_such_folder",
         "replay no_such_folder",
+        "watch no_such_folder --once",
         "translate no_such_domain",
     ],
 )

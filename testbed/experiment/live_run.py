@@ -1,0 +1,171 @@
+"""A run as it stands in its folder, read while another process plays it."""
+
+import os
+from collections import Counter
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+
+import msgspec
+
+from asp.refinement import Refinement
+from testbed.config import (
+    ExperimentConfig,
+    conditions_of,
+    level_size,
+    refinement_of_files,
+    refinement_of_size,
+)
+from testbed.experiment.plan import planned_trials
+from testbed.experiment.provenance import sessions_of
+from testbed.experiment.record import COARSE, FAILURES, Outcome
+from testbed.experiment.run_folder import STORIES, TRIALS
+from testbed.experiment.runner import RunStatus
+from testbed.experiment.shard import Shard
+from testbed.experiment.store import RETRIES
+from testbed.experiment.stories import Story, decode, trial_of
+
+
+class Played(msgspec.Struct, frozen=True, kw_only=True):
+    """Of a record what is told of its trial."""
+
+    trial: str
+    scenario: str
+    robot: str
+    goal: list[str]
+    level: str = COARSE
+    cell: str = ""
+    achieved: bool = False
+    outcome: Outcome = "error"
+    reason: str | None = None
+    steps: int = 0
+
+    @property
+    def went_wrong(self) -> bool:
+        """Whether the goal was not achieved, or the trial failed."""
+        return not self.achieved or self.outcome in FAILURES
+
+
+_played = msgspec.json.Decoder(Played)
+
+
+class GrowingFile:
+    """A file of lines to which another process appends, or which it replaces by another one."""
+
+    def __init__(self, path: Path) -> None:
+        self._path, self._at, self._inode = path, 0, 0
+
+    def new_lines(self) -> Iterator[tuple[int, bytes]]:
+        """Whole lines that were not read before, with their places; all of a file that is new."""
+        try:
+            file = self._path.open("rb")
+        except FileNotFoundError:
+            return
+        with file:
+            found = os.fstat(file.fileno())
+            if found.st_ino != self._inode or found.st_size < self._at:
+                self._at, self._inode = 0, found.st_ino
+            file.seek(self._at)
+            for line in file:
+                if not line.endswith(b"\n"):
+                    return
+                place, self._at = self._at, self._at + len(line)
+                yield place, line
+
+
+class LiveRun:
+    """The trials of a run that are on record, and where their stories are; `look` reads on.
+
+    `shard` is the part that is played, as far as the folder tells. What is damaged is passed over.
+    """
+
+    def __init__(self, folder: Path, config: ExperimentConfig) -> None:
+        self._folder, self._robots, self._conditions = folder, config.robots, conditions_of(config)
+        self._records = [GrowingFile(folder / name) for name in (TRIALS, RETRIES)]
+        self._stories = GrowingFile(folder / STORIES)
+        self._planned = sum(planned_trials(config).values())
+        self._played: dict[str, Played] = {}  # in the order in which they came
+        self._places: dict[str, int] = {}
+        self._told: set[str] = set()
+
+    def look(self) -> None:
+        """Read what has come since the last look."""
+        for place, line in self._stories.new_lines():
+            if (trial := trial_of(line)) is not None:
+                self._places[trial] = place
+        for file in self._records:
+            for _, line in file.new_lines():
+                self._take(line)
+
+    def _take(self, line: bytes) -> None:
+        try:
+            record = _played.decode(line)
+        except (msgspec.DecodeError, UnicodeDecodeError):
+            return
+        if self._played.pop(record.trial, None) != record:
+            self._told.discard(record.trial)
+        self._played[record.trial] = record
+
+    @property
+    def status(self) -> RunStatus:
+        """Trials planned, of a part those of the part, on record and failed."""
+        failed = sum(own.outcome in FAILURES for own in self._played.values())
+        return RunStatus(self._of_part(), len(self._played), failed)
+
+    def _of_part(self) -> int:
+        sessions = sessions_of(self._folder)
+        told = sessions[-1].get("shard") if sessions else None
+        if not isinstance(told, str):
+            return self._planned
+        return Shard.parse(told).share(self._planned, len(self._robots))
+
+    @property
+    def began(self) -> float | None:
+        """When the run began, in seconds since 1970; None where that was in several sessions."""
+        sessions = sessions_of(self._folder)
+        if len(sessions) != 1:
+            return None
+        return datetime.fromisoformat(sessions[0]["start"]).timestamp()
+
+    @property
+    def outcomes(self) -> dict[str, Counter[Outcome]]:
+        """How the trials of each robot came out."""
+        counts: dict[str, Counter[Outcome]] = {name: Counter() for name in self._robots}
+        for own in self._played.values():
+            counts.setdefault(own.robot, Counter())[own.outcome] += 1
+        return counts
+
+    def next_story(self, robot: str | None, failures: bool) -> tuple[Played, Story] | None:
+        """The newest trial with a story, of one robot only, unless it was given before.
+
+        With `failures` the newest that went wrong and was not given before comes first.
+        """
+        newest = [own for own in reversed(self._played.values()) if self._is_choice(own, robot)]
+        wrong = (own for own in newest if own.went_wrong and own.trial not in self._told)
+        chosen = next(wrong, None) if failures else None
+        chosen = chosen or next(iter(newest), None)
+        if chosen is None or chosen.trial in self._told:
+            return None
+        self._told.add(chosen.trial)
+        story = self._story(self._places[chosen.trial])
+        return None if story is None else (chosen, story)
+
+    def refinement(self, played: Played) -> Refinement | None:
+        """The refinement that a trial was played in; None at the coarse resolution."""
+        config = self._conditions[played.cell]
+        if not config.is_fine:
+            return None
+        if config.refinement is not None:
+            return refinement_of_files(config.domain, config.refinement)
+        return refinement_of_size(level_size(config, played.level))
+
+    def _is_choice(self, own: Played, robot: str | None) -> bool:
+        return own.trial in self._places and robot in (None, own.robot)
+
+    def _story(self, place: int) -> Story | None:
+        with (self._folder / STORIES).open("rb") as file:
+            file.seek(place)
+            try:
+                return decode(file.readline())
+            except msgspec.DecodeError:
+                return None
