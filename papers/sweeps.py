@@ -12,7 +12,6 @@ from papers.text import render
 from testbed.analysis import load_run
 from testbed.config import ConfigError
 from testbed.experiment import StoreError
-from testbed.experiment.digest import digest
 from testbed.studies import Section, results_of, rows_of
 from testbed.studies.sweeps import Found, found_in
 from testbed.studies.table1.published import BASELINE, INTENTIONAL
@@ -92,7 +91,7 @@ def study_of(folder: Path) -> Study:
         found.sections[0],
         found_in(run),
         len(run.trials),
-        digest(run.records()),
+        run.digest,
         run.config.adversary.rate,
         commands,
     )

@@ -10,9 +10,9 @@ from typing import Any
 import polars as pl
 
 from testbed.analysis.bootstrap import CONFIDENCE, Estimate
-from testbed.analysis.comparison import compared, eventful, measured, with_apart
+from testbed.analysis.comparison import by_condition, compared, eventful, with_apart
 from testbed.analysis.pairs import OTHER, Compared, Sample, cluster_of, corrected, pairs_of
-from testbed.analysis.population import exhausted
+from testbed.analysis.population import exhausted_under
 from testbed.analysis.sentences import COST, OVERALL, SUCCESS, sentence
 from testbed.analysis.statistics import Test
 from testbed.analysis.table import Run
@@ -92,10 +92,12 @@ def answers_of(run: Run) -> list[dict[str, Any]]:
 
 
 def _questions(run: Run) -> Iterator[Question]:
-    conditions = run.conditions
-    rows = {name: measured(own.trials) for name, own in conditions.items()}
+    rows, whole = by_condition(run), exhausted_under(run)
     for robots in compared(run.config) if run.config.comparisons else ():
-        samples = {name: _counted(own, rows[name], robots) for name, own in conditions.items()}
+        samples = {
+            name: _counted(own, rows[name], robots, whole[name])
+            for name, own in run.conditions.items()
+        }
         yield from _asked(robots, OVERALL if run.config.is_sweep else "", {"": _pooled(samples)})
         for under, names in _curves(run.config):
             yield from _asked(robots, under, {name: samples[name] for name in names})
@@ -128,11 +130,13 @@ def _curves(config: ExperimentConfig) -> Iterator[tuple[str, list[str]]]:
         yield ", ".join(choice), [", ".join([*choice, point]) for point in last.points]
 
 
-def _counted(run: Run, rows: pl.DataFrame, robots: Compared) -> Sample:
+def _counted(
+    config: ExperimentConfig, rows: pl.DataFrame, robots: Compared, exhausted: frozenset[str]
+) -> Sample:
     """The pairs of two robots that count, of the measured trials of one condition."""
-    counted = with_apart(rows, robots, eventful(run.config)).filter(pl.col("apart").is_null())
+    counted = with_apart(rows, robots, eventful(config)).filter(pl.col("apart").is_null())
     pairs = pairs_of(counted, robots)
-    return Sample(pairs, cluster_of(pairs), whole=set(pairs["scenario"]) <= exhausted(run))
+    return Sample(pairs, cluster_of(pairs), whole=set(pairs["scenario"]) <= exhausted)
 
 
 def _shares(pairs: Sample) -> dict[str, Estimate | None]:

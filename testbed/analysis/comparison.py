@@ -8,6 +8,7 @@ import polars as pl
 
 from testbed.analysis import explanations, quality
 from testbed.analysis.pairs import Compared
+from testbed.analysis.table import Run, Trials
 from testbed.config import ExperimentConfig
 from testbed.experiment.record import FAILURES
 from testbed.world import load_world
@@ -27,7 +28,7 @@ class Apart(StrEnum):
 COUNTS: Mapping[Apart, str] = {reason: reason.name.lower() for reason in Apart}
 """The keys under which pairs are counted apart."""
 ACCURACY = "accuracy"
-KEPT = ("trial", "pair", "scenario", "level", "robot", "achieved", "correct", "outcome")
+KEPT = ("trial", "pair", "cell", "scenario", "level", "robot", "achieved", "correct", "outcome")
 """The columns of a table that its measured trials have as well."""
 
 MEASURES: Mapping[str, pl.Expr] = {
@@ -56,7 +57,7 @@ def compared(config: ExperimentConfig) -> tuple[Compared, ...]:
     return asked or (Compared("", config.robots[0]),)
 
 
-def measured(trials: pl.DataFrame) -> pl.DataFrame:
+def measured(trials: Trials) -> pl.DataFrame:
     """Of each trial of a table what comparisons need, by columns.
 
     `lost`: something other than its robot ended it; `late`: a decision was cut off by the clock;
@@ -65,13 +66,14 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
     and nothing was done; `quiet`: nothing
     exogenous happened; `out_of_reach`: the goal could not be achieved any more at the end. A trial
     that the robot's own error ended is neither idle nor quiet: what it would have been is not
-    known. `state` names the initial state. The other columns are `DIVIDED`, and those of how well
-    the robot explained: what is counted, and the shares and means.
+    known. `state` names the initial state, `told` is the number of explanations. The other columns
+    are `DIVIDED`, and those of how well the robot explained: what is counted, and the shares and
+    means.
     """
     failure, own = pl.col("outcome").is_in(FAILURES), pl.col("cause").eq_missing("robot")
     still = (pl.col("activities").list.len() == 0) & (pl.col("actions").list.len() == 0)
     failed = failure & own
-    return trials.select(
+    query = trials.lazy().select(
         *KEPT,
         *LEAST.values(),
         lost=failure & ~own,
@@ -84,10 +86,19 @@ def measured(trials: pl.DataFrame) -> pl.DataFrame:
         idle=pl.col("achieved") & still & ~failed,
         quiet=(pl.col("exogenous").list.len() == 0) & ~failed,
         state=pl.col("initial").list.join(" "),
+        told=pl.col("explanations").list.len(),
         **{name: measure.cast(pl.Float64) for name, measure in DIVIDED.items()},
         **{name: pl.col(name) for name in explanations.KINDS},
         **quality.values(),
     )
+    return query.collect()
+
+
+def by_condition(run: Run) -> dict[str, pl.DataFrame]:
+    """The measured trials of a run under each condition of its sweep, by name."""
+    rows = measured(run.table)
+    found = rows.partition_by("cell", as_dict=True)
+    return {name: found.get((name,), rows.clear()) for name in run.conditions}
 
 
 def eventful(config: ExperimentConfig) -> frozenset[str]:

@@ -9,11 +9,12 @@ import polars as pl
 
 from testbed.analysis import quality
 from testbed.analysis.bootstrap import Estimate, bootstrap, means, proportion, sample_of
-from testbed.analysis.comparison import compared, eventful, measured, with_apart
+from testbed.analysis.comparison import by_condition, compared, eventful, with_apart
 from testbed.analysis.explanations import PREFIX
 from testbed.analysis.pairs import Compared, Sample, cluster_of, pairs_of
-from testbed.analysis.population import exhausted
+from testbed.analysis.population import exhausted_under
 from testbed.analysis.table import Run
+from testbed.config import ExperimentConfig
 
 VALUES: Mapping[str, pl.Expr] = {
     "achieved": pl.col("achieved").cast(pl.Float64),
@@ -43,14 +44,22 @@ class Condition:
 def estimates(run: Run, measures: Iterable[str]) -> tuple[Compared, dict[str, Condition]]:
     """The robots that are compared, and by its name what each condition comes to."""
     main, *_ = compared(run.config)
-    names = tuple(measures)
-    return main, {name: _condition(own, names, main) for name, own in run.conditions.items()}
+    names, whole = tuple(measures), exhausted_under(run)
+    return main, {
+        name: _condition(run.conditions[name], rows, whole[name], names, main)
+        for name, rows in by_condition(run).items()
+    }
 
 
-def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
-    rows = measured(run.trials).with_columns(told=run.trials["explanations"].list.len())
-    counted = with_apart(rows, main, eventful(run.config)).filter(pl.col("apart").is_null())
-    whole = set(counted["scenario"]) <= exhausted(run)
+def _condition(
+    config: ExperimentConfig,
+    rows: pl.DataFrame,
+    exhausted: frozenset[str],
+    measures: Iterable[str],
+    main: Compared,
+) -> Condition:
+    counted = with_apart(rows, main, eventful(config)).filter(pl.col("apart").is_null())
+    whole = set(counted["scenario"]) <= exhausted
     pairs = pairs_of(counted, main)
     cost = Sample(pairs, cluster_of(pairs), whole=whole).achieved.ratio("actions").mean
     return Condition(
@@ -58,7 +67,7 @@ def _condition(run: Run, measures: Iterable[str], main: Compared) -> Condition:
         {
             measure: {
                 name: _estimate(counted.filter(robot=name), measure, whole)
-                for name in run.config.robots
+                for name in config.robots
             }
             for measure in measures
         },

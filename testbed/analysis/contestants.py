@@ -11,7 +11,7 @@ from asp.language import suggestion
 from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.comparison import MEASURES, compared, eventful, measured, with_apart
 from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, cluster_of, corrected, pairs_of
-from testbed.analysis.population import exhausted
+from testbed.analysis.population import exhausted_under
 from testbed.analysis.statistics import Test
 from testbed.analysis.table import Run
 from testbed.experiment import StoreError
@@ -103,29 +103,29 @@ def _known(name: str, names: Sequence[str]) -> str:
 def _trials(run: Run, several: bool) -> pl.DataFrame:
     """The measured trials of a run; `robot` is the name of what is compared, `pair` the start."""
     parts = [pl.lit(run.folder.name)] * several + [pl.col("cell")] * run.config.is_sweep
-    named = run.trials.with_columns(robot=pl.concat_str([*parts, pl.col("robot")], separator=MARK))
+    named = run.table.with_columns(robot=pl.concat_str([*parts, pl.col("robot")], separator=MARK))
     return _paired(run, named, START)
 
 
-def _paired(run: Run, trials: pl.DataFrame, key: Sequence[str]) -> pl.DataFrame:
+def _paired(run: Run, trials: pl.LazyFrame, key: Sequence[str]) -> pl.DataFrame:
     """Measured trials of a run, whose `pair` is what these columns hold.
 
     `whole`: they are of a scenario whose population is played exhaustively.
     """
     whole = [
-        pl.col("scenario").is_in(exhausted(own)) & (pl.col("cell") == cell)
-        for cell, own in run.conditions.items()
+        pl.col("scenario").is_in(own) & (pl.col("cell") == cell)
+        for cell, own in exhausted_under(run).items()
     ]
     told = trials.with_columns(
         start=pl.col("initial").list.join(" "), goal=pl.col("goal").list.sort().list.join(" ")
     )
     found = measured(told.with_columns(pair=pl.concat_str(key, separator=MARK)))
-    return found.with_columns(trials.select(whole=pl.any_horizontal(whole)))
+    return found.with_columns(whole=pl.any_horizontal(whole))
 
 
 def _over_conditions(run: Run, sure: frozenset[str]) -> Iterator[Contrast]:
     """The robots of a swept run over all of its conditions, under each of which a start counts."""
-    trials = _paired(run, run.trials, ("cell", *START))
+    trials = _paired(run, run.table, ("cell", *START))
     for robots in compared(run.config):
         yield _contrast(_counted(trials, robots, sure), robots, CONDITIONS)
 

@@ -7,7 +7,7 @@ the robot has not been told by then.
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import inf
 from typing import Any, NamedTuple
 
@@ -76,7 +76,7 @@ def columns_of(record: TrialRecord) -> dict[str, int | float | None]:
     """
     if record.fine is not None:
         return dict.fromkeys(KINDS)
-    return {PREFIX + name: value for name, value in asdict(quality_of(record)).items()}
+    return {PREFIX + name: value for name, value in vars(quality_of(record)).items()}
 
 
 def quality_of(record: TrialRecord) -> Quality:

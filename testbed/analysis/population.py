@@ -8,15 +8,20 @@ from testbed.experiment.record import FAILURES
 
 
 def exhausted(run: Run) -> frozenset[str]:
-    """The scenarios that were played from all of their initial states, with nothing drawn.
+    """The scenarios that are exhausted under each condition of a run."""
+    return frozenset.intersection(*exhausted_under(run).values())
 
-    Of a sweep these are the scenarios of which this holds under each condition. One with a trial
-    that is not on record, that something other than its robot ended, or that the clock cut off,
-    is none of them.
+
+def exhausted_under(run: Run) -> dict[str, frozenset[str]]:
+    """By condition the scenarios that were played from all initial states, with nothing drawn.
+
+    One with a trial that is not on record, that something other than its robot ended, or that the
+    clock cut off, is none of them.
     """
-    if run.config.is_sweep:
-        return frozenset.intersection(*map(exhausted, run.conditions.values()))
     lost = pl.col("outcome").is_in(FAILURES) & pl.col("cause").ne_missing("robot")
-    played = run.trials.filter(~lost, ~pl.col("deadline")).group_by("scenario").len()
-    whole = enumerated(run.config)
-    return frozenset(name for name, number in played.iter_rows() if whole.get(name) == number)
+    kept = run.table.filter(~lost, ~pl.col("deadline"))
+    played = {tuple(own): n for *own, n in kept.group_by("cell", "scenario").len().collect().rows()}
+    return {
+        cell: frozenset(n for n, whole in enumerated(own).items() if played.get((cell, n)) == whole)
+        for cell, own in run.conditions.items()
+    }

@@ -13,8 +13,7 @@ from testbed.analysis.comparison import ACCURACY, COUNTS, DIVIDED, MEASURES, TIM
 from testbed.analysis.pairs import OTHER, Compared, Sample, corrected, pairs_of
 from testbed.analysis.population import exhausted
 from testbed.analysis.statistics import Test
-from testbed.analysis.table import Run
-from testbed.experiment.digest import digest
+from testbed.analysis.table import Run, Trials
 from testbed.experiment.run_folder import SUMMARY, replace_text
 
 Tests: TypeAlias = Mapping[str, Test | None]
@@ -33,9 +32,9 @@ def write_summary(
     those of `answers_of`, `exhaustive` the scenarios that are `exhausted`; `covered`, how much of
     the plan they are, is added as it is, and what is `added` key by key.
     """
-    found = summarise(run.trials, comparison.compared(run.config), comparison.eventful(run.config))
+    found = summarise(run.table, comparison.compared(run.config), comparison.eventful(run.config))
     summary: dict[str, Any] = {
-        "digest": digest(run.records()),
+        "digest": run.digest,
         **covered,
         "answers": answers_of(run),
         "exhaustive": sorted(exhausted(run)),
@@ -58,7 +57,7 @@ def _joined(first: Mapping[str, Any], second: Mapping[str, Any]) -> dict[str, An
 
 
 def summarise(
-    trials: pl.DataFrame, comparisons: Sequence[Compared], sure: Collection[str] = ()
+    trials: Trials, comparisons: Sequence[Compared], sure: Collection[str] = ()
 ) -> dict[str, Any]:
     """Counts, accuracy, ratios (baseline / treatment) and tests by scenario and by level.
 

@@ -12,7 +12,7 @@ def command(folders: Folders) -> None:
     with input_errors():
         for folder in folders:
             read_config(folder)
-        from testbed.analysis.table import export as write
+        from testbed.analysis.export import export as write
 
         for folder in folders:
             for path in write(folder):

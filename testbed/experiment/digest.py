@@ -7,13 +7,19 @@ execution units). Ids, settings, times, statistics and prose are left out, and s
 the clock had a part in (`deadline`), which need not end alike on another machine.
 """
 
+import gzip
 import hashlib
+import heapq
 from collections.abc import Iterable
+from io import BytesIO
 from typing import Any
 
 import msgspec
 
 from testbed.experiment.record import TIMES, At, TrialRecord
+
+SORTED_TOGETHER = 5_000
+"""Results, as lines of a few hundred bytes."""
 
 
 def logical(record: TrialRecord) -> dict[str, object]:
@@ -29,9 +35,39 @@ def _timeless(values: dict[str, Any]) -> dict[str, Any]:
 
 def digest(records: Iterable[TrialRecord]) -> str:
     """The SHA-256 of the results in the records, in hexadecimal, whatever the records' order."""
-    timeless = (record for record in records if not record.deadline)
-    lines = sorted(msgspec.json.encode(_results(record), enc_hook=str) for record in timeless)
-    return hashlib.sha256(b"\n".join(lines)).hexdigest()
+    found = Digest()
+    for record in records:
+        found.add(record)
+    return found.value
+
+
+class Digest:
+    """The digest of records that are given one at a time.
+
+    What is not sorted yet is short; the rest is compressed, and merged in the end.
+    """
+
+    def __init__(self) -> None:
+        self._lines: list[bytes] = []
+        self._sorted: list[bytes] = []
+
+    def add(self, record: TrialRecord) -> None:
+        """Take a record in, unless the clock had a part in it."""
+        if not record.deadline:
+            self._lines.append(msgspec.json.encode(_results(record), enc_hook=str) + b"\n")
+        if len(self._lines) == SORTED_TOGETHER:
+            self._sorted.append(gzip.compress(b"".join(sorted(self._lines)), compresslevel=1))
+            self._lines.clear()
+
+    @property
+    def value(self) -> str:
+        """The SHA-256 of the results in the records so far, in hexadecimal."""
+        found, between = hashlib.sha256(), b""
+        parts = (gzip.GzipFile(fileobj=BytesIO(part)) for part in self._sorted)
+        for line in heapq.merge(sorted(self._lines), *parts):
+            found.update(between + line[:-1])
+            between = b"\n"
+        return found.hexdigest()
 
 
 def _results(record: TrialRecord) -> list[object]:

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import msgspec
@@ -97,10 +98,15 @@ def _starts(config: ExperimentConfig, scenario: str, world: World) -> Iterator[t
     """Initial states, and which of the pairs from there this is, from 0 on."""
     given = config.settings(scenario).initial
     states = world.initial_states() if given is None else [world.state(given)]
-    atoms = [tuple(sorted(world.true_atoms(state))) for state in states]
     repeats = _repeats(config, scenario, world.description)
-    drawn = drawn_part(len(atoms) * repeats, config.limit, config.seed, scenario)
-    return ((atoms[index // repeats], index % repeats) for index in drawn)
+    drawn = drawn_part(len(states) * repeats, config.limit, config.seed, scenario)
+    return ((_atoms(world, states[index // repeats]), index % repeats) for index in drawn)
+
+
+@lru_cache(maxsize=10_000)
+def _atoms(world: World, state: int) -> Atoms:
+    """The true atoms of a state, which starts many trials."""
+    return tuple(sorted(world.true_atoms(state)))
 
 
 def _repeats(config: ExperimentConfig, scenario: str, description: Description) -> int:

@@ -4,7 +4,8 @@ What a trial's result may depend on is hashed into its id; the link, the number 
 the time allowed for an answer are not (one trial is the same trial wherever its robot runs).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -161,14 +162,18 @@ def without_paths(setting: Setting, domain: str) -> Setting:
     return msgspec.structs.replace(setting, domain=domain, fine=fine)
 
 
+@cache
+def _defaults() -> Mapping[str, Any]:
+    return {field.name: field.default for field in msgspec.structs.fields(Setting)}
+
+
 def _without_files(setting: Setting, domain: str) -> object:
     """The setting as it is hashed: wherever its files lie, and without what is as by default."""
     fine = setting.fine and msgspec.structs.replace(setting.fine, refinement=None)
     own = msgspec.structs.replace(setting, domain=domain, fine=fine)
     values = msgspec.to_builtins(own, enc_hook=str)
-    defaults = {field.name: field.default for field in msgspec.structs.fields(Setting)}
     # msgspec omits a default that is the same object, which an equal number need not be.
-    given = {name: value for name, value in values.items() if value != defaults[name]}
+    given = {name: value for name, value in values.items() if value != _defaults()[name]}
     if given.get("strategy") == "random":  # ids are older than other strategies
         given["random_events"] = bool(given.pop("strategy"))
     if given["relevance"] == "published":  # ids are older than the key

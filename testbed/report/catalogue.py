@@ -70,12 +70,13 @@ class Catalogue:
         self._teller = Teller(run)
         columns = ("trial", "pair", *(column for column in KEYS.values() if column != "study"))
         order = (
-            pairs_of(run.trials)
+            pairs_of(run.table)
             .with_row_index("place")
             .select("place", "cell", "scenario", "level", "pair")
         )
         self._trials = (
-            run.trials.select(columns)
+            run.table.select(columns)
+            .collect()
             .with_columns(study=pl.lit(self._teller.study))
             .join(order, on=["cell", "scenario", "level", "pair"], maintain_order="left")
             .sort("place", maintain_order=True)

@@ -31,9 +31,10 @@ class Teller:
 
     def __init__(self, run: Run) -> None:
         self._run = run
-        settings = (name for name in run.trials.columns if name.startswith("condition."))
-        varied = (name for name in settings if run.trials[name].n_unique() > 1)
-        self._varied = [name.partition(".")[2] for name in varied]
+        counts = (
+            run.table.select(pl.col("^condition\\..*$").n_unique()).collect().row(0, named=True)
+        )
+        self._varied = [name.partition(".")[2] for name, count in counts.items() if count > 1]
         self._stories = StoryFile(run)
 
     @property
@@ -115,13 +116,13 @@ def payload(run: Run, served: bool = False) -> Markup:
     Where the page is `served` it holds no trials, for it asks for them.
     """
     scenes, teller = Scenes(), Teller(run)
-    pairs = [] if served else list(sampled(run.trials))
+    pairs = [] if served else list(sampled(run.table))
     records = {own.trial: own for own in teller.records(chain.from_iterable(pairs))}
     chosen = ([records[trial] for trial in pair] for pair in pairs)
     trials = list(_within(MOST_BYTES, chosen, teller, scenes))
     told = {
         "folder": str(run.folder),
-        "total": len(run.trials),
+        "total": run.table.select(pl.len()).collect().item(),
         "kept": len(trials),
         "served": served,
         "scenes": scenes.drawn,

@@ -80,10 +80,10 @@ def written_report(
     """The same; the whole report."""
     run = load_run(folder, config, specs)
     found = results_of(run)
-    covered = coverage_of(run.trials.select("scenario", "level").iter_rows(), config)
+    covered = coverage_of(run.table.select("scenario", "level").collect().iter_rows(), config)
     summary = write_summary(run, covered.numbers(), [own.numbers for own in found])
     main, *_ = compared(config)
-    rows = with_apart(measured(run.trials), main, eventful(config))
+    rows = with_apart(measured(run.table), main, eventful(config))
     sections = [section for own in found for section in own.sections]
     views = [(section, view) for section in sections for view in section.views if view.lines]
     tables = Tables(
@@ -91,7 +91,7 @@ def written_report(
         summary["deadline"],
         [own["sentence"] for own in summary["answers"]],
         covered.notice(),
-        rows_of(run.trials.with_columns(rows["apart"])),
+        rows_of(run.table, rows["apart"]),
         [grid(view, f"{section.title}: {view.title}") for section, view in views],
         condition(config),
         left_out(config),
@@ -113,11 +113,11 @@ def _parts(
         "columns": headings(tables.rows),
         "sections": [(section, rendered(section)) for section in sections],
         **compared,
-        "trials": len(run.trials),
-        "accounts": list(accounts_of(run.records(pl.col("explanations").list.len() > 0))),
-        "slowest": slowest(run.trials),
-        "failures": failures(run.trials),
-        "chapters": list(chapters(run.trials, notes)),
+        "trials": sum(row.trials + row.lost for row in tables.rows),
+        "accounts": list(accounts_of(run.table)),
+        "slowest": slowest(run.table),
+        "failures": failures(run.table),
+        "chapters": list(chapters(run.table, notes)),
         "replay": lambda trial: command_of(run.folder, trial),
     }
 
@@ -161,7 +161,6 @@ def environment() -> Environment:
         "chance": chance,
         "counted": counted,
         "drawn": _drawn,
-        "events": lambda own: ", ".join(f"{e.action} at step {e.step}" for e in own.exogenous),
         "in_words": in_words,
         "listed": listed,
         "number": number,

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 import polars as pl
 
+from testbed.analysis.table import Trials
 from testbed.report.stories import WRONG
 
 MOST_TRIALS = 400
@@ -14,7 +15,7 @@ PLACE = ("cell", "scenario", "level")
 PAIR = ("cell", "pair")
 
 
-def pairs_of(trials: pl.DataFrame) -> pl.DataFrame:
+def pairs_of(trials: Trials) -> pl.DataFrame:
     """One row per pair under a condition, in the order in which a page shows them.
 
     `trials` are the ids of its trials, `failed` says whether one of them is not correct. Pairs in
@@ -23,14 +24,21 @@ def pairs_of(trials: pl.DataFrame) -> pl.DataFrame:
     pairs are hashes, and the same in each report of a run.
     """
     wrong = WRONG | ~pl.col("achieved")
-    pairs = trials.group_by(*PLACE, "pair", maintain_order=True).agg(
-        trials="trial", failed=wrong.any(), losers=pl.col("robot").filter(wrong).sort().str.join()
+    pairs = (
+        trials.lazy()
+        .group_by(*PLACE, "pair", maintain_order=True)
+        .agg(
+            trials="trial",
+            failed=wrong.any(),
+            losers=pl.col("robot").filter(wrong).sort().str.join(),
+        )
+        .collect()
     )
     turn = pl.int_range(pl.len()).over(*PLACE, "losers", order_by="pair")
     return pairs.with_columns(turn=turn).sort(pl.col("failed").not_(), "turn", maintain_order=True)
 
 
-def sampled(trials: pl.DataFrame) -> Iterator[Sequence[str]]:
+def sampled(trials: Trials) -> Iterator[Sequence[str]]:
     """The ids of the trials of a page, pair by pair."""
     pairs = pairs_of(trials).with_columns(size=pl.col("trials").list.len())
     failed, others = pairs.filter("failed"), pairs.filter(~pl.col("failed"))

@@ -2,20 +2,22 @@
 
 import shlex
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import polars as pl
 
-from testbed.analysis.table import records_of
-from testbed.experiment.record import COARSE, FAILURES, Explained, TrialRecord
+from testbed.analysis.table import BATCH, Trials, records_of
+from testbed.experiment.record import COARSE, FAILURES, TrialRecord
 from testbed.experiment.timeline import exception, in_words, of_place
 
 SHOWN = 60
 """Trials told step by step; of a larger run those that failed come first."""
 SLOWEST = 10
+ENDED = ("scenario", "level", "robot", "outcome", "in_reach", "reason")
+"""Columns that say how a trial ended."""
 MOST = 12
 """Explanations of a robot that are shown."""
 NOTHING = "nothing"
@@ -24,20 +26,26 @@ WRONG = pl.col("correct").fill_null(True).not_() | pl.col("outcome").is_in(FAILU
 
 
 def chapters(
-    trials: pl.DataFrame, notes: Mapping[str, str]
+    trials: Trials, notes: Mapping[str, str]
 ) -> Iterator[tuple[str, str, list[TrialRecord]]]:
     """At most `SHOWN` trials in their order by scenario or level: what went wrong comes first.
 
     `notes` are the domain's, by scenario. A chapter has its title, its note or "", its trials.
     """
     failed = pl.col("outcome").is_in(FAILURES) | ~pl.col("achieved")
-    numbered = trials.with_row_index("number")
-    chosen = pl.concat([numbered.filter(failed), numbered.filter(~failed)]).head(SHOWN)
-    places = chosen.sort("number").drop("number").partition_by("scenario", "level")
-    for told in places:
-        scenario, level = told.select("scenario", "level").row(0)
+    known = trials.lazy().select("trial", failed=failed).collect()
+    ordered = known.sort(~pl.col("failed"), maintain_order=True)
+    places: dict[tuple[str, str], list[TrialRecord]] = {}
+    for record in _records(trials, ordered.head(SHOWN)["trial"]):
+        places.setdefault((record.scenario, record.level), []).append(record)
+    for (scenario, level), told in places.items():
         note = notes.get(scenario, "") if level == COARSE else ""
-        yield of_place(scenario, level), note, list(records_of(told))
+        yield of_place(scenario, level), note, told
+
+
+def _records(trials: Trials, chosen: pl.Series) -> Iterator[TrialRecord]:
+    """Those of the trials with these ids, in the order of the table."""
+    return records_of(trials.lazy().filter(pl.col("trial").is_in(chosen.to_list())))
 
 
 def command_of(folder: Path, trial: str) -> str:
@@ -45,10 +53,12 @@ def command_of(folder: Path, trial: str) -> str:
     return f"testbed replay {shlex.quote(str(folder))} --trial {trial}"
 
 
-def slowest(trials: pl.DataFrame) -> list[TrialRecord]:
+def slowest(trials: Trials) -> list[TrialRecord]:
     """The trials with most reasoning, the slowest first."""
-    ordered = trials.sort("reasoning_time_s", descending=True, maintain_order=True)
-    return list(records_of(ordered.head(SLOWEST)))
+    times = trials.lazy().select("trial", "reasoning_time_s").collect()
+    ordered = times.sort("reasoning_time_s", descending=True, maintain_order=True)
+    found = _records(trials, ordered.head(SLOWEST)["trial"])
+    return sorted(found, key=lambda record: -record.reasoning_time_s)
 
 
 class Ending(NamedTuple):
@@ -60,22 +70,36 @@ class Ending(NamedTuple):
     lost: bool
 
 
-def failures(trials: pl.DataFrame) -> list[tuple[Ending, list[TrialRecord]]]:
+class Failed(NamedTuple):
+    """A trial that was not correct, and what others did in it, in words."""
+
+    trial: str
+    events: str
+
+
+def failures(trials: Trials) -> list[tuple[Ending, list[Failed]]]:
     """Every trial that is not correct, by place, robot and ending; lost ones and errors first."""
-    groups: dict[Ending, list[TrialRecord]] = {}
-    for record in records_of(trials.filter(WRONG)):
-        place, lost = of_place(record.scenario, record.level), record.outcome in FAILURES
-        ending = Ending(place, record.robot, _ending(record), lost)
-        groups.setdefault(ending, []).append(record)
+    groups: dict[Ending, list[Failed]] = {}
+    for row in _rows(trials.lazy().filter(WRONG).select(*ENDED, "trial", "exogenous")):
+        place, lost = of_place(row["scenario"], row["level"]), row["outcome"] in FAILURES
+        ending = Ending(place, row["robot"], _ending(row), lost)
+        events = ", ".join(f"{own['action']} at step {own['step']}" for own in row["exogenous"])
+        groups.setdefault(ending, []).append(Failed(row["trial"], events))
     return sorted(groups.items(), key=lambda group: not group[0].lost)
 
 
-def _ending(record: TrialRecord) -> str:
-    if record.outcome == "achieved":
+def _rows(query: pl.LazyFrame) -> Iterator[Mapping[str, Any]]:
+    """The rows of a query, few at a time."""
+    for piece in query.collect_batches(chunk_size=BATCH, maintain_order=True):
+        yield from piece.iter_rows(named=True)
+
+
+def _ending(row: Mapping[str, Any]) -> str:
+    if row["outcome"] == "achieved":
         return "achieved, not with the fewest actions"
-    reach = ", out of reach" if record.in_reach is False else ""
-    reason = f": {record.reason}" if record.outcome in FAILURES and record.reason else ""
-    return f"{in_words(record.outcome)}{reach}{reason}"
+    reach = ", out of reach" if row["in_reach"] is False else ""
+    reason = f": {row['reason']}" if row["outcome"] in FAILURES and row["reason"] else ""
+    return f"{in_words(row['outcome'])}{reach}{reason}"
 
 
 @dataclass(frozen=True)
@@ -106,12 +130,13 @@ class Accounts:
     kinds: int
 
 
-def accounts_of(records: Iterable[TrialRecord]) -> Iterator[Accounts]:
-    """What each robot explained by what, in the order in which records name the robots."""
+def accounts_of(trials: Trials) -> Iterator[Accounts]:
+    """What each robot explained by what, in the order in which trials name the robots."""
+    explaining = trials.lazy().filter(pl.col("explanations").list.len() > 0)
     counts: dict[str, Counter[tuple[str, str]]] = {}
-    for record in records:
-        own = counts.setdefault(record.robot, Counter())
-        own.update((_happened(record, e.step), _assumed(e)) for e in record.explanations)
+    for row in _rows(explaining.select("robot", "exogenous", "explanations")):
+        own = counts.setdefault(row["robot"], Counter())
+        own.update((_happened(row, e["step"]), _assumed(e)) for e in row["explanations"])
     for robot, own in counts.items():
         ordered = sorted(own.items(), key=lambda item: (-item[1], item[0]))
         told = [Account(*names, count) for names, count in ordered]
@@ -120,16 +145,16 @@ def accounts_of(records: Iterable[TrialRecord]) -> Iterator[Accounts]:
             yield Accounts(robot, own.total(), right, told[:MOST], len(told))
 
 
-def _happened(record: TrialRecord, step: int) -> str:
+def _happened(row: Mapping[str, Any], step: int) -> str:
     """What others had done before a step, and the robot was not told of."""
-    unseen = (e.action for e in record.exogenous if e.step < step and not e.observed)
+    unseen = (e["action"] for e in row["exogenous"] if e["step"] < step and not e["observed"])
     return " ".join(sorted(unseen)) or NOTHING
 
 
-def _assumed(explained: Explained) -> str:
+def _assumed(explained: Mapping[str, Any]) -> str:
     """Exceptions first, then what others did, then what is distrusted, whatever they are called."""
-    exceptions = sorted(map(exception, explained.exceptions))
-    events = sorted(event.action for event in explained.unobserved)
-    distrusted = sorted(f"distrusted {report.action}" for report in explained.distrusted)
-    outcomes = sorted(f"another outcome of {own.action}" for own in explained.outcomes)
+    exceptions = sorted(map(exception, explained["exceptions"]))
+    events = sorted(event["action"] for event in explained["unobserved"])
+    distrusted = sorted(f"distrusted {report['action']}" for report in explained["distrusted"])
+    outcomes = sorted(f"another outcome of {own['action']}" for own in explained["outcomes"])
     return " ".join([*exceptions, *events, *distrusted, *outcomes]) or NOTHING

@@ -1,13 +1,14 @@
 """The table of a run: one row per scenario (or level) and robot, means over their trials."""
 
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import polars as pl
 
 from testbed.analysis.comparison import Apart
+from testbed.analysis.table import Trials
 from testbed.experiment.record import COARSE, FAILURES, OUTCOMES, Outcome
 from testbed.experiment.timeline import exception, in_words, of_place, place
 from testbed.text import counted
@@ -18,6 +19,9 @@ COLUMNS = ("scenario", "robot", "achieved", *NUMBERS, "explained by")
 AT_LEVELS = {"scenario": "level", "planning": "coarse planning"}
 MEANS = ("plans", "action_count", "execution_units")
 MOST_COMMON = 3
+GROUP = ("scenario", "level", "apart", "robot")
+NEEDED = (*GROUP[:2], "robot", "explanations", "reason", "minimal_reason", "outcome", "cause")
+"""Columns of a table of trials that rows are made of."""
 TOLD_APART = [Apart.NOTHING_TO_DO, Apart.WITHOUT_EVENT, Apart.DEADLINE]
 """Why trials have rows of their own."""
 UNJUDGED = "the fewest actions are not known: more than limits.judge_states states"
@@ -29,7 +33,8 @@ class Row:
 
     `apart` says of trials with rows of their own that their pairs are compared in none. Trials that
     the robot's own error ended (`failed`) count as trials, not achieved, and in no mean; those that
-    something else ended (`lost`) are none of its `trials`.
+    something else ended (`lost`) are none of its `trials`. `explained`, `reasons` and `endings` are
+    counted in trials; of a single one they are in its order.
     """
 
     scenario: str
@@ -44,9 +49,9 @@ class Row:
     action_count: float | None
     execution_units: float | None
     planning_cpu_s: float | None
-    explanations: list[list[Mapping[str, Any]]]
-    reasons: list[str]
-    endings: list[Outcome]
+    explained: Mapping[str, int]
+    reasons: Mapping[str, int]
+    endings: Mapping[Outcome, int]
 
     @property
     def place(self) -> str:
@@ -65,7 +70,7 @@ class Row:
     def notes(self) -> tuple[str, ...]:
         """What is to be known of trials that were played to their end, one line each."""
         whose = f"{self._named(of_place(self.scenario, self.level))}, {self.robot}"
-        reasons = Counter(self.reasons).items()
+        reasons = self.reasons.items()
         if self.trials == 1:
             return tuple(f"{whose}: {reason}" for reason, _ in reasons)
         return tuple(f"{whose}: {reason} in {n} of {self.trials} trials" for reason, n in reasons)
@@ -77,8 +82,8 @@ class Row:
 
     def _achieved(self) -> str:
         """How many, and how the others ended, in the order in which outcomes are declared."""
-        lost, counts = [f"{self.lost} lost"] * (self.lost > 0), Counter(self.endings)
-        others = [name for name in OUTCOMES if counts[name] and name != "achieved"]
+        lost, counts = [f"{self.lost} lost"] * (self.lost > 0), self.endings
+        others = [name for name in OUTCOMES if name in counts and name != "achieved"]
         if self.trials == 1:
             share, told = "yes" if self.achieved else "no", [in_words(name) for name in others]
         else:
@@ -87,7 +92,7 @@ class Row:
         return ", ".join([share, *told, *lost])
 
     def _explained(self) -> str:
-        counts = list(Counter(text for own in self.explanations for text in explained(own)).items())
+        counts = list(self.explained.items())
         if self.trials > 1:
             counts.sort(key=lambda item: (-item[1], item[0]))
         common = counts[:MOST_COMMON]
@@ -107,35 +112,35 @@ def explained(explanations: Iterable[Mapping[str, Any]]) -> list[str]:
     return list(dict.fromkeys([*exceptions, *(action for _, action in events)]))
 
 
-def rows_of(trials: pl.DataFrame) -> list[Row]:
+def rows_of(trials: Trials, apart: pl.Series) -> list[Row]:
     """The rows of a table: places as the trials name them first, robots by name.
 
-    The column `apart` says why the pair of a trial is not compared, or is null. Where the event of
+    `apart` says why the pair of a trial is not compared, or is null. Where the event of
     their scenario never fired, or a decision was cut off by the clock, pairs have rows behind it;
     where there was nothing to do, rows at the end; others stand in their scenario, where it is told
     how they ended.
     """
     failure, own = pl.col("outcome").is_in(FAILURES), pl.col("cause").eq_missing("robot")
-    lost, told_apart = (failure & ~own, pl.col("apart").is_in(TOLD_APART))
-    unjudged = pl.when(pl.col("minimal_reason") == "budget").then(pl.lit(UNJUDGED))
-    groups = trials.with_columns(
-        apart=pl.when(told_apart).then("apart"),
-        scenario=pl.when(pl.col("apart").eq_missing(Apart.NOTHING_TO_DO))
-        .then(pl.lit(""))
-        .otherwise("scenario"),
-        reasons=pl.concat_list("reason", unjudged),
-    ).group_by("scenario", "level", "apart", "robot", maintain_order=True)
-    rows = groups.agg(
+    lost = failure & ~own
+    placed = _placed(trials, apart)
+    told = placed.filter(~failure)
+    counted = {
+        "explained": _counts(_explained(told)),
+        "reasons": _counts(_each(told.explode("reasons").drop_nulls("reasons"), "reasons")),
+        "endings": _counts(_each(placed.filter(~lost), "outcome")),
+    }
+    rows = placed.group_by(GROUP, maintain_order=True).agg(
         pl.col(*MEANS, "planning_cpu_s").filter(~failure).mean(),
-        pl.col("explanations").filter(~failure),
-        pl.col("reasons").filter(~failure).explode().drop_nulls(),
         trials=(~lost).sum(),
         lost=lost.sum(),
         failed=(failure & own).sum(),
         achieved=(pl.col("achieved") & ~failure).sum(),
-        endings=pl.col("outcome").filter(~lost),
     )
-    known = [Row(**row) for row in rows.iter_rows(named=True)]
+    known = [
+        Row(**{**row, **{name: own[group] for name, own in counted.items()}})
+        for row in rows.iter_rows(named=True)
+        for group in [tuple(row[key] for key in GROUP)]
+    ]
     names = dict.fromkeys((row.scenario, row.level) for row in known)
     places = {name: number for number, name in enumerate(names)}
 
@@ -144,6 +149,38 @@ def rows_of(trials: pl.DataFrame) -> list[Row]:
         return row.apart == Apart.NOTHING_TO_DO, where, row.apart or "", row.robot
 
     return sorted(known, key=order)
+
+
+def _placed(trials: Trials, apart: pl.Series) -> pl.DataFrame:
+    """Trials with the group of the row that each is in, and the reasons of what became of it."""
+    told_apart = pl.col("apart").is_in(TOLD_APART)
+    idle = pl.col("apart").eq_missing(Apart.NOTHING_TO_DO)
+    unjudged = pl.when(pl.col("minimal_reason") == "budget").then(pl.lit(UNJUDGED))
+    known = trials.lazy().select(*NEEDED, *MEANS, "achieved", "planning_cpu_s").collect()
+    return known.with_columns(apart).with_columns(
+        apart=pl.when(told_apart).then("apart"),
+        scenario=pl.when(idle).then(pl.lit("")).otherwise("scenario"),
+        reasons=pl.concat_list("reason", unjudged),
+    )
+
+
+def _explained(trials: pl.DataFrame) -> Iterator[tuple[str, ...]]:
+    """By group what was explained, once per trial."""
+    telling = trials.filter(pl.col("explanations").list.len() > 0)
+    for *group, own in telling.select(*GROUP, "explanations").iter_rows():
+        yield from ((*group, text) for text in explained(own))
+
+
+def _each(trials: pl.DataFrame, column: str) -> Iterator[tuple[str, ...]]:
+    return trials.select(*GROUP, column).iter_rows()
+
+
+def _counts(told: Iterable[tuple[str, ...]]) -> Mapping[tuple[str, ...], Counter[str]]:
+    """By group how often each text is there."""
+    counts: defaultdict[tuple[str, ...], Counter[str]] = defaultdict(Counter)
+    for *group, text in told:
+        counts[tuple(group)][text] += 1
+    return counts
 
 
 def headings(rows: Iterable[Row]) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ literals, and the lines that say what is wrong. A backend finds states and trans
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 from asp.language import Action, Description, Facts, Fluent, Literal
@@ -118,6 +118,10 @@ class World(ABC):
 
     def initial_states(self) -> tuple[int, ...]:
         """The states that have all that the description asks of an initial one, in that order."""
+        return self._initial_states
+
+    @cached_property
+    def _initial_states(self) -> tuple[int, ...]:
         return tuple(s for s in self.states() if all(s & mask for mask, _ in self._needed))
 
     def bare(self) -> int:

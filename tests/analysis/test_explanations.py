@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from asp.language import Action, Literal
 from testbed.analysis import load_run
-from testbed.analysis.table import PARQUET, export, table_of
+from testbed.analysis.export import PARQUET, export
+from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment.record import At, Explained, FineCounts, Occurrence, Report, TrialRecord
 from testbed.experiment.runner import run

@@ -10,8 +10,10 @@ import polars as pl
 import pytest
 
 import testbed
-from testbed.analysis import table
-from testbed.analysis.table import PARTS, export, records_of
+from testbed.analysis import columns
+from testbed.analysis.columns import PARTS
+from testbed.analysis.export import export
+from testbed.analysis.table import records_of
 from testbed.config import ConfigError
 from testbed.experiment import StoreError
 from testbed.experiment.record import TrialRecord
@@ -48,7 +50,7 @@ def test_parquet_gives_the_records_back(run: Path) -> None:
 def test_the_table_has_a_row_per_record_and_a_column_per_key(run: Path) -> None:
     loaded, stored = testbed.load_run(run), list(read_records(run))
     assert list(loaded.records()) == stored
-    assert loaded.trials.columns == list(table.schema())
+    assert loaded.trials.columns == list(columns.schema())
     assert list(loaded.records(pl.col("scenario") == "4")) == stored[len(stored) // 2 :]
     assert loaded.config == read_config(run)
 
@@ -57,7 +59,7 @@ def test_a_run_that_has_not_begun_has_a_table_without_rows(
     tmp_path: Path, configure: Configure
 ) -> None:
     write_config(tmp_path, configure())
-    assert testbed.load_run(str(tmp_path)).trials.shape == (0, len(table.schema()))
+    assert testbed.load_run(str(tmp_path)).trials.shape == (0, len(columns.schema()))
 
 
 def test_each_column_is_documented() -> None:
@@ -66,17 +68,17 @@ def test_each_column_is_documented() -> None:
     told = {name for row in rows for name in re.findall(r"`([\w.]+)`", row)}
     nested = {
         field.name
-        for kind in table.schema().values()
+        for kind in columns.schema().values()
         for part in [kind.inner if isinstance(kind, pl.List) else kind]
         if isinstance(part, pl.Struct)
         for field in part.fields
     }
-    assert {*table.schema(), *nested} <= told
+    assert {*columns.schema(), *nested} <= told
 
 
 def test_csv_gives_the_records_back(run: Path) -> None:
-    columns = pl.read_csv(export(run)[1], infer_schema=False).to_dicts()
-    for row, record in zip(columns, read_records(run), strict=True):
+    told = pl.read_csv(export(run)[1], infer_schema=False).to_dicts()
+    for row, record in zip(told, read_records(run), strict=True):
         for name, value in _columns(json.loads(msgspec.json.encode(record, enc_hook=str))).items():
             if isinstance(value, list | dict):
                 assert json.loads(row[name]) == value

@@ -13,7 +13,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from benchmarks.own import Own
-from testbed.analysis.table import export
+from testbed.analysis.export import export
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.runner import run

@@ -9,7 +9,7 @@ import pytest
 from msgspec import inspect
 
 from asp.language import Literal
-from testbed.analysis.table import export
+from testbed.analysis.export import export
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import Result
 from testbed.experiment.run_folder import write_config

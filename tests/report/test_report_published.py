@@ -102,10 +102,10 @@ def _ignore(tally: RunStatus) -> None:
 
 
 def test_only_the_protocol_has_the_table(small: Path) -> None:
-    records = table_of(read_records(small))
-    (own,) = results_of(Run(small, load_config("table1"), {}, records))
+    records = table_of(read_records(small)).lazy()
+    (own,) = results_of(Run(small, load_config("table1"), {}, records, ""))
     assert own.numbers["table1"]["intentional"]["triggered"] is not None
-    assert results_of(Run(small, load_config("office"), {}, records)) == []
+    assert results_of(Run(small, load_config("office"), {}, records, "")) == []
 
 
 def test_a_run_in_which_no_pair_counts_has_a_report_that_says_why(tmp_path: Path) -> None:

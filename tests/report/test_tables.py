@@ -19,7 +19,7 @@ def _rows(records: Iterable[TrialRecord], apart: Mapping[str, Apart] | None = No
     """The rows of records, whose pairs are left out of comparisons for these reasons."""
     trials, reasons = table_of(records), apart or {}
     column = [reasons.get(pair) for pair in trials["pair"]]
-    return rows_of(trials.with_columns(pl.Series("apart", column, pl.String)))
+    return rows_of(trials, pl.Series("apart", column, pl.String))
 
 
 GAVE_UP: dict[str, Any] = {"achieved": False, "outcome": "gave_up"}

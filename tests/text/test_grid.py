@@ -61,7 +61,8 @@ def _levels() -> list[Grid]:
 
 
 def _rows(trials: int) -> list[Row]:
-    return rows_of(table_of(_records(trials)).with_columns(apart=pl.lit(None, pl.String)))
+    table = table_of(_records(trials))
+    return rows_of(table, pl.Series("apart", [None] * len(table), pl.String))
 
 
 GRIDS = [grid(_rows(1)), grid(_rows(184)), *_levels()]

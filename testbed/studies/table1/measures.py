@@ -114,7 +114,7 @@ def measures(run: Run, as_published: bool) -> list[Analysis]:
     exhaustive = exhausted(run)
     return [
         analyse(
-            pairs_in(run.trials, world, robots, sure),
+            pairs_in(run.table, world, robots, sure),
             robots,
             paper if as_published and robots.treatment == INTENTIONAL else {},
             exhaustive,

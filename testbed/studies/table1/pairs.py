@@ -8,7 +8,7 @@ import polars as pl
 from asp.language import Action
 from testbed.analysis.comparison import Apart, measured, with_apart
 from testbed.analysis.pairs import OTHER, Compared, pairs_of
-from testbed.analysis.table import records_of
+from testbed.analysis.table import Trials, records_of
 from testbed.experiment.record import Activity, Occurrence, TrialRecord
 from testbed.world import World
 
@@ -31,9 +31,7 @@ TOLD: Mapping[str, Any] = {
 """What is read off each trial."""
 
 
-def pairs_in(
-    trials: pl.DataFrame, world: World, robots: Compared, sure: Collection[str]
-) -> pl.DataFrame:
+def pairs_in(trials: Trials, world: World, robots: Compared, sure: Collection[str]) -> pl.DataFrame:
     """The pairs of two robots as `pairs_of` has them, with what their trials came to.
 
     The `event` of a trial is its first, null where nothing exogenous happened; `undone` says
@@ -42,7 +40,7 @@ def pairs_in(
     the scenario of the pair, `meeting` whether both met the same event. `apart` says why a pair is
     not compared; `sure` are the eventful scenarios.
     """
-    own = trials.filter(pl.col("robot").is_in(robots))
+    own = trials.lazy().filter(pl.col("robot").is_in(robots))
     told = [_told(record, world, robots.treatment) for record in records_of(own)]
     rows = measured(own).hstack(pl.DataFrame(told, schema=TOLD, orient="row"))
     pairs = pairs_of(with_apart(rows, robots, sure), robots)

@@ -148,7 +148,7 @@ def test_totals_of_the_published_figures_are_the_sums_of_their_parts() -> None:
 
 
 def _trials(record: TrialRecord) -> list[Row]:
-    return rows_of_run(table_of([record]).with_columns(apart=pl.lit(None, pl.String)))
+    return rows_of_run(table_of([record]), pl.Series("apart", [None], pl.String))
 
 
 def test_rows_are_by_level() -> None:
