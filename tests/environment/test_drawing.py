@@ -142,6 +142,19 @@ def test_places_show_who_and_what_is_in_them() -> None:
     assert dashed(drawing) == 0
 
 
+def test_what_else_is_said_of_a_thing_and_a_place_does_not_put_it_there() -> None:
+    text = FARM.replace(
+        "  inertial fenced", "  inertial ploughed(tractor, field).\n  inertial fenced"
+    )
+    drawing = drawn(text, "ploughed(t7,meadow) ploughed(t7,orchard) parked(t7,heath)")
+    shown = texts(drawing)
+    assert shown.count("t7") == 1
+    assert {"ploughed meadow", "ploughed orchard"} <= set(shown)
+    said = {part.split(",")[0]: part for part in label(drawing).split(". ")}
+    assert "t7" in words(said["heath"])
+    assert "t7" not in words(said["meadow"])
+
+
 def test_each_way_between_places_is_a_door_of_the_drawing() -> None:
     """A centre with four neighbours cannot stand beside each of them in a row."""
     drawing = drawn(FARM, "parked(t7,heath)")

@@ -1,8 +1,9 @@
-"""The scene to draw of a situation, read off the description's signature alone.
+"""The scene to draw of a situation, read off the description alone.
 
-A fluent of a thing and a place says where things are; one of a robot and a thing what it holds; one
-of a place alone is a mark of that place, such as a lock. At the fine resolution a fluent of a
-component and a cell says where in its place a thing is.
+A fluent of a thing and a place says where things are, unless by the laws another fluent gives the
+thing one place at a time; one of a robot and a thing says what it holds; one of a place alone is a
+mark of that place, such as a lock. At the fine resolution a fluent of a component and a cell says
+where in its place a thing is.
 
 A place is a member of the sort over which a two-place static (an adjacency) ranges. Where another
 static gives each member of one such sort a member of another, the former are cells of the latter,
@@ -107,6 +108,7 @@ class Stage:
         for fluent in description.fluents:
             if len(fluent.arguments) == 1:
                 self._marks.setdefault(fluent.arguments[0], []).append(fluent)
+        self._locating = _locating(description, self._where.adjacent)
 
     def still(self, true: Iterable[Fluent]) -> Scene:
         """The scene in which just these fluents are true; nothing happened before it.
@@ -114,7 +116,7 @@ class Stage:
         Whatever their order, it is that of declaration in the scene.
         """
         atoms = tuple(sorted(true, key=lambda fluent: (self._order.get(fluent, -1), fluent)))
-        related, where = pairs(atoms), self._where
+        related, where = pairs(filter(self._is_spatial, atoms)), self._where
         # What is said of components only says in which cell their wholes are.
         found = [pair for pair in related if all(where.wholes.get(c, c) == c for c in pair)]
         present = {robot for robot, place in found if place in where.adjacent} & {*self._robots}
@@ -129,12 +131,18 @@ class Stage:
 
         def is_shown(fluent: Fluent) -> bool:
             arguments = fluent.arguments
-            if len(arguments) == 2:
+            if len(arguments) == 2 and self._is_spatial(fluent):
                 return arguments[1] in located or arguments[0] in present
             return len(arguments) == 1 and arguments[0] in where.adjacent
 
         rest = tuple(fluent for fluent in atoms if not is_shown(fluent))
         return Scene(step=0, places=places, rest=rest, robot="", adversary="", outcome="")
+
+    def _is_spatial(self, fluent: Fluent) -> bool:
+        """Whether it does not only say something about a place of a thing that is elsewhere."""
+        thing, *others = fluent.arguments or ("",)
+        own = self._locating.get(thing)
+        return own is None or fluent.name in own or not self._where.adjacent.keys() & {*others}
 
     def _place(
         self,
@@ -156,6 +164,19 @@ class Stage:
             cells=cells,
             spots={thing: cell for thing, cell in spots.items() if cell in cells},
         )
+
+
+def _locating(description: Description, places: Collection[str]) -> dict[str, set[str]]:
+    """The fluents that give a thing one place at a time, for each thing that has such ones."""
+    found: dict[str, set[str]] = {}
+    for law in description.constraints:
+        name, arguments = law.head.name, law.head.arguments
+        if law.head.is_positive or len(arguments) != 2 or arguments[1] not in places:
+            continue
+        elsewhere = (own.arguments for own in law.body if own.name == name and own.is_positive)
+        if any(thing == arguments[0] and place in places for thing, place in elsewhere):
+            found.setdefault(arguments[0], set()).add(name)
+    return found
 
 
 def layout(description: Description) -> Layout:
