@@ -59,11 +59,12 @@ class FragileCluster:
     def kill_worker(self) -> None:
         """Kill (SIGKILL) one of the workers that have begun to play, whatever it does now.
 
-        Another one is started in its place. Where none has begun yet none is killed.
+        Another one is started in its place. None is killed where most have not begun yet: on a
+        busy machine one after the other would be, each in its first trial.
         """
         with self._lock:
             playing = [folder for folder in self._workers if (folder / BEGUN).exists()]
-            if playing:
+            if 2 * len(playing) >= self._size:
                 self._workers.pop(self._random.choice(playing)).kill()
                 self.workers_killed += 1
                 self._new_worker()
