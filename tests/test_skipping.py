@@ -1,4 +1,4 @@
-"""In CI a test that is skipped for want of a package fails."""
+"""In CI a test that is skipped for want of a package, or of a program, fails."""
 
 import os
 import subprocess
@@ -19,10 +19,18 @@ import pytest
 
 pytest.importorskip("no_such_package")
 """
+PROGRAM = """
+import shutil
+import pytest
+
+@pytest.mark.skipif(not shutil.which("no_such_package"), reason="there is no no_such_package here")
+def test_needs_it():
+    pass
+"""
 
 
-@pytest.mark.parametrize("text", [TEST, FILE], ids=["test", "file"])
-def test_what_is_skipped_for_want_of_a_package_fails_in_ci(tmp_path: Path, text: str) -> None:
+@pytest.mark.parametrize("text", [TEST, FILE, PROGRAM], ids=["test", "file", "program"])
+def test_what_is_skipped_for_want_of_something_fails_in_ci(tmp_path: Path, text: str) -> None:
     (tmp_path / "test_wanting.py").write_text(text)
     command = ["-m", "pytest", "-q", "-p", "tests.conftest", "test_wanting.py"]
     environment = {**os.environ, "CI": "true", "PYTHONPATH": str(ROOT)}
