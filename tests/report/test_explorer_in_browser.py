@@ -270,6 +270,17 @@ def test_a_link_leads_to_a_step_and_back(opened: Callable[..., Tab], run: Played
     assert link == f"#trial={partner.trial}&step=4"
 
 
+def test_back_leads_to_what_was_shown_at_first(browser: Browser, run: Played) -> None:
+    other = run.one("6", "intentional")
+    tab = Tab(browser, run.page, DESK, "light")
+    first = _text(tab, "command")
+    assert other.trial not in first
+    tab.evaluate(f"document.querySelector('.found [data-trial=\"{other.trial}\"]').click()")
+    tab.until(f"{ROBOT}[0].textContent.includes('{other.trial}')")
+    tab.evaluate("history.back()")
+    tab.until(f"{ROBOT}[0].textContent.includes({json.dumps(first)})")
+
+
 def test_keys_move_through_a_trial(opened: Callable[..., Tab], run: Played) -> None:
     record = run.one("5", "intentional")
     tab = opened(record)
@@ -341,6 +352,19 @@ def test_a_phone_compares_a_pair(opened: Callable[..., Tab], run: Played) -> Non
     assert tab.evaluate("document.querySelectorAll('.system .strip').length") >= 2
     widths = "[...document.querySelectorAll('.robot svg')].map(own => own.clientWidth)"
     assert PHONE // 2 < min(tab.evaluate(widths)) <= PHONE
+
+
+def test_a_step_leaves_the_page_where_its_reader_is(
+    opened: Callable[..., Tab], run: Played
+) -> None:
+    tab = opened(run.one("2", "traditional"), 2, PHONE, motion="reduce")  # scrolls at once
+    at = f"[{ROBOT}[1], document.querySelector('.score')].map(own => own.getBoundingClientRect().y)"
+    tab.evaluate(f"{ROBOT}[1].scrollIntoView({{behavior: 'instant'}})")
+    before, score = tab.evaluate(at)
+    assert score < 0
+    tab.evaluate("document.querySelector('[data-go=on]').click()")
+    assert tab.evaluate(STEP).split()[1] == "3"
+    assert tab.evaluate(at)[0] == pytest.approx(before, abs=2)
 
 
 @pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report")
@@ -518,3 +542,24 @@ def test_a_page_with_some_of_the_trials_says_so(
     assert 0 < held < 2 * PAIRS
     assert said.startswith(f"{held} of {2 * PAIRS} ")
     assert f"testbed report --serve {many}" in said
+
+
+def test_trials_of_several_studies_and_levels_are_told_apart(
+    browser: Browser, run: Played, tmp_path: Path
+) -> None:
+    text = run.page.read_text(encoding="utf-8")
+    before, _, rest = text.partition('id="explorer-data">')
+    data, _, after = rest.partition("</script>")
+    held = json.loads(data)
+    for number, trial in enumerate(held["trials"]):
+        trial["study"] = ["one", "two"][: 1 + number % 2]
+        trial["level"] = f"L{number % 3}"
+    page = tmp_path / REPORT
+    page.write_text(f'{before}id="explorer-data">{json.dumps(held)}</script>{after}', "utf-8")
+    tab = Tab(browser, page, DESK, "light")
+    for key in ("study", "level"):
+        for value in ("one", "two", "L0", "L2"):
+            own = [t["id"] for t in held["trials"] if value in (*t["study"], t["level"])]
+            if value.startswith("L") is (key == "level"):
+                assert sorted(_chosen(tab, key, value)) == sorted(own)
+        _chosen(tab, key, "")
