@@ -76,7 +76,7 @@ class GrowingFile:
 class LiveRun:
     """The trials of a run that are on record, and where their stories are; `look` reads on.
 
-    `shard` is the part that is played, as far as the folder tells. What is damaged is passed over.
+    `outcomes` are counted by robot. What is damaged is passed over.
     """
 
     def __init__(self, folder: Path, config: ExperimentConfig) -> None:
@@ -87,6 +87,7 @@ class LiveRun:
         self._played: dict[str, Played] = {}  # in the order in which they came
         self._places: dict[str, int] = {}
         self._told: set[str] = set()
+        self.outcomes: dict[str, Counter[Outcome]] = {name: Counter() for name in self._robots}
 
     def look(self) -> None:
         """Read what has come since the last look."""
@@ -102,14 +103,18 @@ class LiveRun:
             record = _played.decode(line)
         except (msgspec.DecodeError, UnicodeDecodeError):
             return
-        if self._played.pop(record.trial, None) != record:
+        before = self._played.pop(record.trial, None)
+        if before is not None:
+            self.outcomes[before.robot][before.outcome] -= 1
+        if before != record:
             self._told.discard(record.trial)
         self._played[record.trial] = record
+        self.outcomes.setdefault(record.robot, Counter())[record.outcome] += 1
 
     @property
     def status(self) -> RunStatus:
         """Trials planned, of a part those of the part, on record and failed."""
-        failed = sum(own.outcome in FAILURES for own in self._played.values())
+        failed = sum(own[outcome] for own in self.outcomes.values() for outcome in FAILURES)
         return RunStatus(self._of_part(), len(self._played), failed)
 
     def _of_part(self) -> int:
@@ -127,23 +132,16 @@ class LiveRun:
             return None
         return datetime.fromisoformat(sessions[0]["start"]).timestamp()
 
-    @property
-    def outcomes(self) -> dict[str, Counter[Outcome]]:
-        """How the trials of each robot came out."""
-        counts: dict[str, Counter[Outcome]] = {name: Counter() for name in self._robots}
-        for own in self._played.values():
-            counts.setdefault(own.robot, Counter())[own.outcome] += 1
-        return counts
-
     def next_story(self, robot: str | None, failures: bool) -> tuple[Played, Story] | None:
         """The newest trial with a story, of one robot only, unless it was given before.
 
         With `failures` the newest that went wrong and was not given before comes first.
         """
-        newest = [own for own in reversed(self._played.values()) if self._is_choice(own, robot)]
-        wrong = (own for own in newest if own.went_wrong and own.trial not in self._told)
+        wrong = (
+            own for own in self._newest(robot) if own.went_wrong and own.trial not in self._told
+        )
         chosen = next(wrong, None) if failures else None
-        chosen = chosen or next(iter(newest), None)
+        chosen = chosen or next(self._newest(robot), None)
         if chosen is None or chosen.trial in self._told:
             return None
         self._told.add(chosen.trial)
@@ -159,8 +157,11 @@ class LiveRun:
             return refinement_of_files(config.domain, config.refinement)
         return refinement_of_size(level_size(config, played.level))
 
-    def _is_choice(self, own: Played, robot: str | None) -> bool:
-        return own.trial in self._places and robot in (None, own.robot)
+    def _newest(self, robot: str | None) -> Iterator[Played]:
+        """The trials with a story, of one robot or of all, the newest first."""
+        for own in reversed(self._played.values()):
+            if own.trial in self._places and robot in (None, own.robot):
+                yield own
 
     def _story(self, place: int) -> Story | None:
         with (self._folder / STORIES).open("rb") as file:

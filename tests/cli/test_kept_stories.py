@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment import run
+from testbed.experiment.live_run import LiveRun
+from testbed.experiment.run_folder import read_config
 from testbed.experiment.shard import Shard
 from testbed.experiment.stories import Story, stories_of
 from tests.pots import write_pots
@@ -145,9 +147,16 @@ def test_a_trial_that_is_lost_has_the_story_of_its_last_attempt(
     assert _invoke(*given)[0] == 1
     assert {len(story.steps) for story in _stories(tmp_path / "run").values()} == {2}
     assert {record["outcome"] for record in _records(tmp_path / "run")} == {"robot_lost"}
+    live = LiveRun(tmp_path / "run", read_config(tmp_path / "run"))
+    live.look()
+    assert (live.status.done, live.status.failed) == (9, 9)
     Path("broken").unlink()
     assert _invoke(*given, "--resume", "--retry-failed")[0] == 0
     assert {len(story.steps) for story in _stories(tmp_path / "run").values()} == {5}
+    live.look()
+    assert (live.status.done, live.status.failed) == (9, 0), "new records took the old ones' places"
+    (counts,) = live.outcomes.values()
+    assert +counts == {"step_limit": 9}
 
 
 BREAKING = """\

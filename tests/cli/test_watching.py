@@ -15,12 +15,14 @@ import pytest
 from typer.testing import CliRunner
 
 from benchmarks.clusters import ROOT, started, until
+from benchmarks.own import Own
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment import run
 from testbed.experiment.errors import StoreError
 from testbed.experiment.run_folder import is_written, locked
 from testbed.experiment.shard import Shard
+from tests.experiment.gardens import GARDEN, ROWS
 from tests.pots import write_pots
 
 WATCH = ["-m", "testbed", "watch", "run", "--every", "0.02"]
@@ -170,6 +172,24 @@ def test_robots_and_failures_are_chosen() -> None:
     achieved = sum(own["achieved"] is True for own in records if own["robot"] == config.robots[0])
     assert f"{achieved} achieved" in outcomes
     assert f"{9 - achieved} false finish" in outcomes
+
+
+@pytest.mark.parametrize("refinement", ["", ROWS])
+def test_a_story_is_told_as_a_replay_tells_it(tmp_path: Path, refinement: str) -> None:
+    own = Own(tmp_path, GARDEN.replace("OTHER", "rake"), refinement)
+    file = own.write(goal=["stands(spade,south)"], limit=1, robots=["intentional"])
+    run(load_config(file), Path("run"), workers=0)
+    told = _once()
+    replayed = CliRunner().invoke(app, ["replay", "run", "--trial", _told(told)])
+    assert replayed.exit_code == 0
+    assert _steps(told) == _steps(replayed.stdout.splitlines())
+
+
+def _steps(lines: list[str]) -> list[str]:
+    (outcome,) = [number for number, line in enumerate(lines) if line.startswith("outcome ")]
+    steps = lines[lines.index("step 1") : outcome]
+    assert "step 2" in steps
+    return steps
 
 
 def test_a_part_of_a_run_is_as_large_as_the_part() -> None:
