@@ -11,7 +11,8 @@ from benchmarks.memory import resident_mb
 from benchmarks.sheets import Row, Sheet, gathered
 from testbed.cli.loading import load
 from testbed.config import ExperimentConfig
-from testbed.experiment.runner import RunStatus, play_missing
+from testbed.experiment.runner import play_missing
+from testbed.experiment.status import RunStatus
 
 TRIALS = {"small": 120, "full": 20_000}
 SAMPLES = 10

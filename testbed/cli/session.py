@@ -12,8 +12,9 @@ from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
 from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_run, locked
-from testbed.experiment.runner import RunStatus, run_in
+from testbed.experiment.runner import run_in
 from testbed.experiment.shard import Shard
+from testbed.experiment.status import RunStatus
 from testbed.protocol import shortened
 from testbed.report import Report, Tables, grid, write_report, written_report
 from testbed.text import Printer, Say, columns, counted

@@ -6,8 +6,8 @@ from testbed.experiment.errors import StoreError as StoreError
 from testbed.experiment.errors import WorkerError as WorkerError
 
 if TYPE_CHECKING:
-    from testbed.experiment.runner import RunStatus as RunStatus
     from testbed.experiment.runner import run as run
+    from testbed.experiment.status import RunStatus as RunStatus
 
 
 def __getattr__(name: str) -> Any:

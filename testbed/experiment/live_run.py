@@ -20,8 +20,8 @@ from testbed.experiment.plan import planned_trials
 from testbed.experiment.provenance import sessions_of
 from testbed.experiment.record import COARSE, FAILURES, Outcome
 from testbed.experiment.run_folder import STORIES, TRIALS
-from testbed.experiment.runner import RunStatus
 from testbed.experiment.shard import Shard
+from testbed.experiment.status import RunStatus
 from testbed.experiment.store import RETRIES
 from testbed.experiment.stories import Story, decode, trial_of
 

@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from testbed.experiment.pilot import Estimate
-from testbed.experiment.runner import Notify, RunStatus
+from testbed.experiment.status import Notify, RunStatus
 from testbed.text import Say, columns, counted, warn
 from testbed.text.grid import Grid
 

@@ -46,7 +46,8 @@ class Result(msgspec.Struct):
 class Recorder:
     """The record of the trial under way, complete up to the last step that was played.
 
-    `costs` are the execution units of actions; what has none counts 0.
+    `costs` are the execution units of actions; what has none counts 0. `teller` makes the trial's
+    story, None until the trial begins.
     At the fine resolution its actions are the abstract ones. The robot says which concrete actions
     belong to which; whether an abstract action happened is what the robot inferred of it. One that
     the trial ends in the middle of did not happen.

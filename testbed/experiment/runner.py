@@ -3,7 +3,6 @@
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
@@ -11,9 +10,8 @@ from pathlib import Path
 from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
-from testbed.experiment.interrupts import INTERRUPTED
 from testbed.experiment.origin import sha256
-from testbed.experiment.pilot import Estimate, Pilot
+from testbed.experiment.pilot import Pilot
 from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
 from testbed.experiment.provenance import Provenance
 from testbed.experiment.record import FAILURES
@@ -29,6 +27,7 @@ from testbed.experiment.run_folder import (
 )
 from testbed.experiment.shard import Shard
 from testbed.experiment.specs import TrialSpec
+from testbed.experiment.status import Notify, RunStatus
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
 from testbed.experiment.worker_pool import Play, Results, play_all, workers_for
@@ -36,33 +35,6 @@ from testbed.link import connect
 
 BAD_INPUT = 2
 """The exit code where no trial can be played."""
-
-
-@dataclass
-class RunStatus:
-    """A run as it stands: trials planned, on record, and failed; whether it was stopped.
-
-    `reason` is that of the first failed trial, None where none failed; `workers` are the processes
-    that play what was missing, None where they are those of a scheduler. `estimates` are those of
-    a sweep, one per condition of which trials were missing; `dashboard` is the address of Dask's.
-    """
-
-    planned: int
-    done: int
-    failed: int
-    reason: str | None = None
-    workers: int | None = 1
-    interrupted: bool = False
-    estimates: tuple[Estimate, ...] = ()
-    dashboard: str | None = None
-
-    @property
-    def exit_code(self) -> int:
-        """0 for a run that is done, 1 where trials failed, 130 where it was interrupted."""
-        return INTERRUPTED if self.interrupted else int(self.failed > 0)
-
-
-Notify = Callable[[RunStatus], None]
 
 
 def run(

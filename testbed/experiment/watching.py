@@ -20,7 +20,7 @@ from testbed.experiment.narration import narrator_in
 from testbed.experiment.progress import in_line
 from testbed.experiment.record import OUTCOMES
 from testbed.experiment.run_folder import is_written
-from testbed.experiment.runner import RunStatus
+from testbed.experiment.status import RunStatus
 from testbed.experiment.stories import Story
 from testbed.experiment.timeline import in_words, of_place
 from testbed.text import Say, counted, plain

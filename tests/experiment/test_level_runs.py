@@ -15,7 +15,8 @@ from testbed.experiment.digest import digest, logical
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import write_config
-from testbed.experiment.runner import RunStatus, play_missing
+from testbed.experiment.runner import play_missing
+from testbed.experiment.status import RunStatus
 from testbed.experiment.store import read_records
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot

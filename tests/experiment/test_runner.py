@@ -21,8 +21,9 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import Result, blank_record
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import read_config
-from testbed.experiment.runner import RunStatus, play_missing, player
+from testbed.experiment.runner import play_missing, player
 from testbed.experiment.specs import TrialSpec
+from testbed.experiment.status import RunStatus
 from testbed.experiment.store import read_records
 from testbed.experiment.storyteller import Moment
 from testbed.experiment.trial import play_trial

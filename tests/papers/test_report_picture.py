@@ -8,7 +8,8 @@ import pytest
 from papers.__main__ import main
 from testbed.config import load_config
 from testbed.experiment.run_folder import write_config
-from testbed.experiment.runner import RunStatus, play_missing
+from testbed.experiment.runner import play_missing
+from testbed.experiment.status import RunStatus
 
 SVG = "{http://www.w3.org/2000/svg}"
 RUNS = {

@@ -7,7 +7,8 @@ import pytest
 
 from testbed.config import load_config
 from testbed.experiment.run_folder import REPORT
-from testbed.experiment.runner import RunStatus, play_missing
+from testbed.experiment.runner import play_missing
+from testbed.experiment.status import RunStatus
 from testbed.report import write_report
 from tests.report.browser import CHROMIUM, Browser, Tab
 

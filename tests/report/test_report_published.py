@@ -10,7 +10,8 @@ from testbed.analysis.pairs import Ratio
 from testbed.analysis.statistics import Test
 from testbed.analysis.table import table_of
 from testbed.config import load_config
-from testbed.experiment.runner import RunStatus, play_missing
+from testbed.experiment.runner import play_missing
+from testbed.experiment.status import RunStatus
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.report import write_report
 from testbed.studies import Value, View, results_of

@@ -1,0 +1,34 @@
+"""How a run stands, for those who are told while it goes on."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from testbed.experiment.interrupts import INTERRUPTED
+from testbed.experiment.pilot import Estimate
+
+
+@dataclass
+class RunStatus:
+    """A run as it stands: trials planned, on record, and failed; whether it was stopped.
+
+    `reason` is that of the first failed trial, None where none failed; `workers` are the processes
+    that play what was missing, None where they are those of a scheduler. `estimates` are those of
+    a sweep, one per condition of which trials were missing; `dashboard` is the address of Dask's.
+    """
+
+    planned: int
+    done: int
+    failed: int
+    reason: str | None = None
+    workers: int | None = 1
+    interrupted: bool = False
+    estimates: tuple[Estimate, ...] = ()
+    dashboard: str | None = None
+
+    @property
+    def exit_code(self) -> int:
+        """0 for a run that is done, 1 where trials failed, 130 where it was interrupted."""
+        return INTERRUPTED if self.interrupted else int(self.failed > 0)
+
+
+Notify = Callable[[RunStatus], None]
