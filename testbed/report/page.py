@@ -117,6 +117,7 @@ def _parts(
         "accounts": list(accounts_of(run.table)),
         "slowest": slowest(run.table),
         "failures": failures(run.table),
+        "notes": notes,
         "chapters": list(chapters(run.table, notes)),
         "replay": lambda trial: command_of(run.folder, trial),
     }

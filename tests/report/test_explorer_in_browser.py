@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from asp.language import Action, Literal
+from asp.language import Action, Literal, read_domain, scenario_notes
 from testbed.config import ExperimentConfig, load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Attempt, TrialRecord
@@ -246,6 +246,8 @@ def test_a_step_tells_the_mind_of_the_robot(opened: Callable[..., Tab], run: Pla
         assert str(contrary.observed) in told
     assert str(trace.intention) in told
     assert trace.reason in told
+    note = scenario_notes(*reversed(read_domain("office")))[record.scenario]
+    assert tab.evaluate("document.querySelector('[data-part=note]').textContent") == note
     event = record.exogenous[0]
     _slide(tab, event.step)
     assert str(event.action) in _text(tab, "event")
