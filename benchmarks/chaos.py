@@ -30,7 +30,7 @@ Fault = Literal["worker", "unlike", "scheduler", "driver"]
 
 PAIRS = {"small": 2, "full": 25}  # of each scenario of the published comparison
 WORKERS = {"small": 2, "full": 4}
-EVERY_S = {"small": None, "full": 6.0}
+EVERY_S = {"small": None, "full": 4.0}
 FAULTS: Mapping[str, Mapping[int, Fault]] = {
     "small": {2: "worker", 6: "driver", 9: "unlike", 12: "scheduler", 16: "worker", 18: "driver"},
     "full": {50: "unlike", 100: "driver", 150: "scheduler", 200: "driver"},
