@@ -20,10 +20,11 @@ WORKERS = (1, 2)
 STATES = 192
 ROBOTS = ("intentional", "traditional")
 PAIRS = {"small": 2, "full": 100}  # of each scenario of the published comparison
+ROUNDS = {"small": 1, "full": 3}
 
 
 def main(size: str) -> list[Sheet]:
-    """Sheets `driver` (memory after so many trials) and `workers` (trials per second)."""
+    """Sheets `driver` (memory), `workers` and `runners` (trials per second)."""
     compared = load("table1", [f"limit={PAIRS[size]}"])
     return [
         Sheet(
@@ -37,6 +38,12 @@ def main(size: str) -> list[Sheet]:
             "Trials of Table 1 per second, and processors busy with them",
             gathered(throughput(compared, workers) for workers in WORKERS),
             (f"processors: {os.cpu_count()}; starting the workers is included",),
+        ),
+        Sheet(
+            "runners",
+            "Trials per second with 2 local workers, and then the same trials with 2 of Dask",
+            gathered(_rounds(PAIRS[size], ROUNDS[size])),
+            ("start: until the first trial is played; trials per second are from then on",),
         ),
     ]
 
@@ -71,6 +78,34 @@ def _soak(config: ExperimentConfig) -> Iterator[Row]:
         growth = None if before is None else now - before
         yield {"trials": trials, "resident_mb": now, "growth_mb": growth}
         before = now
+
+
+def _rounds(pairs: int, rounds: int) -> Iterator[Row]:
+    for number in range(1, rounds + 1):
+        (local_start, local), (dask_start, dask) = (_pace(pairs, own) for own in ("local", "dask"))
+        yield {
+            "round": number,
+            "local_start_s": local_start,
+            "dask_start_s": dask_start,
+            "local_per_s": local,
+            "dask_per_s": dask,
+            "ratio": dask / local,
+        }
+
+
+def _pace(pairs: int, runner: str) -> tuple[float, float]:
+    """Seconds until 2 workers have played the first trial, and trials per second from then on."""
+    config = load("table1", [f"limit={pairs}", f"runner={runner}"])
+    began = time.perf_counter()
+    ends: list[float] = []
+
+    def note(status: RunStatus) -> None:
+        if status.done > len(ends):
+            ends.append(time.perf_counter())
+
+    with tempfile.TemporaryDirectory() as folder:
+        play_missing(config, Path(folder), 2, note)
+    return ends[0] - began, (len(ends) - 1) / (ends[-1] - ends[0])
 
 
 def throughput(config: ExperimentConfig, workers: int) -> Row:

@@ -112,6 +112,10 @@ def test_the_driver_of_a_run_grows_by_what_it_knows_of_each_trial() -> None:
     grown = [float(str(row["growth_mb"])) for row in sheets["driver"][1:]]
     assert sum(grown) < SETTLED_MB
     assert [(row["workers"], row["trials"]) for row in sheets["workers"]] == [(1, 24), (2, 24)]
+    (rates,) = sheets["runners"]
+    assert rates["round"] == 1
+    assert float(str(rates["local_per_s"])) > 0
+    assert float(str(rates["dask_per_s"])) > 0
 
 
 def test_a_sample_of_mutants_is_killed() -> None:
