@@ -1,5 +1,6 @@
 """The two phases of reasoning, and the sessions of the solver, made once for a domain."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -52,7 +53,7 @@ def limits_of(task: Task) -> Limits:
 MOST_DOMAINS = 16
 """Of how many domains sessions are kept: those that were used last."""
 
-_SESSIONS: Recent[str, Sessions] = Recent(MOST_DOMAINS)
+_SESSIONS: Recent[tuple[str, Sequence[Action]], Sessions] = Recent(MOST_DOMAINS)
 
 
 def sessions_of(knowledge: Knowledge) -> Sessions:
@@ -70,7 +71,8 @@ def sessions_of(knowledge: Knowledge) -> Sessions:
         reach = Reachability(description, transitions, plans)
         return Sessions(transitions, diagnosis, plans, conformant, reach)
 
-    return _SESSIONS.get(knowledge.program, made)
+    order = knowledge.description.exogenous_actions
+    return _SESSIONS.get((knowledge.program, order), made)
 
 
 def outlook_of(knowledge: Knowledge, plans: Plans) -> Outlook:

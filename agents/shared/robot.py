@@ -47,7 +47,7 @@ class ReasoningRobot(ABC, Generic[H_contra]):
         began = reasoning_clock()
         with deciding(), preparation():
             self._task = task
-            self._domain = knowledge(task.domain, task.source)
+            self._domain = knowledge(task.domain, task.source, task.ties)
             self._goal = tuple(task.goal)
             self._limits = limits_of(task)
             self._reasoner: Reasoner[H_contra] | None = None

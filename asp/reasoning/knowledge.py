@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from hashlib import blake2b
 
 from clingo import Symbol
 
@@ -52,7 +53,7 @@ class Knowledge:
 
     @cached_property
     def ranks(self) -> tuple[Symbol, ...]:
-        """rank(A,R): the place of each action in the order of declaration, from 0; ranks(M)."""
+        """rank(A,R): the place of each action in its order, from 0; ranks(M)."""
         kinds = self.description.agent_actions, self.description.exogenous_actions
         places = (fact("rank", a, place) for actions in kinds for place, a in enumerate(actions))
         return fact("ranks", max(map(len, kinds))), *places
@@ -86,10 +87,23 @@ class Knowledge:
 
 
 @lru_cache(maxsize=_REMEMBERED)
-def knowledge(name: str, source: str) -> Knowledge:
-    """The knowledge that an AL_d text holds. Raises asp.SourceError."""
+def knowledge(name: str, source: str, ties: int | None = None) -> Knowledge:
+    """The knowledge that an AL_d text holds. Raises asp.SourceError.
+
+    With `ties` the order of its exogenous actions is drawn, with this number as seed: of equally
+    small explanations another one is then the first. That of some of the actions does not depend on
+    the others.
+    """
     description = parse_description(source, f"{name}.al")
-    return Knowledge.of(description, translate(source, f"{name}.al"))
+    known = Knowledge.of(description, translate(source, f"{name}.al"))
+    if ties is None:
+        return known
+    drawn = sorted(description.exogenous_actions, key=lambda action: _drawn(ties, action))
+    return replace(known, description=replace(description, exogenous_actions=tuple(drawn)))
+
+
+def _drawn(seed: int, action: Action) -> bytes:
+    return blake2b(f"{seed} {action}".encode()).digest()
 
 
 def goal_facts(goal: Iterable[Literal]) -> Iterator[Symbol]:

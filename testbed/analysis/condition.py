@@ -26,6 +26,7 @@ def condition(config: ExperimentConfig) -> str:
         _KNOWN[config.knowledge],
         f"relevance: {config.relevance}",
         "" if config.plans == "optimistic" else f"plans: {config.plans}",
+        "" if config.ties is None else f"ties among explanations by an order of seed {config.ties}",
         "limits: " + ", ".join(_limit(key, value) for key, value in _limits(config).items()),
         ", ".join(f"{name} comes out with {p}" for name, p in config.statistics.items()),
         _varied(config),
@@ -64,6 +65,7 @@ def _rules(config: ExperimentConfig, robots: Collection[str]) -> Mapping[str, ob
         "knowledge": config.knowledge,
         "relevance": config.relevance,
         "plans": config.plans,
+        "ties": config.ties,
         "adversary": (
             {(own.script, own.exogenous_while_thinking) for own in played},
             adversary.model_copy(update={"strategy": strategy}),

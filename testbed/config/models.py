@@ -144,7 +144,8 @@ class ExperimentConfig(Section):
     what becomes of an entry that is not possible when it is due: it ends the trial with an error,
     or is skipped. `knowledge` is what robots know of the initial state: all of it, or only what
     they see; `relevance` is which of the literals that they see intentional robots heed; `plans`:
-    whether some outcomes of a plan's actions have to reach the goal, or all. `repeats`: so many
+    whether some outcomes of a plan's actions have to reach the goal, or all; `ties` is the seed of
+    the order in which robots choose among equally small explanations. `repeats`: so many
     pairs of trials from each initial state, in scenarios in which something is drawn. `protocol` is
     the study that the trials are for: a name, or `module:OBJECT`. `sweep` says under which
     conditions trials are played, each under all of them. `runner` is what plays them: processes of
@@ -178,6 +179,7 @@ class ExperimentConfig(Section):
     knowledge: Knowledge = "complete"
     relevance: Relevance = "definition"
     plans: Plans = "optimistic"
+    ties: Annotated[int, Field(strict=True, ge=0, le=LARGEST_SEED)] | None = None
     observability: dict[str, Observability] = Field(default_factory=dict)
     goal_feedback: Flag = True
     exogenous_while_thinking: Flag = False

@@ -66,6 +66,7 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True):
     script_at_actions: tuple[tuple[int, Action], ...] = ()
     script_skips: bool = False
     plans: Plans = "optimistic"
+    ties: int | None = None
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -111,6 +112,7 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         script_skips=config.script_policy == "skip",
         relevance=config.relevance,
         plans=config.plans,
+        ties=config.ties,
     )
 
 

@@ -180,6 +180,7 @@ class TrialSetup:
             relevance=setting.relevance,
             seed=seed,
             plans=setting.plans,
+            ties=setting.ties,
             **{name: getattr(setting, name) for name in BUDGETS},
         )
 

@@ -44,7 +44,8 @@ class Task(Part, frozen=True, kw_only=True):
     literals, ``initial`` what the robot knows to hold at step 0, perhaps not everything,
     ``plan_limit`` the greatest number of actions in a plan, ``plans`` whether some outcomes of its
     actions have to reach the goal (optimistic), or all (conformant), ``relevance`` which of the
-    literals that it sees a robot heeds, if it chooses among them. A decision may take
+    literals that it sees a robot heeds, if it chooses among them; ``ties`` is the seed of the order
+    in which it chooses among equally small explanations, None: that of declaration. A decision may take
     ``decision_s`` seconds, so many ``conflicts`` of the solver, ground programs of so many
     ``ground_rules`` and so many ``expansions`` of sets of states; None: any number. Where the
     robot acts at the fine resolution, ``refinement`` is the text that refines ``source``, and
@@ -68,6 +69,7 @@ class Task(Part, frozen=True, kw_only=True):
     refinement: str = ""
     initial_fine: list[Literal] = []
     plans: Plans = "optimistic"
+    ties: int | None = None
 
 
 class Percept(Part, frozen=True, kw_only=True):

@@ -16,6 +16,7 @@ SMALL = {
     "knowledge": ("repeats=1",),
     "observability": ("limit=1",),
     "rate": ("limit=1",),
+    "ties": ("limit=1",),
 }
 
 
