@@ -11,6 +11,7 @@ from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import NAMED, blank_record
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import TRIALS, write_config
+from testbed.experiment.shard import Shard
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import encode
 from testbed.experiment.trial import play_trial
@@ -20,13 +21,14 @@ OF_THE_PLAN = (*NAMED, "initial", "goal", "condition")
 """Keys of a record that are in the plan already."""
 
 
-def make_run(folder: Path, config: ExperimentConfig) -> int:
-    """Make a run of a configuration of which few trials are played; how many records it has.
+def make_run(folder: Path, config: ExperimentConfig, shard: Shard | None = None) -> int:
+    """Make a run, or a part of one, of which few trials are played; how many records it has.
 
     Of the trials of one robot in one scenario from one initial state the first is played: the
     others have a copy of its record, with their own ids, seeds and conditions.
     """
-    specs = plan_trials(config)
+    planned = plan_trials(config)
+    specs = planned if shard is None else shard.of(planned)
     write_config(folder, config)
     with (folder / TRIALS).open("wb") as file:
         file.writelines(map(encode, _records(specs)))

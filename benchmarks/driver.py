@@ -113,12 +113,13 @@ def throughput(config: ExperimentConfig, workers: int) -> Row:
     began, used = time.perf_counter(), _processor_s()
     with tempfile.TemporaryDirectory() as folder:
         tally = play_missing(config, Path(folder), workers, lambda _: None)
-    seconds = time.perf_counter() - began
+    seconds, cpu_s = time.perf_counter() - began, _processor_s() - used
     return {
         "workers": workers,
         "trials": tally.done,
         "trials_per_s": tally.done / seconds,
-        "processors_busy": (_processor_s() - used) / seconds,
+        "trials_per_cpu_s": tally.done / cpu_s,
+        "processors_busy": cpu_s / seconds,
     }
 
 

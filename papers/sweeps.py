@@ -50,13 +50,21 @@ class Study:
         """The number of conditions under which not every trial of a robot achieves the goal."""
         return sum(own < 1.0 for own in self._shares(robot))
 
-    def least(self, robot: str) -> str:
-        """The least share of a robot's trials that achieve the goal, over the conditions."""
-        return f"{min(self._shares(robot)):.0%}"
+    def least(self, robot: str, among: str = "") -> str:
+        """The least share of a robot's trials that achieve the goal, over the conditions.
 
-    def _shares(self, robot: str) -> list[float]:
-        shares = (own["achieved"][robot] for own in self.found.robots.values())
-        return [own.value for own in shares if own is not None]
+        With a point of an axis, over those at that point.
+        """
+        return f"{min(self._shares(robot, among)):.0%}"
+
+    def most(self, robot: str, among: str = "") -> str:
+        """The same of the greatest share."""
+        return f"{max(self._shares(robot, among)):.0%}"
+
+    def _shares(self, robot: str, among: str = "") -> list[float]:
+        own = self.found.robots.items()
+        shares = [has["achieved"][robot] for name, has in own if among in ("", *name.split(", "))]
+        return [share.value for share in shares if share is not None]
 
     @property
     def ceiling(self) -> str:

@@ -26,7 +26,7 @@ Trials: TypeAlias = pl.DataFrame | pl.LazyFrame
 """A table of trials, or a query of one."""
 BATCH = 1000
 """Records that are Python objects at the same time."""
-ROW_GROUP = 10_000
+ROW_GROUP = 2_000
 """Rows that are compressed together."""
 
 

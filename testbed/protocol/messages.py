@@ -45,8 +45,8 @@ class Task(Part, frozen=True, kw_only=True):
     ``plan_limit`` the greatest number of actions in a plan, ``plans`` whether some outcomes of its
     actions have to reach the goal (optimistic), or all (conformant), ``relevance`` which of the
     literals that it sees a robot heeds, if it chooses among them; ``ties`` is the seed of the order
-    in which it chooses among equally small explanations, None: that of declaration. A decision may take
-    ``decision_s`` seconds, so many ``conflicts`` of the solver, ground programs of so many
+    in which it chooses among equally small explanations, None: that of declaration. A decision may
+    take ``decision_s`` seconds, so many ``conflicts`` of the solver, ground programs of so many
     ``ground_rules`` and so many ``expansions`` of sets of states; None: any number. Where the
     robot acts at the fine resolution, ``refinement`` is the text that refines ``source``, and
     ``initial_fine`` what it knows there at step 0; ``goal`` and ``initial`` are coarse all the

@@ -12,6 +12,7 @@ from benchmarks import (
     growth,
     hostile,
     hostile_settings,
+    large_runs,
     memory,
     mutation,
     peers,
@@ -116,6 +117,14 @@ def test_the_driver_of_a_run_grows_by_what_it_knows_of_each_trial() -> None:
     assert rates["round"] == 1
     assert float(str(rates["local_per_s"])) > 0
     assert float(str(rates["dask_per_s"])) > 0
+
+
+def test_commands_about_a_made_run_end_well_and_are_measured() -> None:
+    (rows,) = rows_of(large_runs.main("small")).values()
+    commands = ["report", "export", "compare", "run --resume", "merge"]
+    assert column(rows, "command") == commands
+    assert len({*column(rows, "trials")}) == 1
+    assert all(float(str(row["peak_mb"])) > 0 for row in rows)
 
 
 def test_a_sample_of_mutants_is_killed() -> None:
