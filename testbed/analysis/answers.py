@@ -20,6 +20,8 @@ from testbed.config import ExperimentConfig
 
 MEASURE = "execution_units"
 """What costs are told in."""
+ASKED = ("pair", "robot", "scenario", "state", "ended", "achieved", MEASURE)
+"""The columns of measured trials that answers are made of."""
 MOST_CURVES = 4
 """Curves of a sweep that have answers of their own; of more all conditions are asked together."""
 
@@ -135,7 +137,7 @@ def _counted(
 ) -> Sample:
     """The pairs of two robots that count, of the measured trials of one condition."""
     counted = with_apart(rows, robots, eventful(config)).filter(pl.col("apart").is_null())
-    pairs = pairs_of(counted, robots)
+    pairs = pairs_of(counted.select(ASKED), robots)
     return Sample(pairs, cluster_of(pairs), whole=set(pairs["scenario"]) <= exhausted)
 
 

@@ -19,6 +19,8 @@ from testbed.experiment.run_folder import SUMMARY, replace_text
 Tests: TypeAlias = Mapping[str, Test | None]
 PLACES = {"scenarios": "scenario", "levels": "level"}
 MAIN, EXPLANATIONS = "", "explanation_tests"
+PAIRED = ("pair", "robot", "state", "ended")
+"""What both trials of a pair have, whatever is compared; the rest is as much as is asked for."""
 FAMILIES = (MAIN, EXPLANATIONS)
 """Tests that are corrected together; those of explanations are a part of the summary."""
 
@@ -111,7 +113,8 @@ def _group(
     counted = trials.filter(pl.col("apart").is_null())
     played = set(trials["robot"].unique())
     own = {name: counted.filter(pl.col("robot") == name) for name in names if name in played}
-    both = Sample(pairs_of(counted, robots))
+    both = Sample(pairs_of(counted.select(*PAIRED, "correct", "achieved", *DIVIDED), robots))
+    explaining = Sample(pairs_of(counted.select(*PAIRED, *quality.OF), robots))
     achieved = both.achieved
     ratios = _ratios(achieved.pairs)
     tests = {name: achieved.signed_rank(name) for name in MEASURES}
@@ -137,7 +140,7 @@ def _group(
     return (
         frozenset(counted["pair"]),
         values,
-        {MAIN: tests, EXPLANATIONS: quality.tests(both.ended)},
+        {MAIN: tests, EXPLANATIONS: quality.tests(explaining.ended)},
     )
 
 
