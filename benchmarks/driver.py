@@ -5,7 +5,10 @@ import resource
 import tempfile
 import time
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
+
+import psutil
 
 from benchmarks.memory import resident_mb
 from benchmarks.sheets import Row, Sheet, gathered
@@ -43,7 +46,10 @@ def main(size: str) -> list[Sheet]:
             "runners",
             "Trials per second with 2 local workers, and then the same trials with 2 of Dask",
             gathered(_rounds(PAIRS[size], ROUNDS[size])),
-            ("start: until the first trial is played; trials per second are from then on",),
+            (
+                "start: until the first trial is played, the rest is from then on; cpu: processor",
+                "time per trial, of all processes; ratios above 1: Dask is faster, or needs less",
+            ),
         ),
     ]
 
@@ -80,32 +86,55 @@ def _soak(config: ExperimentConfig) -> Iterator[Row]:
         before = now
 
 
+@dataclass(frozen=True)
+class Pace:
+    """Seconds until the first trial is played; trials per second, and processor time, from then."""
+
+    start_s: float
+    per_s: float
+    cpu_ms: float
+
+
 def _rounds(pairs: int, rounds: int) -> Iterator[Row]:
     for number in range(1, rounds + 1):
-        (local_start, local), (dask_start, dask) = (_pace(pairs, own) for own in ("local", "dask"))
+        local, dask = _pace(pairs, "local"), _pace(pairs, "dask")
         yield {
             "round": number,
-            "local_start_s": local_start,
-            "dask_start_s": dask_start,
-            "local_per_s": local,
-            "dask_per_s": dask,
-            "ratio": dask / local,
+            "local_start_s": local.start_s,
+            "dask_start_s": dask.start_s,
+            "local_per_s": local.per_s,
+            "dask_per_s": dask.per_s,
+            "ratio": dask.per_s / local.per_s,
+            "local_cpu_ms": local.cpu_ms,
+            "dask_cpu_ms": dask.cpu_ms,
+            "cpu_ratio": local.cpu_ms / dask.cpu_ms,
         }
 
 
-def _pace(pairs: int, runner: str) -> tuple[float, float]:
-    """Seconds until 2 workers have played the first trial, and trials per second from then on."""
+def _pace(pairs: int, runner: str) -> Pace:
     config = load("table1", [f"limit={pairs}", f"runner={runner}"])
     began = time.perf_counter()
     ends: list[float] = []
+    used: list[float] = []
 
     def note(status: RunStatus) -> None:
         if status.done > len(ends):
             ends.append(time.perf_counter())
+            if status.done in (1, status.planned):
+                used.append(_present_s())
 
     with tempfile.TemporaryDirectory() as folder:
         play_missing(config, Path(folder), 2, note)
-    return ends[0] - began, (len(ends) - 1) / (ends[-1] - ends[0])
+    trials = len(ends) - 1
+    cpu_ms = (used[-1] - used[0]) / trials * 1e3
+    return Pace(ends[0] - began, trials / (ends[-1] - ends[0]), cpu_ms)
+
+
+def _present_s() -> float:
+    """Seconds of processor time of this process and of those below it that there are."""
+    here = psutil.Process()
+    times = [own.cpu_times() for own in (here, *here.children(recursive=True))]
+    return float(sum(own.user + own.system for own in times))
 
 
 def throughput(config: ExperimentConfig, workers: int) -> Row:
