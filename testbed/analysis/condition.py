@@ -4,7 +4,7 @@ from collections.abc import Callable, Collection, Mapping
 
 from agents.adversary import RANDOM_RATE
 from asp.language import read_domain
-from testbed.config import ExperimentConfig, Observability, ScenarioSettings
+from testbed.config import ExperimentConfig, Observability, ScenarioSettings, conditions_of
 from testbed.experiment.timeline import in_words
 from testbed.text import listed
 
@@ -18,8 +18,18 @@ _KNOWN = {
 
 
 def condition(config: ExperimentConfig) -> str:
-    """One line: what robots know and heed, what others do, limits and statistics."""
-    parts = [
+    """One line: what robots know and heed, what others do, limits and statistics.
+
+    Of a sweep what is the same under each condition, and the keys that it varies.
+    """
+    parts = zip(*map(_parts, conditions_of(config).values()), strict=True)
+    same = [own[0] for own in parts if len(set(own)) == 1]
+    return "; ".join(part for part in (*same, _varied(config)) if part)
+
+
+def _parts(config: ExperimentConfig) -> list[str]:
+    """What there is to say of a configuration without a sweep, in a fixed order."""
+    return [
         _observability(config),
         _of_scenarios(config, lambda own: f"{'' if own.goal_feedback else 'no '}goal feedback"),
         _of_scenarios(config, lambda own: _adversary(config, own)),
@@ -29,13 +39,11 @@ def condition(config: ExperimentConfig) -> str:
         "" if config.ties is None else f"ties among explanations by an order of seed {config.ties}",
         "limits: " + ", ".join(_limit(key, value) for key, value in _limits(config).items()),
         ", ".join(f"{name} comes out with {p}" for name, p in config.statistics.items()),
-        _varied(config),
     ]
-    return "; ".join(part for part in parts if part)
 
 
 def _varied(config: ExperimentConfig) -> str:
-    """The keys that a sweep varies; what is said of them is as where it does not."""
+    """The keys that a sweep varies."""
     keys = dict.fromkeys(key for own in config.sweep.cells.values() for key in own)
     return f"varied by the sweep: {', '.join(keys)}" if keys else ""
 

@@ -118,3 +118,11 @@ def test_the_condition_names_what_the_robot_is_told_of_and_what_others_do() -> N
     assert "fine_move" in condition(load_config("levels"))
     random = condition(load_config("table1", ["adversary={strategy: random}"]))
     assert "0.1" in random
+
+
+def test_of_a_sweep_it_is_what_all_conditions_have_in_common() -> None:
+    said = condition(load_config("rate"))
+    assert "adversary.rate" in said
+    assert "at rate" not in said
+    assert "relevance" in said
+    assert "relevance: " not in condition(load_config("attention"))
