@@ -3,16 +3,17 @@
 import hashlib
 import os
 import platform
+import subprocess
 from functools import cache
 from pathlib import Path
 
 import msgspec
 
 from testbed.experiment.fingerprint import versions
-from testbed.experiment.provenance import ROOT, git
 from testbed.protocol import Count
 
 CPUS = Path("/proc/cpuinfo")
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Origin(msgspec.Struct, kw_only=True):
@@ -53,6 +54,16 @@ def checked_out(root: Path) -> tuple[str | None, bool | None]:
         return None, None
     changed = git(root, "status", "--porcelain", "--untracked-files=no")
     return git(root, "rev-parse", "HEAD"), None if changed is None else bool(changed)
+
+
+def git(root: Path, *arguments: str) -> str | None:
+    """What git says of a checkout, where it does; it takes no lock, for others work there."""
+    try:
+        command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
+        done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=20)
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return done.stdout.rstrip("\n") if done.returncode == 0 else None
 
 
 def cores() -> int:

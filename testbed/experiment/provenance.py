@@ -1,10 +1,8 @@
 """Where a run came from: versions, platform, command, revision, start and end."""
 
-import hashlib
 import json
 import os
 import platform
-import subprocess
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
@@ -14,12 +12,12 @@ import asp
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
 from testbed.experiment.fingerprint import versions
+from testbed.experiment.origin import ROOT, git, sha256
 from testbed.experiment.run_folder import PROVENANCE, replace_text
 from testbed.experiment.shard import Shard
 from testbed.registry import PATH_VARIABLE
 
 DIFFERENCE = "difference.patch"
-ROOT = Path(__file__).resolve().parents[2]
 
 
 class Provenance:
@@ -82,7 +80,7 @@ def revision(folder: Path, root: Path = ROOT) -> dict[str, object] | None:
 
 
 def _text(name: str, text: str) -> dict[str, str]:
-    return {"name": name, "sha256": hashlib.sha256(text.encode()).hexdigest()}
+    return {"name": name, "sha256": sha256(text)}
 
 
 def sessions_of(folder: Path) -> list[dict[str, Any]]:
@@ -92,16 +90,6 @@ def sessions_of(folder: Path) -> list[dict[str, Any]]:
         return [*last.pop("before", []), last]
     except (OSError, ValueError, AttributeError):
         return []
-
-
-def git(root: Path, *arguments: str) -> str | None:
-    """What git says of a checkout, where it does; it takes no lock, for others work there."""
-    try:
-        command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
-        done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=20)
-    except (OSError, subprocess.TimeoutExpired):
-        return None
-    return done.stdout.rstrip("\n") if done.returncode == 0 else None
 
 
 def _now() -> str:
