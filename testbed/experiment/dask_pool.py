@@ -56,7 +56,7 @@ def play_all(
     except CancelledError:
         raise WorkerError(f"{where}: the scheduler was lost; --resume goes on") from None
     except (OSError, TimeoutError) as error:
-        raise WorkerError(f"{where}: {in_one_line(error)}") from None
+        raise WorkerError(f"{where}: {in_one_line(error)}; --resume goes on") from None
 
 
 class _Batches:
