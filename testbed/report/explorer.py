@@ -19,7 +19,7 @@ from testbed.experiment.run_folder import STORIES
 from testbed.experiment.stories import START, Story, decode
 from testbed.report.sample import sampled
 from testbed.report.scenes import Scenes, theatre_of
-from testbed.report.stories import command_of
+from testbed.report.stories import command_of, serving_command
 from testbed.report.telling import Told, facts, with_story, without_story
 
 MOST_BYTES = 4 * 2**20
@@ -121,7 +121,7 @@ def payload(run: Run, served: bool = False) -> Markup:
     chosen = ([records[trial] for trial in pair] for pair in pairs)
     trials = list(_within(MOST_BYTES, chosen, teller, scenes))
     told = {
-        "folder": str(run.folder),
+        "command": serving_command([run.folder]),
         "total": run.table.select(pl.len()).collect().item(),
         "kept": len(trials),
         "served": served,

@@ -2,7 +2,7 @@
 
 import shlex
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -51,6 +51,11 @@ def _records(trials: Trials, chosen: pl.Series) -> Iterator[TrialRecord]:
 def command_of(folder: Path, trial: str) -> str:
     """The command that replays a trial."""
     return f"testbed replay {shlex.quote(str(folder))} --trial {trial}"
+
+
+def serving_command(folders: Iterable[Path]) -> str:
+    """The command that serves all trials of these runs."""
+    return shlex.join(["testbed", "report", "--serve", *map(str, folders)])
 
 
 def slowest(trials: Trials) -> list[TrialRecord]:

@@ -1,6 +1,8 @@
 """The explorer of the report in a real browser: filters, pairs, steps, links, keys, copies."""
 
 import json
+import shlex
+import shutil
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from threading import Thread
@@ -533,17 +535,20 @@ def test_a_link_to_a_served_page_opens_the_trial(browser: Browser, address: str)
 
 
 def test_a_page_with_some_of_the_trials_says_so(
-    browser: Browser, many: Path, monkeypatch: pytest.MonkeyPatch
+    browser: Browser, many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("testbed.report.explorer.MOST_BYTES", 20_000)
-    write_report(many, load_config("office"))
-    tab = Tab(browser, many / REPORT, DESK, "light")
+    folder = tmp_path / "many o'clock"
+    shutil.copytree(many, folder)
+    write_report(folder, load_config("office"))
+    tab = Tab(browser, folder / REPORT, DESK, "light")
     kept = "JSON.parse(document.getElementById('explorer-data').textContent).trials.length"
     held = tab.evaluate(kept)
     said = tab.evaluate("document.querySelector('[data-part=partial]').innerText")
     assert 0 < held < 2 * PAIRS
     assert said.startswith(f"{held} of {2 * PAIRS} ")
-    assert f"testbed report --serve {many}" in said
+    command = tab.evaluate("document.querySelector('[data-part=partial] code').textContent")
+    assert shlex.split(command) == ["testbed", "report", "--serve", str(folder)]
 
 
 def test_trials_of_several_studies_and_levels_are_told_apart(
