@@ -2,7 +2,7 @@
 
 import shlex
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from textwrap import wrap
@@ -65,13 +65,20 @@ def report_again(folder: Path, config: ExperimentConfig) -> Report:
     return report
 
 
-def serve_reports(reports: Iterable[Report], port: int) -> None:
-    """Serve reports to browsers of this machine until interrupted. Raises OSError."""
+def serve_reports(reports: Sequence[Report], port: int) -> None:
+    """Serve reports to browsers of this machine until interrupted. Raises OSError.
+
+    Several have a page together, and each its own below that.
+    """
+    from testbed.report.page import page_of_several
     from testbed.report.serving import Server, Site  # few serve
 
     say = Printer()
-    sites = [Site(own.page(served=True), own.run) for own in reports]
-    with Server(sites, port) as server, suppress(KeyboardInterrupt):
+    whole, *parts = [Site(own.page(served=True), [own.run]) for own in reports]
+    if parts:
+        parts = [whole, *parts]
+        whole = Site(page_of_several(reports), [own.run for own in reports])
+    with Server(whole, parts, port) as server, suppress(KeyboardInterrupt):
         say(f"serving {server.address} (Ctrl-C ends it)")
         server.serve_forever()
 

@@ -1,13 +1,14 @@
-"""The trials of a run by what they are chosen by, page by page, for who asks over the network."""
+"""The trials of runs by what they are chosen by, page by page, for who asks over the network."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import polars as pl
 
 from testbed.analysis import Run
-from testbed.report.explorer import Teller
-from testbed.report.sample import pairs_of
+from testbed.experiment.record import TrialRecord
+from testbed.report.explorer import Teller, study_of
+from testbed.report.sample import PLACE, pairs_of
 from testbed.report.scenes import Scenes
 from testbed.report.telling import Told, outline
 
@@ -63,23 +64,31 @@ def _number(key: str, text: str, least: int, most: int) -> int:
     raise QueryError(f"{key}: a number from {least} to {most}")
 
 
-class Catalogue:
-    """All trials of a run, as it was when it was read."""
+def studies_of(runs: Sequence[Run]) -> list[str]:
+    """What each run is for; runs for the same are told apart by their folders."""
+    names = [study_of(run) for run in runs]
+    return [
+        name if names.count(name) == 1 else f"{name} ({run.folder})"
+        for name, run in zip(names, runs, strict=True)
+    ]
 
-    def __init__(self, run: Run) -> None:
-        self._teller = Teller(run)
-        columns = ("trial", "pair", *(column for column in KEYS.values() if column != "study"))
-        order = (
-            pairs_of(run.table)
-            .with_row_index("place")
-            .select("place", "cell", "scenario", "level", "pair")
-        )
-        self._trials = (
-            run.table.select(columns)
-            .collect()
-            .with_columns(study=pl.lit(self._teller.study))
-            .join(order, on=["cell", "scenario", "level", "pair"], maintain_order="left")
-            .sort("place", maintain_order=True)
+
+class Catalogue:
+    """All trials of runs, as they were when they were read.
+
+    A trial that several of the runs have is that of the first of them.
+    """
+
+    def __init__(self, runs: Sequence[Run]) -> None:
+        named = list(zip(studies_of(runs), runs, strict=True))
+        self._tellers = {study: Teller(run, study) for study, run in named}
+        known = ("trial", "pair", "achieved", "correct", "robot", "outcome", *PLACE)
+        listed = [run.table.select(known).with_columns(study=pl.lit(study)) for study, run in named]
+        trials = pl.concat(listed).unique("trial", keep="first", maintain_order=True).collect()
+        place = ("study", *PLACE)
+        order = pairs_of(trials, place).with_row_index("place").select("place", *place, "pair")
+        self._trials = trials.join(order, on=[*place, "pair"], maintain_order="left").sort(
+            "place", maintain_order=True
         )
 
     def found(self, query: Query) -> Told:
@@ -87,7 +96,7 @@ class Catalogue:
         found = self._trials.filter(*self._conditions(query))
         places = found["place"].unique().sort()
         page = places.slice(query.offset, query.limit)
-        ids = found.filter(pl.col("place").is_in(page.implode()))["trial"].to_list()
+        listed = found.filter(pl.col("place").is_in(page.implode()))
         return {
             "total": len(found),
             "pairs": len(places),
@@ -95,8 +104,8 @@ class Catalogue:
             "limit": query.limit,
             "facets": {key: self._facet(query, key) for key in KEYS},
             "trials": [
-                self._teller.about(record) | {"story": list(outline(record))}
-                for record in self._teller.records(ids)
+                teller.about(record) | {"story": list(outline(record))}
+                for teller, record in self._records(listed)
             ],
         }
 
@@ -106,9 +115,18 @@ class Catalogue:
         if not len(places):
             return None
         scenes = Scenes()
-        records = self._teller.records(self._trials.filter(place=places[0])["trial"])
-        told = self._teller.tell(records, scenes)
+        found = self._records(self._trials.filter(place=places[0]))
+        told = [own for teller, record in found for own in teller.tell([record], scenes)]
         return {"scenes": scenes.drawn, "trials": told}
+
+    def _records(self, trials: pl.DataFrame) -> list[tuple[Teller, TrialRecord]]:
+        """The records of these trials in their order, each with who tells it."""
+        found: dict[str, tuple[Teller, TrialRecord]] = {}
+        for study in trials["study"].unique():
+            teller = self._tellers[study]
+            records = teller.records(trials.filter(study=study)["trial"])
+            found |= {trial: (teller, record) for trial, record in records.items()}
+        return [found[trial] for trial in trials["trial"]]
 
     def _facet(self, query: Query, key: str) -> dict[str, int]:
         """How many trials there are of each value, under the other choices."""

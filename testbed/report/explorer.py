@@ -26,27 +26,26 @@ MOST_BYTES = 4 * 2**20
 """Of the trials and drawings that a page holds."""
 
 
-class Teller:
-    """Tells trials of a run from their records and stories."""
+def study_of(run: Run) -> str:
+    """What a run is for."""
+    return run.config.protocol or run.config.name
 
-    def __init__(self, run: Run) -> None:
-        self._run = run
+
+class Teller:
+    """Tells trials of a run from their records and stories; `study` is what the run is for."""
+
+    def __init__(self, run: Run, study: str = "") -> None:
+        self._run, self.study = run, study or study_of(run)
         counts = (
             run.table.select(pl.col("^condition\\..*$").n_unique()).collect().row(0, named=True)
         )
         self._varied = [name.partition(".")[2] for name, count in counts.items() if count > 1]
         self._stories = StoryFile(run)
 
-    @property
-    def study(self) -> str:
-        """What the run is for."""
-        return self._run.config.protocol or self._run.config.name
-
-    def records(self, ids: Iterable[str]) -> list[TrialRecord]:
-        """The records of these trials, in this order."""
-        place = {trial: number for number, trial in enumerate(ids)}
-        found = self._run.records(pl.col("trial").is_in(list(place)))
-        return sorted(found, key=lambda record: place[record.trial])
+    def records(self, ids: Iterable[str]) -> dict[str, TrialRecord]:
+        """The records of these trials, by trial."""
+        found = self._run.records(pl.col("trial").is_in(list(ids)))
+        return {record.trial: record for record in found}
 
     def tell(self, records: Iterable[TrialRecord], scenes: Scenes) -> list[Told]:
         """What a page knows of these trials; drawings are added."""
@@ -110,22 +109,31 @@ class StoryFile:
                 return None
 
 
-def payload(run: Run, served: bool = False) -> Markup:
-    """The data of the explorer, as JSON that may stand in a script.
-
-    Where the page is `served` it holds no trials, for it asks for them.
-    """
+def payload(run: Run) -> Markup:
+    """The data of the explorer, as JSON that may stand in a script."""
     scenes, teller = Scenes(), Teller(run)
-    pairs = [] if served else list(sampled(run.table))
-    records = {own.trial: own for own in teller.records(chain.from_iterable(pairs))}
+    pairs = list(sampled(run.table))
+    records = teller.records(chain.from_iterable(pairs))
     chosen = ([records[trial] for trial in pair] for pair in pairs)
     trials = list(_within(MOST_BYTES, chosen, teller, scenes))
+    return _script([run], served=False, trials=trials, scenes=scenes.drawn)
+
+
+def payload_of_served(runs: Sequence[Run]) -> Markup:
+    """The same for a page that holds no trials, for it asks for those of all runs."""
+    return _script(runs, served=True, trials=[], scenes=[])
+
+
+def _script(
+    runs: Sequence[Run], *, served: bool, trials: Sequence[Told], scenes: Sequence[str]
+) -> Markup:
+    ids = pl.concat([run.table.select("trial") for run in runs])
     told = {
-        "command": serving_command([run.folder]),
-        "total": run.table.select(pl.len()).collect().item(),
+        "command": serving_command(run.folder for run in runs),
+        "total": ids.unique().select(pl.len()).collect().item(),
         "kept": len(trials),
         "served": served,
-        "scenes": scenes.drawn,
+        "scenes": scenes,
         "trials": trials,
     }
     return Markup(encoded(told).decode().replace("<", r"\u003c"))

@@ -20,9 +20,10 @@ from testbed.experiment.plan import coverage_of
 from testbed.experiment.run_folder import REPORT, replace_text
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.timeline import in_words, of_place, timeline
+from testbed.report.catalogue import studies_of
 from testbed.report.comparison import OPTIMUM, charts, groups_of, optima
 from testbed.report.explanations import quality_table
-from testbed.report.explorer import payload
+from testbed.report.explorer import payload, payload_of_served
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Chart, Results, Section, grid, left_out, results_of
@@ -60,7 +61,7 @@ class Report:
 
     def page(self, served: bool = False) -> str:
         """The page, which holds some of the trials; one that is `served` asks for all of them."""
-        explorer = payload(self.run, served)
+        explorer = payload_of_served([self.run]) if served else payload(self.run)
         return environment().get_template("page.html.j2").render(self.parts, explorer=explorer)
 
 
@@ -99,6 +100,19 @@ def written_report(
     report = Report(run, tables, _parts(run, tables, sections, _compared(rows, found, summary)))
     replace_text(folder / REPORT, report.page())
     return report
+
+
+def page_of_several(reports: Sequence[Report]) -> str:
+    """The page of several runs, with what each of them answers; it asks for the trials of all."""
+    runs = [report.run for report in reports]
+    notes = [{*report.parts["notes"].items()} for report in reports]
+    values = {
+        "reports": list(zip(studies_of(runs), reports, strict=True)),
+        "notes": dict(set.intersection(*notes)),
+        "chapters": [],
+        "explorer": payload_of_served(runs),
+    }
+    return environment().get_template("runs.html.j2").render(values)
 
 
 def _parts(

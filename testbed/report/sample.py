@@ -15,18 +15,18 @@ PLACE = ("cell", "scenario", "level")
 PAIR = ("cell", "pair")
 
 
-def pairs_of(trials: Trials) -> pl.DataFrame:
+def pairs_of(trials: Trials, place: Sequence[str] = PLACE) -> pl.DataFrame:
     """One row per pair under a condition, in the order in which a page shows them.
 
     `trials` are the ids of its trials, `failed` says whether one of them is not correct. Pairs in
-    which one is come first; both parts go through the conditions, scenarios, levels, and robots
-    that failed, in turn. Which pairs of one of these come first is as if drawn, for the ids of
-    pairs are hashes, and the same in each report of a run.
+    which one is come first; both parts go through the conditions, scenarios and levels, which are
+    the columns of a `place`, and the robots that failed, in turn. Which pairs of one of these come
+    first is as if drawn, for the ids of pairs are hashes, and the same in each report of a run.
     """
     wrong = WRONG | ~pl.col("achieved")
     pairs = (
         trials.lazy()
-        .group_by(*PLACE, "pair", maintain_order=True)
+        .group_by(*place, "pair", maintain_order=True)
         .agg(
             trials="trial",
             failed=wrong.any(),
@@ -34,7 +34,7 @@ def pairs_of(trials: Trials) -> pl.DataFrame:
         )
         .collect()
     )
-    turn = pl.int_range(pl.len()).over(*PLACE, "losers", order_by="pair")
+    turn = pl.int_range(pl.len()).over(*place, "losers", order_by="pair")
     return pairs.with_columns(turn=turn).sort(pl.col("failed").not_(), "turn", maintain_order=True)
 
 

@@ -7,8 +7,6 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from threading import Lock
 from urllib.parse import parse_qs
 
-from markupsafe import Markup
-
 from testbed.analysis import Run
 from testbed.report.catalogue import Catalogue, Query, QueryError
 from testbed.report.explorer import encoded
@@ -27,12 +25,6 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
-LIST = Markup(
-    '<!doctype html><html lang="en"><meta charset="utf-8"><title>Reports</title>'
-    '<link rel="icon" href="data:,">'
-    "<h1>Reports</h1><ul>{items}</ul></html>"
-)
-ITEM = Markup('<li><a href="{number}/">{name}</a></li>')
 HTML, JSON = "text/html; charset=utf-8", "application/json"
 Answer = tuple[str, bytes]
 """The type of what is answered, and its text."""
@@ -47,14 +39,13 @@ class RefusedError(Exception):
 
 
 class Site:
-    """What is served of one run: its page, the list of its trials, and each of these."""
+    """What is served of runs: their page, the list of their trials, and each of these."""
 
-    def __init__(self, page: str, run: Run) -> None:
-        self.name = str(run.folder)
-        self._page, self._catalogue = page.encode(), Catalogue(run)
+    def __init__(self, page: str, runs: Sequence[Run]) -> None:
+        self._page, self._catalogue = page.encode(), Catalogue(runs)
 
     def answer(self, path: str, query: str) -> Answer:
-        """The answer to a question below the run's own address. Raises RefusedError."""
+        """The answer to a question below the site's own address. Raises RefusedError."""
         if path == "":
             return HTML, self._page
         if path == "trials.json":
@@ -76,7 +67,7 @@ def _query(text: str) -> Query:
 
 
 class Server(ThreadingHTTPServer):
-    """Serves runs to browsers of this machine: one at `/`, several at `/1/`, `/2/`, ...
+    """Serves sites to browsers of this machine: one at `/`, its parts at `/1/`, `/2/`, ...
 
     It is ready when it is made; `serve_forever` answers until it is interrupted. Raises OSError
     where the port is taken; 0 is one that is free.
@@ -84,8 +75,9 @@ class Server(ThreadingHTTPServer):
 
     daemon_threads = True
 
-    def __init__(self, sites: Sequence[Site], port: int = 0) -> None:
-        self._sites, self._lock = sites, Lock()
+    def __init__(self, whole: Site, parts: Sequence[Site] = (), port: int = 0) -> None:
+        self._sites = {f"{number}/": own for number, own in enumerate(parts, start=1)}
+        self._whole, self._lock = whole, Lock()
         try:
             super().__init__((HOST, port), Handler)
         except OSError as error:
@@ -98,16 +90,10 @@ class Server(ThreadingHTTPServer):
         """The answer to the question for a path with its query. Raises RefusedError."""
         path, _, query = target.partition("?")
         path = path.removeprefix("/")
+        first, slash, rest = path.partition("/")
+        part = self._sites.get(first + slash)
         with self._lock:  # what reads records is not made for several threads
-            if len(self._sites) == 1:
-                return self._sites[0].answer(path, query)
-            for number, site in enumerate(self._sites, start=1):
-                if path.startswith(f"{number}/"):
-                    return site.answer(path.removeprefix(f"{number}/"), query)
-        if path:
-            raise RefusedError(HTTPStatus.NOT_FOUND, "no such page")
-        items = (ITEM.format(number=n, name=own.name) for n, own in enumerate(self._sites, start=1))
-        return HTML, LIST.format(items=Markup("").join(items)).encode()
+            return part.answer(rest, query) if part else self._whole.answer(path, query)
 
     def handle_error(self, request: object, client_address: object) -> None:
         """A browser that went away is no error."""

@@ -73,7 +73,7 @@ def data_of(folder: Path) -> dict[str, Any]:
 
 def test_a_served_page_asks_for_its_trials(garden: Played) -> None:
     folder, records, _ = garden
-    told = json.loads(explorer.payload(load_run(folder), served=True))
+    told = json.loads(explorer.payload_of_served([load_run(folder)]))
     assert (told["served"], told["total"], told["kept"]) == (True, len(records), 0)
     assert told["trials"] == told["scenes"] == []
 

@@ -21,7 +21,7 @@ from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 from testbed.report import write_report
-from testbed.report.page import written_report
+from testbed.report.page import page_of_several, written_report
 from testbed.report.serving import Server, Site
 from testbed.world import load_world
 from tests.experiment.samples import a_record
@@ -493,7 +493,11 @@ def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def address(many: Path) -> Iterator[str]:
     """Where the page of this run is served."""
     report = written_report(many, load_config("office"))
-    with Server([Site(report.page(served=True), report.run)]) as server:
+    yield from _served(Site(report.page(served=True), [report.run]))
+
+
+def _served(site: Site) -> Iterator[str]:
+    with Server(site) as server:
         thread = Thread(target=server.serve_forever)
         thread.start()
         yield server.address
@@ -551,22 +555,40 @@ def test_a_page_with_some_of_the_trials_says_so(
     assert shlex.split(command) == ["testbed", "report", "--serve", str(folder)]
 
 
-def test_trials_of_several_studies_and_levels_are_told_apart(
-    browser: Browser, run: Played, tmp_path: Path
+@pytest.fixture(scope="module")
+def several(run: Played, many: Path) -> Iterator[str]:
+    """Where the page of two runs is served."""
+    reports = [
+        written_report(run.page.parent, run.config),
+        written_report(many, load_config("office", ["name=many"])),
+    ]
+    yield from _served(Site(page_of_several(reports), [own.run for own in reports]))
+
+
+def test_trials_of_several_runs_are_told_apart(browser: Browser, run: Played, several: str) -> None:
+    tab = Tab(browser, several, DESK, "light")
+    tab.until(f"document.querySelector('.found li') && {ROBOT}.length")
+    total = "document.querySelector('.count').textContent.split(' ')[0]"
+    assert int(tab.evaluate(total)) == len(run.records) + 2 * PAIRS
+    of_run = {record.trial for record in run.records}
+    _chosen(tab, "study", run.config.name)
+    tab.until(f"{total} === '{len(of_run)}'")
+    assert {*_chosen(tab, "robot", "")} <= of_run
+    _chosen(tab, "study", "many")
+    tab.until(f"{total} === '{2 * PAIRS}'")
+    tab.evaluate("document.querySelector('.found [data-trial]').click()")
+    tab.until(f"{ROBOT}[0].textContent.includes('-{PAIRS - 1}')")
+    assert "many" in tab.evaluate("document.querySelector('[data-part=title]').textContent")
+    assert tab.events("Runtime.consoleAPICalled", "Runtime.exceptionThrown") == []
+
+
+@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report")
+@pytest.mark.parametrize(("width", "scheme"), [(DESK, "dark"), (PHONE, "light")])
+def test_no_rule_of_accessibility_is_broken_by_the_page_of_several_runs(
+    browser: Browser, several: str, width: int, scheme: str
 ) -> None:
-    text = run.page.read_text(encoding="utf-8")
-    before, _, rest = text.partition('id="explorer-data">')
-    data, _, after = rest.partition("</script>")
-    held = json.loads(data)
-    for number, trial in enumerate(held["trials"]):
-        trial["study"] = ["one", "two"][: 1 + number % 2]
-        trial["level"] = f"L{number % 3}"
-    page = tmp_path / REPORT
-    page.write_text(f'{before}id="explorer-data">{json.dumps(held)}</script>{after}', "utf-8")
-    tab = Tab(browser, page, DESK, "light")
-    for key in ("study", "level"):
-        for value in ("one", "two", "L0", "L2"):
-            own = [t["id"] for t in held["trials"] if value in (*t["study"], t["level"])]
-            if value.startswith("L") is (key == "level"):
-                assert sorted(_chosen(tab, key, value)) == sorted(own)
-        _chosen(tab, key, "")
+    tab = Tab(browser, several, width, scheme)
+    tab.until(f"document.querySelector('.found li') && {ROBOT}.length")
+    tab.evaluate(AXE.read_text(encoding="utf-8") + ";0")
+    assert tab.evaluate(VIOLATIONS) == []
+    assert tab.evaluate("document.documentElement.scrollWidth") <= width

@@ -1,11 +1,13 @@
 """Reports are served to browsers of this machine: all trials, and nothing else."""
 
 import json
+import shlex
+import shutil
 import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from http.client import HTTPConnection, HTTPResponse
 from pathlib import Path
 from threading import Thread
@@ -31,14 +33,17 @@ PAIRS = 30
 IN_KITCHEN = ["loc(book1,kitchen)", "loc(book2,kitchen)", "loc(rob1,kitchen)"]
 
 
-def records() -> Iterator[TrialRecord]:
-    """Pairs of two robots under two conditions; the second robot fails in every tenth pair."""
+def records(run: str = "") -> Iterator[TrialRecord]:
+    """Pairs of two robots under two conditions; the second robot fails in every tenth pair.
+
+    Trials of another run have other ids, and are of the same pairs.
+    """
     for cell in ("calm", "wild"):
         for number in range(PAIRS):
             for robot in ("one", "two"):
                 failed = robot == "two" and number % 10 == 0
                 yield a_record(
-                    f"{cell}-{number:02}-{robot}",
+                    f"{run}{cell}-{number:02}-{robot}",
                     pair=f"{number:02}{cell}",
                     cell=cell,
                     scenario="1" if number % 2 else "3",
@@ -64,17 +69,29 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def server(folder: Path) -> Iterator[Server]:
-    yield from _serving([Site(PAGE, load_run(folder))])
+    yield from _serving(Site(PAGE, [load_run(folder)]))
 
 
 @pytest.fixture(scope="module")
-def two(folder: Path) -> Iterator[Server]:
-    run = load_run(folder)
-    yield from _serving([Site(PAGE, run), Site(PAGE.replace("own", "other"), run)])
+def folders(folder: Path) -> list[Path]:
+    """Three runs: the second is for something else, the third for the same as the first."""
+    made = [folder, folder.parent / "the other", folder.parent / "twin"]
+    for number, (own, name) in enumerate(zip(made, ("own", "other", "own"), strict=True)):
+        if number:
+            write_config(own, load_config("office", [f"name={name}"]))
+            lines = map(store.encode, records(f"r{number}-"))
+            (own / store.TRIALS).write_bytes(b"".join(lines))
+    return made
 
 
-def _serving(sites: list[Site]) -> Iterator[Server]:
-    with Server(sites) as made:
+@pytest.fixture(scope="module")
+def three(folders: list[Path]) -> Iterator[Server]:
+    runs = [load_run(folder) for folder in folders]
+    yield from _serving(Site(PAGE, runs), [Site(f"{PAGE} {run.folder}", [run]) for run in runs])
+
+
+def _serving(whole: Site, parts: Sequence[Site] = ()) -> Iterator[Server]:
+    with Server(whole, parts) as made:
         thread = Thread(target=made.serve_forever)
         thread.start()
         yield made
@@ -231,22 +248,63 @@ def test_what_is_no_question_of_a_browser_gets_an_error(server: Server, sent: by
     assert json.loads(answer.rpartition(b"\r\n\r\n")[2])["code"] in (400, 403, 414)
 
 
-def test_of_several_runs_each_has_an_address_of_its_own(two: Server) -> None:
-    _, text = ask(two, "/")
-    assert 'href="1/"' in text.decode()
-    assert 'href="2/"' in text.decode()
-    assert b"other" in ask(two, "/2/")[1]
-    assert told(two, "/1/trials.json", limit=1)["pairs"] == 2 * PAIRS
-    assert told(two, "/2/trial/wild-07-two.json")["trials"]
-    for path in ("/3/", "/1", "/trials.json", "/0/", "/1/1/"):
-        refused(two, path, 404)
+def test_of_several_runs_each_has_an_address_of_its_own(three: Server) -> None:
+    assert b"the other" in ask(three, "/2/")[1]
+    assert told(three, "/1/trials.json", limit=1)["pairs"] == 2 * PAIRS
+    found = told(three, "/2/trials.json", limit=1)
+    assert found["facets"]["study"] == {"other": 4 * PAIRS}
+    assert told(three, "/2/trial/r1-wild-07-two.json")["trials"]
+    refused(three, "/2/trial/wild-07-two.json", 404)
+    for path in ("/4/", "/1", "/1/trials", "/0/", "/1/1/"):
+        refused(three, path, 404)
+
+
+def test_several_runs_have_all_trials_together(three: Server, folders: list[Path]) -> None:
+    one, other, twin = folders
+    page = told(three, "/trials.json", limit=3 * 6 + 1)
+    assert (page["total"], page["pairs"]) == (12 * PAIRS, 6 * PAIRS)
+    studies = {f"own ({one})": one, "other": other, f"own ({twin})": twin}
+    assert page["facets"]["study"] == dict.fromkeys(studies, 4 * PAIRS)
+    pairs = [page["trials"][n : n + 2] for n in range(0, len(page["trials"]), 2)]
+    assert all(a["study"] == b["study"] and a["pair"] == b["pair"] for a, b in pairs)
+    failed = [any(own["outcome"] == "gave_up" for own in pair) for pair in pairs]
+    assert failed == [True] * 18 + [False]
+    for study, folder in studies.items():
+        found = told(three, "/trials.json", study=study, limit=200)
+        assert found["total"] == 4 * PAIRS
+        assert {own for trial in found["trials"] for own in trial["study"]} == {study}
+        commands = [shlex.split(trial["command"]) for trial in found["trials"]]
+        assert all(command[2] == str(folder) for command in commands)
+
+
+def test_a_trial_of_several_runs_comes_with_its_pair_in_its_own_run(
+    three: Server, folders: list[Path]
+) -> None:
+    for start, folder in zip(("", "r1-", "r2-"), folders, strict=True):
+        found = told(three, f"/trial/{start}wild-07-two.json")
+        ids = [trial["id"] for trial in found["trials"]]
+        assert ids == [f"{start}wild-07-one", f"{start}wild-07-two"]
+        assert {shlex.split(trial["command"])[2] for trial in found["trials"]} == {str(folder)}
+
+
+def test_a_trial_that_two_runs_have_is_that_of_the_first(folder: Path, tmp_path: Path) -> None:
+    copied = tmp_path / "copied"
+    shutil.copytree(folder, copied)
+    for server in _serving(Site(PAGE, [load_run(folder), load_run(copied)])):
+        found = told(server, "/trials.json", limit=200)
+        assert found["total"] == len(found["trials"]) == 4 * PAIRS
+        assert {shlex.split(own["command"])[2] for own in found["trials"]} == {str(folder)}
 
 
 @pytest.fixture(scope="module")
 def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run of one pair, whose trials are those that its configuration plans."""
-    made = tmp_path_factory.mktemp("runs") / "played"
-    config = load_config("office", ["name=played", "limit=1", "scenarios=[1]", "link=inprocess"])
+    return _played(tmp_path_factory.mktemp("runs") / "played", "scenarios=[1]")
+
+
+def _played(made: Path, setting: str) -> Path:
+    given = [f"name={made.name}", "limit=1", "link=inprocess", setting]
+    config = load_config("office", given)
     write_config(made, config)
     results = (play_trial(spec, InProcessRobot(make_robot)) for spec in plan_trials(config))
     (made / store.TRIALS).write_bytes(b"".join(store.encode(own.record) for own in results))
@@ -257,23 +315,50 @@ def report(*arguments: str | Path) -> list[str]:
     return [sys.executable, "-m", "testbed", "report", *map(str, arguments)]
 
 
-def test_the_command_serves_until_it_is_interrupted(played: Path) -> None:
-    with subprocess.Popen(report("--serve", played), stdout=subprocess.PIPE, text=True) as process:
+def _answers(folders: Sequence[Path], *paths: str) -> list[str]:
+    """What the command answers to these questions, until it is interrupted."""
+    command = report("--serve", *folders)
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         said = next(line for line in process.stdout if line.startswith("serving "))
         address = said.split()[1].removeprefix("http://").strip("/")
         connection = HTTPConnection(address, timeout=300)
-        connection.request("GET", "/")
-        page = connection.getresponse().read().decode()
-        connection.request("GET", "/trials.json?limit=1")
-        found = json.loads(connection.getresponse().read())
+        found = []
+        for path in paths:
+            connection.request("GET", path)
+            found.append(connection.getresponse().read().decode())
         connection.close()
         process.send_signal(signal.SIGINT)
         assert process.wait() == 0
-    assert found["pairs"] == 1
-    assert (played / "report.html").is_file()
+    return found
+
+
+def _data(page: str) -> dict[str, Any]:
+    """What the explorer of a page is told."""
     data = page.partition('id="explorer-data">')[2].partition("</script>")[0]
-    assert json.loads(data)["served"] is True
+    found: dict[str, Any] = json.loads(data)
+    return found
+
+
+def test_the_command_serves_until_it_is_interrupted(played: Path) -> None:
+    page, found = _answers([played], "/", "/trials.json?limit=1")
+    assert json.loads(found)["pairs"] == 1
+    assert (played / "report.html").is_file()
+    assert _data(page)["served"] is True
+
+
+def test_the_command_serves_several_runs_in_one_page(played: Path, tmp_path: Path) -> None:
+    other = _played(tmp_path / "more runs" / "another", "scenarios=[2]")
+    page, found, single, alone = _answers(
+        [played, other], "/", "/trials.json", "/2/", "/2/trials.json"
+    )
+    assert (_data(page)["served"], _data(page)["total"]) == (True, 4)
+    assert shlex.split(_data(page)["command"])[3:] == [str(played), str(other)]
+    assert 'href="1/"' in page
+    assert 'href="2/"' in page
+    assert json.loads(found)["facets"]["study"] == {"another": 2, "played": 2}
+    assert json.loads(alone)["facets"]["study"] == {"another": 2}
+    assert shlex.split(_data(single)["command"])[3:] == [str(other)]
 
 
 def test_a_port_that_is_taken_is_one_line(played: Path) -> None:
