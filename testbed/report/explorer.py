@@ -5,6 +5,7 @@ stories are read of these trials alone.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from typing import Any
@@ -109,19 +110,35 @@ class StoryFile:
                 return None
 
 
-def payload(run: Run) -> Markup:
-    """The data of the explorer, as JSON that may stand in a script."""
+@dataclass(frozen=True)
+class Explorer:
+    """What the explorer of a page is told: `data` is JSON that may stand in a script.
+
+    `trials` are those that the page can show; None: all, for it asks for them.
+    """
+
+    data: Markup
+    trials: frozenset[str] | None
+
+    def shows(self, trial: str) -> bool:
+        """Whether the page can show a trial."""
+        return self.trials is None or trial in self.trials
+
+
+def explorer_of(run: Run) -> Explorer:
+    """The explorer of a page that holds all trials of a run, or a sample of them."""
     scenes, teller = Scenes(), Teller(run)
     pairs = list(sampled(run.table))
     records = teller.records(chain.from_iterable(pairs))
     chosen = ([records[trial] for trial in pair] for pair in pairs)
     trials = list(_within(MOST_BYTES, chosen, teller, scenes))
-    return _script([run], served=False, trials=trials, scenes=scenes.drawn)
+    data = _script([run], served=False, trials=trials, scenes=scenes.drawn)
+    return Explorer(data, frozenset(trial["id"] for trial in trials))
 
 
-def payload_of_served(runs: Sequence[Run]) -> Markup:
-    """The same for a page that holds no trials, for it asks for those of all runs."""
-    return _script(runs, served=True, trials=[], scenes=[])
+def served_explorer(runs: Sequence[Run]) -> Explorer:
+    """The explorer of a page that holds no trials, for it asks for those of all runs."""
+    return Explorer(_script(runs, served=True, trials=[], scenes=[]), None)
 
 
 def _script(

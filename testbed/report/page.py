@@ -23,7 +23,7 @@ from testbed.experiment.timeline import in_words, of_place, timeline
 from testbed.report.catalogue import studies_of
 from testbed.report.comparison import OPTIMUM, charts, groups_of, optima
 from testbed.report.explanations import quality_table
-from testbed.report.explorer import payload, payload_of_served
+from testbed.report.explorer import explorer_of, served_explorer
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Chart, Results, Section, grid, left_out, results_of
@@ -61,7 +61,7 @@ class Report:
 
     def page(self, served: bool = False) -> str:
         """The page, which holds some of the trials; one that is `served` asks for all of them."""
-        explorer = payload_of_served([self.run]) if served else payload(self.run)
+        explorer = served_explorer([self.run]) if served else explorer_of(self.run)
         return environment().get_template("page.html.j2").render(self.parts, explorer=explorer)
 
 
@@ -110,7 +110,7 @@ def page_of_several(reports: Sequence[Report]) -> str:
         "reports": list(zip(studies_of(runs), reports, strict=True)),
         "notes": dict(set.intersection(*notes)),
         "chapters": [],
-        "explorer": payload_of_served(runs),
+        "explorer": served_explorer(runs),
     }
     return environment().get_template("runs.html.j2").render(values)
 

@@ -4,6 +4,7 @@ import shlex
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,6 +16,8 @@ from testbed.experiment.timeline import exception, in_words, of_place
 
 SHOWN = 60
 """Trials told step by step; of a larger run those that failed come first."""
+LISTED = 60
+"""Trials of one ending that are listed."""
 SLOWEST = 10
 ENDED = ("scenario", "level", "robot", "outcome", "in_reach", "reason")
 """Columns that say how a trial ended."""
@@ -82,15 +85,32 @@ class Failed(NamedTuple):
     events: str
 
 
-def failures(trials: Trials) -> list[tuple[Ending, list[Failed]]]:
-    """Every trial that is not correct, by place, robot and ending; lost ones and errors first."""
-    groups: dict[Ending, list[Failed]] = {}
-    for row in _rows(trials.lazy().filter(WRONG).select(*ENDED, "trial", "exogenous")):
+def failures(trials: Trials) -> list[tuple[Ending, int, list[Failed]]]:
+    """How many trials are not correct, by place, robot and ending; lost ones and errors first.
+
+    At most `LISTED` of each are told: those of the first pairs, which a sample has first, too.
+    """
+    wrong = trials.lazy().filter(WRONG)
+    first = pl.col("trial").sort_by("pair", "trial").head(LISTED)
+    counts: Counter[Ending] = Counter()
+    chosen: dict[Ending, list[str]] = {}
+    for row in _rows(wrong.group_by(*ENDED, maintain_order=True).agg(pl.len(), first)):
         place, lost = of_place(row["scenario"], row["level"]), row["outcome"] in FAILURES
         ending = Ending(place, row["robot"], _ending(row), lost)
-        events = ", ".join(f"{own['action']} at step {own['step']}" for own in row["exogenous"])
-        groups.setdefault(ending, []).append(Failed(row["trial"], events))
-    return sorted(groups.items(), key=lambda group: not group[0].lost)
+        counts[ending] += row["len"]
+        chosen[ending] = [*chosen.get(ending, ()), *row["trial"]][:LISTED]
+    ids = [*chain.from_iterable(chosen.values())]
+    told = wrong.filter(pl.col("trial").is_in(ids)).select("trial", "exogenous")
+    events = {row["trial"]: _events(row) for row in _rows(told)}
+    groups = [
+        (ending, counts[ending], [Failed(trial, events[trial]) for trial in listed])
+        for ending, listed in chosen.items()
+    ]
+    return sorted(groups, key=lambda group: not group[0].lost)
+
+
+def _events(row: Mapping[str, Any]) -> str:
+    return ", ".join(f"{own['action']} at step {own['step']}" for own in row["exogenous"])
 
 
 def _rows(query: pl.LazyFrame) -> Iterator[Mapping[str, Any]]:

@@ -65,7 +65,7 @@ def garden(play: Play, tmp_path_factory: pytest.TempPathFactory) -> Played:
 
 
 def data_of(folder: Path) -> dict[str, Any]:
-    text = str(explorer.payload(load_run(folder)))
+    text = str(explorer.explorer_of(load_run(folder)).data)
     assert "<" not in text
     told: dict[str, Any] = json.loads(text)
     return told
@@ -73,7 +73,7 @@ def data_of(folder: Path) -> dict[str, Any]:
 
 def test_a_served_page_asks_for_its_trials(garden: Played) -> None:
     folder, records, _ = garden
-    told = json.loads(explorer.payload_of_served([load_run(folder)]))
+    told = json.loads(explorer.served_explorer([load_run(folder)]).data)
     assert (told["served"], told["total"], told["kept"]) == (True, len(records), 0)
     assert told["trials"] == told["scenes"] == []
 
