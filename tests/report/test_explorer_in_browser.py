@@ -4,6 +4,7 @@ import json
 import shlex
 import shutil
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -349,21 +350,58 @@ def test_one_robot_can_be_looked_at_alone(opened: Callable[..., Tab], run: Playe
 
 
 def test_a_phone_compares_a_pair(opened: Callable[..., Tab], run: Played) -> None:
-    tab = opened(run.one("2", "traditional"), 5, PHONE)
+    """Both worlds beside the buttons fit in a screen; then both beliefs follow, then both minds."""
+    record = run.one("2", "traditional")
+    tab = opened(record, 5, PHONE)
     assert tab.evaluate("document.documentElement.scrollWidth") <= PHONE
     score = "document.querySelector('.score').getBoundingClientRect()"
     assert tab.evaluate(f"{score}.right <= {PHONE} && {score}.height < 300")
     assert tab.evaluate("document.querySelectorAll('.system .strip').length") >= 2
     widths = "[...document.querySelectorAll('.robot svg')].map(own => own.clientWidth)"
     assert PHONE // 2 < min(tab.evaluate(widths)) <= PHONE
+    parts = "'.robot header, [data-part=world], [data-part=belief], [data-part=mind]'"
+    boxes = f"""[...document.querySelectorAll({parts})]
+      .filter(own => own.clientHeight).map(own => {{
+        const box = own.getBoundingClientRect();
+        return [own.dataset.part ?? 'name', Math.round(box.top), Math.round(box.bottom)];
+      }}).sort((a, b) => a[1] - b[1])"""
+    bar = tab.evaluate("document.querySelector('.transport').offsetHeight")
+    both = [r.steps for r in run.records if (r.pair, r.cell) == (record.pair, record.cell)]
+    for step in range(1, min(both) + 1):
+        _slide(tab, step)
+        drawn = tab.evaluate(boxes)
+        order = ["name", "world"] * 2 + ["belief"] * 2 + ["mind"] * 2
+        assert [part for part, _, _ in drawn] == order
+        assert all(above[2] <= below[1] for above, below in pairwise(drawn))
+        assert drawn[3][2] - drawn[0][1] <= tab.evaluate("innerHeight") - bar
+
+
+def test_where_a_time_line_wraps_a_robot_that_is_over_has_no_row(
+    browser: Browser, tmp_path: Path
+) -> None:
+    steps = {"brief": 3, "lasting": 60}
+    with TrialWriter(tmp_path) as writer:
+        for robot, count in steps.items():
+            writer.append(a_record(f"t-{robot}", pair="one", robot=robot, steps=count))
+    write_report(tmp_path, load_config("office"))
+    tab = Tab(browser, tmp_path / REPORT, PHONE, "light")
+    rows: list[list[tuple[str, int]]] = tab.evaluate(
+        "[...document.querySelectorAll('.system')].map(own => [...own.querySelectorAll('.who')]"
+        ".map(who => [who.textContent, who.nextElementSibling.children.length]))"
+    )
+    assert len(rows) > 1
+    assert [[name for name, _ in row] for row in rows] == [[*steps], *[["lasting"]] * len(rows[1:])]
+    assert all(count for row in rows for _, count in row)
+    assert sum(count for row in rows for name, count in row if name == "lasting") == 61
 
 
 def test_a_step_leaves_the_page_where_its_reader_is(
     opened: Callable[..., Tab], run: Played
 ) -> None:
     tab = opened(run.one("2", "traditional"), 2, PHONE, motion="reduce")  # scrolls at once
-    at = f"[{ROBOT}[1], document.querySelector('.score')].map(own => own.getBoundingClientRect().y)"
-    tab.evaluate(f"{ROBOT}[1].scrollIntoView({{behavior: 'instant'}})")
+    seen = f"{ROBOT}[1].querySelector('[data-part=world]')"
+    at = f"[{seen}, document.querySelector('.score')].map(own => own.getBoundingClientRect().y)"
+    tab.evaluate(f"{seen}.scrollIntoView({{behavior: 'instant'}})")
     before, score = tab.evaluate(at)
     assert score < 0
     tab.evaluate("document.querySelector('[data-go=on]').click()")
