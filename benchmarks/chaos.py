@@ -23,7 +23,7 @@ from testbed.experiment.digest import digest, logical
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES, TrialRecord
 from testbed.experiment.store import read_records
-from testbed.experiment.stories import stories_of
+from testbed.experiment.stories import StoryFile
 
 RUN, CALM, ERRORS = "run", "calm", "errors"
 Fault = Literal["worker", "unlike", "scheduler", "driver"]
@@ -106,8 +106,8 @@ class Chaos:
         times = Counter(record.trial for record in records)
         lost = len(set(self._planned) - times.keys())
         equal = _logical(records) == _logical(expected) and digest(records) == digest(expected)
-        stories = stories_of(run, self._planned)
-        if lost or not equal or stories != stories_of(calm, self._planned):
+        stories = StoryFile(run).of(self._planned)
+        if lost or not equal or stories != StoryFile(calm).of(self._planned):
             raise DisagreementError(f"{lost} of {len(self._planned)} trials lost, or others")
         duplicates = times.total() - len(times)
         return {"lost": lost, "duplicates": duplicates, "stories": len(stories), "equal": equal}

@@ -1,6 +1,5 @@
 """A run as it stands in its folder, read while another process plays it."""
 
-import os
 from collections import Counter
 from collections.abc import Iterator
 from datetime import datetime
@@ -16,14 +15,15 @@ from testbed.config import (
     refinement_of_files,
     refinement_of_size,
 )
+from testbed.experiment.growing_file import GrowingFile
 from testbed.experiment.plan import planned_trials
 from testbed.experiment.provenance import sessions_of
 from testbed.experiment.record import COARSE, FAILURES, Outcome
-from testbed.experiment.run_folder import STORIES, TRIALS
+from testbed.experiment.run_folder import TRIALS
 from testbed.experiment.shard import Shard
 from testbed.experiment.status import RunStatus
 from testbed.experiment.store import RETRIES
-from testbed.experiment.stories import Story, decode, trial_of
+from testbed.experiment.stories import Story, StoryFile
 
 
 class Played(msgspec.Struct, frozen=True, kw_only=True):
@@ -49,30 +49,6 @@ class Played(msgspec.Struct, frozen=True, kw_only=True):
 _played = msgspec.json.Decoder(Played)
 
 
-class GrowingFile:
-    """A file of lines to which another process appends, or which it replaces by another one."""
-
-    def __init__(self, path: Path) -> None:
-        self._path, self._at, self._inode = path, 0, 0
-
-    def new_lines(self) -> Iterator[tuple[int, bytes]]:
-        """Whole lines that were not read before, with their places; all of a file that is new."""
-        try:
-            file = self._path.open("rb")
-        except FileNotFoundError:
-            return
-        with file:
-            found = os.fstat(file.fileno())
-            if found.st_ino != self._inode or found.st_size < self._at:
-                self._at, self._inode = 0, found.st_ino
-            file.seek(self._at)
-            for line in file:
-                if not line.endswith(b"\n"):
-                    return
-                place, self._at = self._at, self._at + len(line)
-                yield place, line
-
-
 class LiveRun:
     """The trials of a run that are on record, and where their stories are; `look` reads on.
 
@@ -82,18 +58,15 @@ class LiveRun:
     def __init__(self, folder: Path, config: ExperimentConfig) -> None:
         self._folder, self._robots, self._conditions = folder, config.robots, conditions_of(config)
         self._records = [GrowingFile(folder / name) for name in (TRIALS, RETRIES)]
-        self._stories = GrowingFile(folder / STORIES)
+        self._stories = StoryFile(folder)
         self._planned = sum(planned_trials(config).values())
         self._played: dict[str, Played] = {}  # in the order in which they came
-        self._places: dict[str, int] = {}
         self._told: set[str] = set()
         self.outcomes: dict[str, Counter[Outcome]] = {name: Counter() for name in self._robots}
 
     def look(self) -> None:
         """Read what has come since the last look."""
-        for place, line in self._stories.new_lines():
-            if (trial := trial_of(line)) is not None:
-                self._places[trial] = place
+        self._stories.look()
         for file in self._records:
             for _, line in file.new_lines():
                 self._take(line)
@@ -145,7 +118,7 @@ class LiveRun:
         if chosen is None or chosen.trial in self._told:
             return None
         self._told.add(chosen.trial)
-        story = self._story(self._places[chosen.trial])
+        story = self._stories.get(chosen.trial)
         return None if story is None else (chosen, story)
 
     def refinement(self, played: Played) -> Refinement | None:
@@ -160,13 +133,5 @@ class LiveRun:
     def _newest(self, robot: str | None) -> Iterator[Played]:
         """The trials with a story, of one robot or of all, the newest first."""
         for own in reversed(self._played.values()):
-            if own.trial in self._places and robot in (None, own.robot):
+            if own.trial in self._stories and robot in (None, own.robot):
                 yield own
-
-    def _story(self, place: int) -> Story | None:
-        with (self._folder / STORIES).open("rb") as file:
-            file.seek(place)
-            try:
-                return decode(file.readline())
-            except msgspec.DecodeError:
-                return None

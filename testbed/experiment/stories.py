@@ -4,12 +4,13 @@ A story has what a replay tells, so that a trial can be shown without being play
 at the step before is not kept again: the world is told by its changes.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import msgspec
 
 from asp.language import Action, Fluent, Literal
+from testbed.experiment.growing_file import GrowingFile
 from testbed.experiment.record import At
 from testbed.experiment.run_folder import STORIES
 from testbed.protocol import Contradiction, Count, Explanation, NoPlan, literal_within_bounds
@@ -144,16 +145,42 @@ def trial_of(line: bytes) -> str | None:
     return line[len(START) : end].decode("utf-8", "replace") if line.startswith(START) else None
 
 
-def stories_of(folder: Path, trials: Collection[str]) -> dict[str, Story]:
-    """The stories of these trials of a run, by trial and in the order given.
+class StoryFile:
+    """The stories of a run folder, of which each is read when it is asked for.
 
-    A trial whose story the folder lacks, or has damaged, is left out. Of a trial that was played
-    again it is the last one. Other lines are passed over without being decoded.
+    `look` reads on where another process wrote more. Of a trial that was played again it is the
+    last story; lines are not decoded before they are asked for.
     """
-    wanted = frozenset(trials)
-    lines = {trial: line for trial, line in story_lines(folder) if trial in wanted}
-    found = ((trial, _whole(lines[trial])) for trial in trials if trial in lines)
-    return {trial: story for trial, story in found if story is not None}
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder / STORIES
+        self._lines, self._places = GrowingFile(self._path), dict[str, int]()
+        self.look()
+
+    def look(self) -> None:
+        """Find the stories that have come since the last look."""
+        for place, line in self._lines.new_lines():
+            if (trial := trial_of(line)) is not None:
+                self._places[trial] = place
+
+    def __contains__(self, trial: str) -> bool:
+        """Whether there is a line for the story of a trial."""
+        return trial in self._places
+
+    def get(self, trial: str) -> Story | None:
+        """The story of a trial; None where there is none, or it is damaged."""
+        if trial not in self._places or not self._path.is_file():
+            return None
+        with self._path.open("rb") as file:
+            file.seek(self._places[trial])
+            story = _whole(file.readline())
+        # Of a file that was replaced since the last look another story may stand there.
+        return story if story is not None and story.trial == trial else None
+
+    def of(self, trials: Iterable[str]) -> dict[str, Story]:
+        """The stories of those of the trials that have one, by trial and in the order given."""
+        told = ((trial, self.get(trial)) for trial in trials)
+        return {trial: story for trial, story in told if story is not None}
 
 
 def is_whole(line: bytes) -> bool:

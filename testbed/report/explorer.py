@@ -4,7 +4,7 @@ Of a large run the page holds a sample. What it holds is chosen by the table of 
 stories are read of these trials alone.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -16,8 +16,7 @@ from markupsafe import Markup
 
 from testbed.analysis import Run
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.run_folder import STORIES
-from testbed.experiment.stories import START, Story, decode
+from testbed.experiment.stories import StoryFile
 from testbed.report.sample import sampled
 from testbed.report.scenes import Scenes, theatre_of
 from testbed.report.stories import command_of, serving_command
@@ -41,7 +40,10 @@ class Teller:
             run.table.select(pl.col("^condition\\..*$").n_unique()).collect().row(0, named=True)
         )
         self._varied = [name.partition(".")[2] for name, count in counts.items() if count > 1]
-        self._stories = StoryFile(run)
+
+    @cached_property
+    def _stories(self) -> StoryFile:
+        return StoryFile(self._run.folder)
 
     def records(self, ids: Iterable[str]) -> dict[str, TrialRecord]:
         """The records of these trials, by trial."""
@@ -76,38 +78,6 @@ def _value(record: TrialRecord, key: str) -> object:
     value = getattr(record.condition, key, None)
     known = isinstance(value, bool | int | float | str | None)
     return value if known else msgspec.json.encode(value, enc_hook=str).decode()
-
-
-class StoryFile:
-    """The stories of a run, of which each is read when it is asked for."""
-
-    def __init__(self, run: Run) -> None:
-        self._path = run.folder / STORIES
-
-    @cached_property
-    def _places(self) -> Mapping[str, int]:
-        """Where the last line of each trial begins."""
-        places: dict[str, int] = {}
-        if self._path.is_file():
-            with self._path.open("rb") as file:
-                start = 0
-                for line in file:
-                    if line.startswith(START) and line.endswith(b"\n"):
-                        trial = line.removeprefix(START).partition(b'"')[0]
-                        places[trial.decode(errors="replace")] = start
-                    start += len(line)
-        return places
-
-    def get(self, trial: str) -> Story | None:
-        """The story of a trial; None where there is none, or it is damaged."""
-        if trial not in self._places:
-            return None
-        with self._path.open("rb") as file:
-            file.seek(self._places[trial])
-            try:
-                return decode(file.readline())
-            except msgspec.DecodeError:
-                return None
 
 
 @dataclass(frozen=True)

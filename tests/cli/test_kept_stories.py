@@ -13,7 +13,7 @@ from testbed.experiment import run
 from testbed.experiment.live_run import LiveRun
 from testbed.experiment.run_folder import read_config
 from testbed.experiment.shard import Shard
-from testbed.experiment.stories import Story, stories_of
+from testbed.experiment.stories import Story, StoryFile, decode
 from tests.pots import write_pots
 
 STORIES = "stories.jsonl"
@@ -30,7 +30,7 @@ def _records(folder: Path) -> list[dict[str, object]]:
 
 def _stories(folder: Path) -> dict[str, Story]:
     """Those of all trials on record."""
-    return stories_of(folder, [str(record["trial"]) for record in _records(folder)])
+    return StoryFile(folder).of(str(record["trial"]) for record in _records(folder))
 
 
 @pytest.fixture(scope="module")
@@ -115,7 +115,31 @@ def test_of_a_trial_that_is_told_twice_the_last_story_counts(copied: Path) -> No
     trial = str(record["trial"])
     with (copied / STORIES).open("ab") as file:
         file.write(b'{"trial":"%s","steps":[{"step":1,"action":"wait"}]}\n' % trial.encode())
-    assert [step.action for step in stories_of(copied, [trial])[trial].steps] == ["wait"]
+    assert [step.action for step in _stories(copied)[trial].steps] == ["wait"]
+
+
+def test_stories_are_read_on_as_they_come(copied: Path) -> None:
+    lines = (copied / STORIES).read_bytes().splitlines(keepends=True)
+    (copied / STORIES).unlink()
+    file, stories = StoryFile(copied), [decode(line) for line in lines]
+    first, second, third = (story.trial for story in stories[:3])
+    assert file.get(first) is None
+    (copied / STORIES).write_bytes(lines[0] + lines[1][:50])
+    file.look()
+    assert (first in file, second in file) == (True, False)
+    with (copied / STORIES).open("ab") as written:
+        written.write(lines[1][50:])
+    file.look()
+    assert [file.get(trial) for trial in (first, second, third)] == [*stories[:2], None]
+
+
+def test_of_a_file_that_was_replaced_no_other_story_is_told(copied: Path) -> None:
+    lines = (copied / STORIES).read_bytes().splitlines(keepends=True)
+    file, trial = StoryFile(copied), decode(lines[0]).trial
+    (copied / STORIES).write_bytes(b"".join(lines[1:]))
+    assert file.get(trial) is None
+    (copied / STORIES).unlink()
+    assert file.get(trial) is None
 
 
 def test_repair_keeps_the_stories_that_are_whole(copied: Path, played: Path) -> None:
