@@ -61,6 +61,11 @@ class Study:
         """The same of the greatest share."""
         return f"{max(self._shares(robot, among)):.0%}"
 
+    def spread(self, robot: str, among: str = "") -> str:
+        """Both: one where they are the same."""
+        least, most = self.least(robot, among), self.most(robot, among)
+        return least if least == most else f"{least} to {most}"
+
     def _shares(self, robot: str, among: str = "") -> list[float]:
         own = self.found.robots.items()
         shares = [has["achieved"][robot] for name, has in own if among in ("", *name.split(", "))]

@@ -88,7 +88,10 @@ def measured(trials: Trials) -> pl.DataFrame:
         state=pl.col("initial").list.join(" "),
         told=pl.col("explanations").list.len(),
         **{name: measure.cast(pl.Float64) for name, measure in DIVIDED.items()},
-        **{name: pl.col(name) for name in explanations.KINDS},
+        **{
+            name: pl.col(name).cast(pl.Int32 if kind is int else pl.Float64)  # counts are small
+            for name, kind in explanations.KINDS.items()
+        },
         **quality.values(),
     )
     return query.collect()

@@ -2,7 +2,7 @@
 
 import json
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import polars as pl
@@ -78,7 +78,7 @@ def summarise(
         (key, own[column][0], robots): _group(own, robots, names)
         for robots in comparisons
         for key, column in PLACES.items()
-        for own in comparison.with_apart(rows, robots, sure).partition_by(column)
+        for own in _parts(comparison.with_apart(rows, robots, sure), column)
     }
     families = {
         family: corrected({(own[-1], pairs): t[family] for own, (pairs, _, t) in found.items()})
@@ -99,6 +99,12 @@ def summarise(
         "treatment": comparisons[0].treatment,
         **groups,
     }
+
+
+def _parts(trials: pl.DataFrame, column: str) -> Iterator[pl.DataFrame]:
+    """The rows of each value of a column, one part after the other: a large table is not copied."""
+    for name in trials[column].unique(maintain_order=True):
+        yield trials.filter(pl.col(column) == name)
 
 
 def _group(

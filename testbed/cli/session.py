@@ -57,7 +57,8 @@ def run_session(
 def report_again(folder: Path, config: ExperimentConfig) -> Report:
     """Table, summary and report of a run, made again. Raises StoreError."""
     say = Printer()
-    specs = None if config.is_fine else plan_trials(config)  # to draw levels again takes long
+    # An iterator, since nobody needs the plan once it is read; to draw levels again takes long.
+    specs = None if config.is_fine else iter(plan_trials(config))
     report = written_report(folder, config, specs)
     for line in _told(report.tables):
         say(line)

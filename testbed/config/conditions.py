@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import msgspec
@@ -22,6 +23,26 @@ def conditions_of(config: ExperimentConfig) -> dict[str, ExperimentConfig]:
     """
     if not config.is_sweep:
         return {"": config}
+    return dict(_of_sweep(_Given(config)))
+
+
+class _Given:
+    """A configuration by the keys that were given, of which equal ones have equal conditions."""
+
+    def __init__(self, config: ExperimentConfig) -> None:
+        self.config = config
+        self._text = config.model_dump_json(exclude_unset=True)
+
+    def __hash__(self) -> int:
+        return hash(self._text)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Given) and self._text == other._text
+
+
+@lru_cache(maxsize=2)
+def _of_sweep(given: _Given) -> Mapping[str, ExperimentConfig]:
+    config = given.config
     cells = config.sweep.cells.items()
     return {name: ExperimentConfig.model_validate(varied(config, own)) for name, own in cells}
 

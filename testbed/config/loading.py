@@ -51,10 +51,22 @@ def load_config(
     places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
     config = _checked(compose(text, overrides, places), path, places, checks)
     if config.is_sweep:
+        _refuse_without_effect(config, overrides, given_in)
         for name, keys in config.sweep.cells.items():
             own = Places(path, text, list(keys), f"{places.of(('sweep',))}: {name}")
             _checked(_varied(config, keys, own), path, own, checks)
     return config
+
+
+def _refuse_without_effect(
+    config: ExperimentConfig, overrides: Sequence[str], given_in: str
+) -> None:
+    """Refuse overrides of keys that every condition sets. Raises ConfigError, a line for each."""
+    swept = frozenset.intersection(*(frozenset(own) for own in config.sweep.cells.values()))
+    told = "is varied by the sweep; 'sweep={}' plays this value alone, '-m' others"
+    lost = [key for key in (item.partition("=")[0] for item in overrides) if key in swept]
+    if lost:
+        raise ConfigError([f"{given_in}: {key}: {told}" for key in lost])
 
 
 def _varied(config: ExperimentConfig, keys: Mapping[str, Any], places: Places) -> dict[str, Any]:

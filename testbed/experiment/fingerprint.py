@@ -14,7 +14,10 @@ from pathlib import Path
 
 from testbed.registry import OURS
 
-LIBRARIES = ("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic")
+LIBRARIES = (
+    *("clingo", "eclipse-zenoh", "pettingzoo", "gymnasium", "msgspec", "numpy", "pydantic"),
+    "scipy",  # the oracle's bounds are linear programs
+)
 PACKAGES = ("agents", "asp", "testbed")
 """The packages of this distribution."""
 SOURCES = (".py", ".lp", ".al", ".fine", ".lark")

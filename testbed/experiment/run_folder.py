@@ -5,7 +5,7 @@ import os
 import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from itertools import count, takewhile
+from itertools import count, takewhile, zip_longest
 from pathlib import Path
 from typing import BinaryIO
 
@@ -231,7 +231,16 @@ def differences(stored: ExperimentConfig, given: ExperimentConfig) -> list[str]:
         if old.get(key) != new.get(key) and key not in ANY_RESULT
     ]
     changed.sort(key=lambda key: key.partition(".")[0] not in given.model_fields_set)
-    return [f"{key}: {old.get(key, 'absent')} -> {new.get(key, 'absent')}" for key in changed]
+    return [_change(key, old.get(key, "absent"), new.get(key, "absent")) for key in changed]
+
+
+def _change(key: str, old: object, new: object) -> str:
+    """One line; of texts the first line that differs."""
+    if not key.endswith(TEXT):
+        return f"{key}: {old} -> {new}"
+    pairs = enumerate(zip_longest(str(old).split("\n"), str(new).split("\n"), fillvalue=""), 1)
+    number, (before, after) = next(own for own in pairs if own[1][0] != own[1][1])
+    return f"{key}, line {number}: {before.strip()} -> {after.strip()}"
 
 
 def flat_config(config: ExperimentConfig) -> dict[str, object]:

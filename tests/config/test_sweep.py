@@ -150,3 +150,16 @@ def test_values_of_an_override_are_those_between_its_commas(
 
 def test_overrides_of_one_value_are_no_sweep() -> None:
     assert with_sweep(["limit=5", "robots=[a,b]"]) == ["limit=5", "robots=[a,b]"]
+
+
+def test_an_override_of_what_each_condition_sets_has_no_effect_and_is_refused(
+    tmp_path: Path,
+) -> None:
+    path = written(tmp_path, "sweep: {grid: {adversary.rate: [0.1, 0.2]}}\n")
+    line = refused(path, "adversary.rate=0.5")
+    assert line.startswith("command line: adversary.rate: ")
+    assert "sweep={}" in line
+    assert load_config(path, ["sweep={}", "adversary.rate=0.5"]).adversary.rate == 0.5
+    some = "sweep: {conditions: {calm: {adversary.rate: 0}, usual: {}}}\n"
+    (_, usual) = conditions_of(load_config(written(tmp_path, some), ["adversary.rate=0.5"])).items()
+    assert usual[1].adversary.rate == 0.5

@@ -200,3 +200,19 @@ def test_a_file_is_the_old_one_until_the_new_one_is_whole(
     with pytest.raises(OSError, match="no space"):
         replace_text(path, "new")
     assert path.read_text(encoding="utf-8") == "old"
+
+
+def test_of_a_domain_that_changed_the_first_line_that_differs_is_told(tmp_path: Path) -> None:
+    source, run = tmp_path / "own.al", tmp_path / "run"
+    text = asp.load_description("office").source
+    source.write_text(text, encoding="utf-8")
+    config = load_config("quickstart", [f"domain={source}"])
+    write_config(run, config)
+    first, *rest = text.split("\n")
+    for changed, line in (("\n".join([first, "% else", *rest]), 2), (text + "% more\n", None)):
+        source.write_text(changed, encoding="utf-8")
+        with pytest.raises(StoreError) as refusal:
+            check_unchanged(run, load_config("quickstart", [f"domain={source}"]))
+        (told,) = str(refusal.value).splitlines()[1:]
+        assert f"line {line or text.count(chr(10)) + 1}:" in told
+        assert "% " in told
