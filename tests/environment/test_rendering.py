@@ -1,5 +1,7 @@
 """What a person is shown: everything that is true, and nothing that is not."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from testbed.environment.rendering import (
     Image,
     Scene,
     draw_picture,
+    draw_svg,
     draw_text,
     render,
     scene,
@@ -36,6 +39,26 @@ laws
   polish(arm, B) causes -dusty(B).
 sees
   arm sees dusty(B).
+"""
+
+QUAYS = """
+sorts
+  quay = {east, west}.
+  robot = {tug}.
+statics
+  canal(quay, quay).
+fluents
+  inertial moored(robot, quay).
+  inertial swept(quay).
+actions
+  agent sweep(robot, quay).
+facts
+  canal(east, west).
+laws
+  sweep(R, Q) causes swept(Q).
+  -moored(R, Q2) if moored(R, Q), Q != Q2.
+sees
+  tug sees swept(Q).
 """
 
 
@@ -129,6 +152,23 @@ def test_a_domain_without_places_is_shown_as_well() -> None:
     assert shown == Scene(1, (), ("on(a,b)", "dusty(a)"), "", "", "")
     assert "on(a,b)" in draw_text(shown)
     assert draw_picture(shown).ndim == 3
+
+
+def test_a_mark_is_one_shape_filled_or_hollow_and_shuts_nothing() -> None:
+    core = Core(world_of(parse_description(QUAYS)), Rules(goal=()), ())
+    shapes, pictures = [], []
+    for literals in (["moored(tug,west)"], ["moored(tug,west)", "swept(east)"]):
+        core.reset(0, literals)
+        shown = scene_of(core)
+        assert {name for place in shown.places for name in place.marks} == {"swept"}
+        shapes.append(re.findall(r'<path d="([^"]*)"', draw_svg(shown)))
+        pictures.append(draw_picture(shown))
+    assert len(shapes[0]) > 2
+    assert shapes[0] == shapes[1]
+    differs = np.argwhere((pictures[0] != pictures[1]).any(axis=2))
+    left, right = differs[:, 1].min(), differs[:, 1].max()
+    middle = pictures[0].shape[1] / 2
+    assert right < middle - 8 or left > middle + 8  # in one of two places, not in the wall
 
 
 @pytest.mark.parametrize("mode", [*MODES, None])

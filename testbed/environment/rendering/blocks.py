@@ -32,10 +32,8 @@ _ROBOT = Markup(
 _THING = Markup(
     '<path d="M6 7l5-3 5 3v7l-5 3-5-3zM6 7l5 3 5-3M11 10v7" fill="none" stroke="var(--{hue})"/>'
 )
-_SHUT = Markup(
-    '<path d="M7 10V8a4 4 0 0 1 8 0v2" fill="none" stroke="var(--ink)"/><path d="M5 10h12v8H5z"/>'
-)
-_OPEN = Markup('<path d="M7 10V6a4 4 0 0 1 7-2.5M5 10h12v8H5z" fill="none" stroke="var(--soft)"/>')
+_MARK = Markup('<path d="M4 11l4-5h9v10H8z"{look}/>')
+_FALSE = Markup(' fill="none" stroke="var(--soft)"')
 PLAIN, SOFT = Markup(""), Markup(' fill="var(--soft)" font-size="10"')
 STRONG = Markup(' font-weight="600"')
 _SIGNED = Markup(' fill="var(--others)" font-weight="700" font-size="14"')
@@ -120,11 +118,10 @@ def thing(name: str, notes: Sequence[str], most: float, sign: str) -> Block:
     return card(name, notes, most=most, sign=sign, glyph=_THING.format(hue=hue))
 
 
-def lock(name: str, shut: bool, most: float, sign: str) -> Block:
-    """A mark of a place, as a lock that is shut where it holds."""
-    return card(
-        name if shut else f"not {name}", most=most, sign=sign, glyph=_SHUT if shut else _OPEN
-    )
+def mark(name: str, true: bool, most: float, sign: str) -> Block:
+    """A mark of a place, as a tag that is filled where it is true and hollow where it is not."""
+    glyph = _MARK.format(look=PLAIN if true else _FALSE)
+    return card(name if true else f"not {name}", most=most, sign=sign, glyph=glyph)
 
 
 def column(blocks: Iterable[Block]) -> Block:

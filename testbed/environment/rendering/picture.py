@@ -1,4 +1,4 @@
-"""A scene as a picture: rooms in rows with doors between them, books, robots, and locks.
+"""A scene as a picture: places in rows with ways between them, things, robots, and marks.
 
 Of a place of several cells a grid, and in each cell what is there. None of it needs a screen. It is
 drawn twice as large and scaled down, for smooth edges: lengths below are those of the large one.
@@ -20,15 +20,15 @@ Image: TypeAlias = NDArray[np.uint8]
 """Height x width x 3."""
 
 PAPER, FLOOR, WALL, INK, FAINT = "#ffffff", "#f6f1e7", "#4a4a4a", "#222222", "#777777"
-SHUT, OPEN, BODY, FACE = "#c0392b", "#2e8b57", "#3d6ea5", "#dbe9f6"
-COVERS = ("#b5532a", "#6a8f3c", "#7b5ea7", "#c29a2b", "#3a8f8f", "#a8486f")
+ALERT, BODY, FACE = "#c0392b", "#3d6ea5", "#dbe9f6"
+HUES = ("#b5532a", "#6a8f3c", "#7b5ea7", "#c29a2b", "#3a8f8f", "#a8486f")
 
-_ROOM, _TALL, _EDGE, _FOOT, _PER_ROW = 460, 500, 40, 148, 4
+_WIDE, _TALL, _EDGE, _FOOT, _PER_ROW = 460, 500, 40, 148, 4
 _STRIP, _HEAD, _INDENT, _SMALL = 20, 26, 16, 16
 
 Box = tuple[float, float, float, float]
 """Left, top, right, bottom."""
-Covers = Mapping[str, str]
+Colours = Mapping[str, str]
 """A colour for each thing."""
 
 
@@ -36,69 +36,67 @@ def draw_picture(scene: Scene) -> Image:
     """The picture as an array of shape (height, width, 3)."""
     columns = max(1, min(_PER_ROW, len(scene.places)))
     rows = -(-len(scene.places) // _PER_ROW)
-    width, height = columns * _ROOM + 2 * _EDGE, rows * _TALL + 2 * _EDGE + _FOOT
+    width, height = columns * _WIDE + 2 * _EDGE, rows * _TALL + 2 * _EDGE + _FOOT
     image = Pillow.new("RGB", (width, height), PAPER)
-    draw, covers = Draw(image), _covers(scene)
+    draw, colours = Draw(image), _colours(scene)
     for number, place in enumerate(scene.places):
-        _draw_place(draw, place, *_corner(number), covers)
+        _draw_place(draw, place, *_corner(number), colours)
     for number, (left, right) in enumerate(pairwise(scene.places)):
         if right.name in left.next_to and (number + 1) % _PER_ROW:
-            shut = any((*left.marks.values(), *right.marks.values()))
-            _draw_door(draw, *_corner(number + 1), shut)
+            _draw_way(draw, *_corner(number + 1))
     _draw_caption(draw, scene, rows * _TALL + 2 * _EDGE)
     return np.asarray(image.resize((width // 2, height // 2), Pillow.Resampling.LANCZOS))
 
 
 def _corner(number: int) -> tuple[int, int]:
     row, column = divmod(number, _PER_ROW)
-    return _EDGE + column * _ROOM, _EDGE + row * _TALL
+    return _EDGE + column * _WIDE, _EDGE + row * _TALL
 
 
-def _covers(scene: Scene) -> Covers:
+def _colours(scene: Scene) -> Colours:
     """The same in every picture of a domain."""
     held = [t for p in scene.places for things in p.robots.values() for t in things]
     things = sorted({*held, *(t for p in scene.places for t in p.things)})
-    return {thing: COVERS[i % len(COVERS)] for i, thing in enumerate(things)}
+    return {thing: HUES[i % len(HUES)] for i, thing in enumerate(things)}
 
 
-def _draw_place(draw: ImageDraw, place: Place, x: int, y: int, covers: Covers) -> None:
-    draw.rectangle((x, y, x + _ROOM, y + _TALL), FLOOR, WALL, 6)
-    draw.text((x + _ROOM / 2, y + 44), place.name, INK, anchor="mm", font_size=36)
+def _draw_place(draw: ImageDraw, place: Place, x: int, y: int, colours: Colours) -> None:
+    draw.rectangle((x, y, x + _WIDE, y + _TALL), FLOOR, WALL, 6)
+    draw.text((x + _WIDE / 2, y + 44), place.name, INK, anchor="mm", font_size=36)
     for name, true in place.marks.items():
-        _draw_lock(draw, x + _ROOM / 2, y + 104, name if true else f"not {name}", true)
+        _draw_mark(draw, x + _WIDE / 2, y + 104, name if true else f"not {name}", true)
     if place.cells:
         head = 128 if place.marks else 80
-        _draw_cells(draw, place, (x + 28, y + head, x + _ROOM - 28, y + _TALL - 24), covers)
+        _draw_cells(draw, place, (x + 28, y + head, x + _WIDE - 28, y + _TALL - 24), colours)
         return
     for number, (robot, held) in enumerate(place.robots.items()):
-        _draw_robot(draw, x + 124 + 160 * number, y + 236, robot, held, covers)
+        _draw_robot(draw, x + 124 + 160 * number, y + 236, robot, held, colours)
     for number, thing in enumerate(place.things):
         row, column = divmod(number, 3)
         from_left = 2 - column if row else column  # a second layer grows away from the robots
-        _draw_book(draw, x + 36 + 136 * from_left, y + 404 - 88 * row, thing, covers)
+        _draw_thing(draw, x + 36 + 136 * from_left, y + 404 - 88 * row, thing, colours)
 
 
-def _draw_door(draw: ImageDraw, x: int, y: int, shut: bool) -> None:
-    """A door in the wall on the left of a place: a gap, barred if one of its sides is locked."""
-    draw.rectangle((x - 8, y + 184, x + 8, y + 328), SHUT if shut else FLOOR)
+def _draw_way(draw: ImageDraw, x: int, y: int) -> None:
+    """A gap in the wall on the left of a place."""
+    draw.rectangle((x - 8, y + 184, x + 8, y + 328), FLOOR)
     for edge in (184, 328):
         draw.line((x - 20, y + edge, x + 20, y + edge), WALL, 6)
 
 
-def _draw_lock(draw: ImageDraw, x: float, y: float, words: str, shut: bool) -> None:
-    colour = SHUT if shut else OPEN
-    lift, aside = (0, 0) if shut else (6, 16)
-    left, top = x - 100 + aside, y - 22 - lift
-    draw.arc((left, top, left + 24, top + 24), 180, 360, colour, 6)
-    draw.rounded_rectangle((x - 106, y - 8, x - 70, y + 20), 4, colour)
-    draw.text((x - 48, y + 6), words, colour, anchor="lm", font_size=28)
+def _draw_mark(draw: ImageDraw, x: float, y: float, words: str, true: bool) -> None:
+    """A tag that is filled where the mark is true, and hollow where it is not."""
+    ink = INK if true else FAINT
+    tag = ((-106, 6), (-92, -10), (-64, -10), (-64, 22), (-92, 22))
+    draw.polygon([(x + right, y + down) for right, down in tag], ink if true else PAPER, ink, 4)
+    draw.text((x - 48, y + 6), words, ink, anchor="lm", font_size=28)
 
 
 def _draw_robot(
-    draw: ImageDraw, x: float, y: float, name: str, held: tuple[str, ...], covers: Covers
+    draw: ImageDraw, x: float, y: float, name: str, held: tuple[str, ...], colours: Colours
 ) -> None:
     draw.line((x, y - 68, x, y - 48), BODY, 6)
-    draw.circle((x, y - 72), 8, SHUT)
+    draw.circle((x, y - 72), 8, ALERT)
     draw.rounded_rectangle((x - 40, y - 52, x + 40, y + 4), 16, FACE, BODY, 6)
     draw.rounded_rectangle((x - 52, y + 12, x + 52, y + 100), 16, BODY)
     draw.text((x, y + 56), name, PAPER, anchor="mm", font_size=28)
@@ -108,14 +106,12 @@ def _draw_robot(
     draw.line((x + 48, y + 36, x + 104, y + 12), BODY, 12)
     draw.circle((x + 106, y + 10), 12, BODY)
     for number, thing in enumerate(held):
-        _draw_book(draw, x + 92, y - 64 - 80 * number, thing, covers)
+        _draw_thing(draw, x + 92, y - 64 - 80 * number, thing, colours)
 
 
-def _draw_book(draw: ImageDraw, x: float, y: float, name: str, covers: Covers) -> None:
-    draw.rounded_rectangle((x, y, x + 120, y + 68), 6, covers[name])
-    draw.rectangle((x + 10, y + 56, x + 114, y + 64), PAPER)
-    draw.line((x + 12, y, x + 12, y + 56), PAPER, 2)
-    draw.text((x + 66, y + 28), name, PAPER, anchor="mm", font_size=26)
+def _draw_thing(draw: ImageDraw, x: float, y: float, name: str, colours: Colours) -> None:
+    draw.rounded_rectangle((x, y, x + 120, y + 68), 6, colours[name])
+    draw.text((x + 60, y + 34), name, PAPER, anchor="mm", font_size=26)
 
 
 def _draw_caption(draw: ImageDraw, scene: Scene, y: float) -> None:
@@ -124,14 +120,14 @@ def _draw_caption(draw: ImageDraw, scene: Scene, y: float) -> None:
     outcome = scene.outcome.replace("_", " ")
     for left, down, words, ink, size in (
         (0, 16, f"step {scene.step}", INK, 36),
-        (220, 16, outcome, SHUT, 36),
+        (220, 16, outcome, ALERT, 36),
         (0, 72, before, FAINT, 30),
         (0, 116, rest, FAINT, 30),
     ):
         draw.text((_EDGE + left, y + down), words, ink, anchor="lm", font_size=size)
 
 
-def _draw_cells(draw: ImageDraw, place: Place, box: Box, covers: Covers) -> None:
+def _draw_cells(draw: ImageDraw, place: Place, box: Box, colours: Colours) -> None:
     """The cells row by row in their order, in as many columns as rows or one more.
 
     The order is that of the description: it does not say how cells lie to each other.
@@ -143,15 +139,15 @@ def _draw_cells(draw: ImageDraw, place: Place, box: Box, covers: Covers) -> None
     for number, cell in enumerate(place.cells):
         row, column = divmod(number, columns)
         x, y = left + column * wide, top + row * tall
-        _draw_cell(draw, place, cell, (x, y, x + wide, y + tall), covers)
+        _draw_cell(draw, place, cell, (x, y, x + wide, y + tall), colours)
 
 
-def _draw_cell(draw: ImageDraw, place: Place, cell: str, box: Box, covers: Covers) -> None:
+def _draw_cell(draw: ImageDraw, place: Place, cell: str, box: Box, colours: Colours) -> None:
     left, top, right, bottom = box
     draw.rectangle(box, PAPER, WALL, 2)
     label = cell.removeprefix(place.name).lstrip("_") or cell
     draw.text((left + 8, top + 14), label, FAINT, anchor="lm", font_size=_SMALL)
-    strips = _strips(place, cell, covers)
+    strips = _strips(place, cell, colours)
     fit = max(1, int((bottom - top - _HEAD) // (_STRIP + 2)))
     if len(strips) > fit:
         strips = [*strips[: fit - 1], (f"and {len(strips) - fit + 1} more", FAINT, 0)]
@@ -162,11 +158,11 @@ def _draw_cell(draw: ImageDraw, place: Place, cell: str, box: Box, covers: Cover
         draw.text(middle, name, PAPER, anchor="mm", font_size=_SMALL)
 
 
-def _strips(place: Place, cell: str, covers: Covers) -> list[tuple[str, str, int]]:
+def _strips(place: Place, cell: str, colours: Colours) -> list[tuple[str, str, int]]:
     """What is in a cell, with colours; what a robot holds stands under it, indented."""
     strips = []
     for robot, held in place.robots.items():
         if place.spots[robot] == cell:
-            strips += [(robot, BODY, 0), *((thing, covers[thing], _INDENT) for thing in held)]
+            strips += [(robot, BODY, 0), *((thing, colours[thing], _INDENT) for thing in held)]
     lying = [thing for thing in place.things if place.spots[thing] == cell]
-    return strips + [(thing, covers[thing], 0) for thing in lying]
+    return strips + [(thing, colours[thing], 0) for thing in lying]

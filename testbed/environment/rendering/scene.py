@@ -2,7 +2,7 @@
 
 A fluent of a thing and a place says where things are, unless by the laws another fluent gives the
 thing one place at a time; one of a robot and a thing says what it holds; one of a place alone is a
-mark of that place, such as a lock. At the fine resolution a fluent of a component and a cell says
+mark of that place. At the fine resolution a fluent of a component and a cell says
 where in its place a thing is.
 
 A place is a member of the sort over which a two-place static (an adjacency) ranges. Where another

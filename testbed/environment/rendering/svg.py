@@ -18,7 +18,7 @@ from testbed.environment.rendering.blocks import (
     card,
     column,
     flow,
-    lock,
+    mark,
     robot,
     row,
     thing,
@@ -137,7 +137,7 @@ def _room(place: Place, told: Contents, width: float, beyond: Sequence[str]) -> 
     most = width - 2 * _PAD
     head = Block(most, 18, words(place.name, 0, 13, most, STRONG))
     marks = [
-        lock(name, true, most, DIFFERS * ((place.name, name) in told.differs))
+        mark(name, true, most, DIFFERS * ((place.name, name) in told.differs))
         for name, true in place.marks.items()
     ]
     lost = [name for name in (*place.robots, *place.things) if place.spots.get(name) is None]
