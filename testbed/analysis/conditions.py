@@ -33,10 +33,11 @@ class Condition:
 
     `pairs` is the number of pairs that count; `robots` has estimates by measure and robot; `cost`
     is what the baseline needed in actions divided by what the treatment did, over the pairs in
-    which both achieved their goal; None where there is no such pair.
+    which `both` achieved their goal; None where there is no such pair.
     """
 
     pairs: int
+    both: int
     robots: Mapping[str, Mapping[str, Estimate | None]]
     cost: Estimate | None
 
@@ -61,9 +62,10 @@ def _condition(
     counted = with_apart(rows, main, eventful(config)).filter(pl.col("apart").is_null())
     whole = set(counted["scenario"]) <= exhausted
     pairs = pairs_of(counted, main)
-    cost = Sample(pairs, cluster_of(pairs), whole=whole).achieved.ratio("actions").mean
+    cost = Sample(pairs, cluster_of(pairs), whole=whole).achieved.ratio("actions")
     return Condition(
         counted["pair"].n_unique(),
+        cost.pairs,
         {
             measure: {
                 name: _estimate(counted.filter(robot=name), measure, whole)
@@ -71,7 +73,7 @@ def _condition(
             }
             for measure in measures
         },
-        cost,
+        cost.mean,
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -57,17 +58,19 @@ def contrasts(
     Raises:
         StoreError: for a name that is none of theirs, and where there is nothing to compare.
     """
-    trials = pl.concat(_trials(run, len(runs) > 1) for run in runs)
+    labels = _labels(runs)
+    trials = pl.concat(_trials(*own) for own in zip(runs, labels, strict=True))
     sure = frozenset(name for run in runs for name in eventful(run.config))
     names = trials["robot"].unique(maintain_order=True).to_list()
     if baseline is None and treatment is None:
-        asked = list(_asked(runs))
+        asked = list(_asked(runs, labels))
     else:
         base = names[0] if baseline is None else _known(baseline, names)
         others = names if treatment is None else [_known(treatment, names)]
         asked = [Compared(base, other) for other in others if other != base]
     if not asked:
-        why = "the runs have no robot in common" if len(runs) > 1 else f"there is only {names[0]}"
+        several = "the runs have no robot in common under the same condition"
+        why = several if len(runs) > 1 else f"there is only {names[0]}"
         raise StoreError(f"nothing to compare: {why}; name two by --baseline and --treatment")
     found = [own for robots in asked for own in _by_place(trials, robots, sure)]
     if baseline is None and treatment is None and len(runs) == 1 and runs[0].config.is_sweep:
@@ -75,23 +78,38 @@ def contrasts(
     return corrected(found)
 
 
-def _asked(runs: Sequence[Run]) -> Iterator[Compared]:
+def _labels(runs: Sequence[Run]) -> list[str]:
+    """What the runs are called; "" for a single one. Raises StoreError for one given twice."""
+    if len(runs) == 1:
+        return [""]
+    places = Counter(run.folder.resolve() for run in runs)
+    for place, times in places.items():
+        if times > 1:
+            raise StoreError(f"{place}: is given twice; a run is compared with another one")
+    names = Counter(place.name for place in places)
+    return [
+        place.name if names[place.name] == 1 else str(run.folder)
+        for run, place in zip(runs, places, strict=True)
+    ]
+
+
+def _asked(runs: Sequence[Run], labels: Sequence[str]) -> Iterator[Compared]:
     """What is compared where no names are given."""
-    first, *others = runs
+    (first, label), *others = zip(runs, labels, strict=True)
     if not others:
         for own in compared(first.config) if first.config.comparisons else ():
             for cell in first.conditions:
-                yield Compared(*(_name(first, False, cell, robot) for robot in own))
-    for other in others:
+                yield Compared(*(_name(first, label, cell, robot) for robot in own))
+    for other, its in others:
         for cell in first.conditions.keys() & other.conditions.keys():
             for robot in first.config.robots:
                 if robot in other.config.robots:
-                    both = (_name(run, True, cell, robot) for run in (first, other))
-                    yield Compared(*both)
+                    both = ((first, label), (other, its))
+                    yield Compared(*(_name(run, own, cell, robot) for run, own in both))
 
 
-def _name(run: Run, several: bool, cell: str, robot: str) -> str:
-    return MARK.join([*[run.folder.name] * several, *[cell] * run.config.is_sweep, robot])
+def _name(run: Run, label: str, cell: str, robot: str) -> str:
+    return MARK.join([*[label] * bool(label), *[cell] * run.config.is_sweep, robot])
 
 
 def _known(name: str, names: Sequence[str]) -> str:
@@ -100,9 +118,9 @@ def _known(name: str, names: Sequence[str]) -> str:
     raise StoreError(f"'{name}' is none of what the runs hold; {suggestion(name, names)}")
 
 
-def _trials(run: Run, several: bool) -> pl.DataFrame:
+def _trials(run: Run, label: str) -> pl.DataFrame:
     """The measured trials of a run; `robot` is the name of what is compared, `pair` the start."""
-    parts = [pl.lit(run.folder.name)] * several + [pl.col("cell")] * run.config.is_sweep
+    parts = [pl.lit(label)] * bool(label) + [pl.col("cell")] * run.config.is_sweep
     named = run.table.with_columns(robot=pl.concat_str([*parts, pl.col("robot")], separator=MARK))
     return _paired(run, named, START)
 

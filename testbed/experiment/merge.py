@@ -7,6 +7,7 @@ from typing import Any
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
+from testbed.experiment.pilot import Pilot
 from testbed.experiment.plan import coverage_of, plan_trials
 from testbed.experiment.provenance import Provenance, sessions_of
 from testbed.experiment.run_folder import (
@@ -31,7 +32,7 @@ Line = tuple[Path, int, int]
 def merge(folders: Sequence[Path], out: Path, command: Sequence[str]) -> ExperimentConfig:
     """Merge run folders whose trials are those of one configuration; returns that.
 
-    The records are in the order of the plan, as after a run that nothing disturbed.
+    The records are in the order of play, as after a run that nothing disturbed.
 
     Raises:
         StoreError: for folders with other configurations, or played with other versions; for a
@@ -52,14 +53,22 @@ def merge(folders: Sequence[Path], out: Path, command: Sequence[str]) -> Experim
     with locked(out):
         write_config(out, config)
         provenance = Provenance(out, config, command, sessions)
-        replace_lines(out / TRIALS, _read(lines[spec.trial] for spec in specs))
-        stories = (line for folder in folders for _, line in story_lines(folder))
-        replace_lines(out / STORIES, stories)
+        order = Pilot(specs).order if config.is_sweep else specs
+        replace_lines(out / TRIALS, _read(lines[spec.trial] for spec in order))
+        replace_lines(out / STORIES, _stories(folders, lines))
         for folder in folders:
             if (folder / ERRORS).is_dir():
                 shutil.copytree(folder / ERRORS, out / ERRORS, dirs_exist_ok=True)
         provenance.close(0, workers=0)
     return config
+
+
+def _stories(folders: Iterable[Path], lines: Mapping[str, Line]) -> Iterator[bytes]:
+    """The stories of the trials that each folder has on record."""
+    for folder in folders:
+        for trial, line in story_lines(folder):
+            if trial in lines and lines[trial][0].parent == folder:
+                yield line
 
 
 def _sessions(folders: Iterable[Path]) -> list[dict[str, Any]]:

@@ -30,29 +30,28 @@ class Estimate(NamedTuple):
 class Pilot:
     """The order in which trials are played, and what the first ones say of all.
 
-    `order` are positions in the plan: first a pair of each stratum, then the others as planned.
+    `order` is that of the trials: first a pair of each stratum, then the others as planned.
     `estimates` are one per condition; they have their seconds once the first pairs are played.
     """
 
     def __init__(self, specs: Sequence[TrialSpec]) -> None:
-        self._specs = specs
         self._strata = Counter(map(_stratum, specs))
         first = _first_pairs(specs)
-        self._awaited = set(first)
+        ahead = frozenset(first)
+        rest = (position for position in range(len(specs)) if position not in ahead)
+        self.order = [specs[position] for position in (*first, *rest)]
+        self._awaited = set(range(len(first)))
         self._seconds: dict[Stratum, list[float]] = {}
-        rest = (position for position in range(len(specs)) if position not in self._awaited)
-        self.order = [*first, *rest]
         trials = Counter(spec.cell for spec in specs)
         self.estimates = tuple(Estimate(cell, own, None) for cell, own in trials.items())
 
     def results(self, played: Results) -> Results:
-        """The results of trials that are played in this order, with their positions in the plan."""
+        """The results of trials that are played in this order, as they come."""
         with closing(played):
-            for turn, result in played:
-                position = self.order[turn]
+            for position, result in played:
                 if position in self._awaited:
                     self._awaited.remove(position)
-                    self._hear(self._specs[position], result.record)
+                    self._hear(self.order[position], result.record)
                 yield position, result
 
     def _hear(self, spec: TrialSpec, record: TrialRecord) -> None:

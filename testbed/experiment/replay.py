@@ -37,7 +37,8 @@ def replay(folder: Path, trial: str, say: Say) -> bool:
 def replay_trial(spec: TrialSpec, recorded: TrialRecord | None, say: Say) -> bool:
     """The same of a trial and its record."""
     where = of_place(spec.scenario, spec.level)
-    say(f"trial {spec.trial}: {where}, {spec.robot}, seed {spec.seed}")
+    under = f" under {spec.cell}" if spec.cell else ""
+    say(f"trial {spec.trial}: {where}{under}, {spec.robot}, seed {spec.seed}")
     say(f"goal: {' '.join(spec.setting.goal)}")
     teller, narrator = setup_of(spec.setting).teller(spec.trial), narrator_of(spec.setting, say)
     robot = InProcessRobot(make_robot)
@@ -73,8 +74,9 @@ def list_trials(folder: Path, say: Say) -> None:
     specs = plan_trials(read_config(folder))
     outcomes = {record.trial: record.outcome for record in read_records(folder)}
     fine = any(spec.setting.fine is not None for spec in specs)
-    heads = ("trial", "level" if fine else "scenario", "robot", "outcome")
-    listed = ((s.trial, place(s.scenario, s.level), s.robot) for s in specs)
+    swept = any(spec.cell for spec in specs)
+    heads = ("trial", "level" if fine else "scenario", *["condition"] * swept, "robot", "outcome")
+    listed = ((s.trial, place(s.scenario, s.level), *[s.cell] * swept, s.robot) for s in specs)
     rows = [(*own, in_words(outcomes.get(own[0], "not played yet"))) for own in listed]
     for line in Grid(heads, rows, numbers=range(0)).lines(columns()):
         say(line)

@@ -110,7 +110,7 @@ class _Finder:
 
     def find(self, key: str, name: str, wanted: str | None) -> str:
         """The place of the text with this hash, or where none is known the first one."""
-        if Path(name).name != name:
+        if Path(name).name != name or not name.isprintable():
             raise StoreError(f"{self._file}: '{name}' is not the name of a {key}")
         places = list(self._candidates(key, name))
         for place in places:

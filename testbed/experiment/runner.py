@@ -159,8 +159,7 @@ def _sweep(
         notify(status)
 
     tell(status)
-    ordered = [missing[position] for position in pilot.order]
-    _put_on_record(pilot.results(play(ordered)), record, status, tell)
+    _put_on_record(pilot.results(play(pilot.order)), record, status, tell)
 
 
 def _workers(config: ExperimentConfig, missing: int) -> int | None:

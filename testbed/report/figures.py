@@ -2,6 +2,7 @@
 
 import io
 import re
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from textwrap import fill
 from typing import Any, NamedTuple
@@ -61,7 +62,8 @@ class Panel(NamedTuple):
 
 def drawn(chart: Chart) -> Panel:
     """A chart as a figure: curves over the places, or one row per place."""
-    with mpl.rc_context(SETTINGS):
+    with mpl.rc_context(SETTINGS), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", r"Glyph \d+")  # no font has every character
         own = _curves(chart, CURVES[chart.kind]) if chart.kind in CURVES else _forest(chart)
         labels = ", ".join(series.label for series in chart.series)
         told = plain(f"{chart.title}: {labels}. The table has the numbers.")

@@ -12,7 +12,7 @@ from testbed.analysis.pairs import Compared
 from testbed.studies.charts import Chart, Colour, Key, Measure, Point, Series
 from testbed.studies.explanations import EXPLANATIONS, sheet
 from testbed.studies.study import Section, Study
-from testbed.studies.tables import Cell, Line, View
+from testbed.studies.tables import Cell, Line, Value, View
 
 if TYPE_CHECKING:  # which loads polars
     from testbed.analysis import Run
@@ -47,7 +47,7 @@ class Found:
     """What a swept run comes to: its axes, robots, and by condition estimates.
 
     `robots`: by measure and robot; `cost`: the ratio of the costs, None without a baseline;
-    `pairs`: how many count.
+    `pairs`: how many count; `both`: in how many of them both achieve.
     """
 
     axes: Sequence[Axis]
@@ -55,6 +55,7 @@ class Found:
     compared: Compared
     keys: Mapping[str, Mapping[str, Any]]
     pairs: Mapping[str, int]
+    both: Mapping[str, int]
     robots: Mapping[str, Mapping[str, Mapping[str, Estimate | None]]]
     cost: Mapping[str, Estimate | None]
 
@@ -82,6 +83,7 @@ def found_in(run: Run) -> Found:
         compared,
         run.config.sweep.cells,
         {name: own.pairs for name, own in by_condition.items()},
+        {name: own.both for name, own in by_condition.items()},
         {name: own.robots for name, own in by_condition.items()},
         {name: own.cost for name, own in by_condition.items()},
     )
@@ -94,6 +96,7 @@ def numbers(found: Found) -> dict[str, Any]:
             name: {
                 "keys": keys,
                 "pairs": found.pairs[name],
+                "both_achieve": found.both[name],
                 **{
                     measure: {robot: _ends(value) for robot, value in own.items()}
                     for measure, own in found.robots[name].items()
@@ -132,7 +135,7 @@ def _view(found: Found, measures: Sequence[str]) -> View:
             (condition, str(found.pairs[condition])),
             (
                 *(MEASURES[m].value(own[m][name]) for m in measures for name in found.names),
-                *([Cell(found.cost[condition]).value] if found.compared.baseline else []),
+                *(_cost(found, condition) if found.compared.baseline else ()),
             ),
         )
         for condition, own in found.robots.items()
@@ -140,9 +143,19 @@ def _view(found: Found, measures: Sequence[str]) -> View:
     return View(
         "conditions-table",
         "By condition",
-        ("condition", "pairs", *columns, *([divided] if found.compared.baseline else [])),
+        (
+            "condition",
+            "pairs",
+            *columns,
+            *(["both achieve", divided] if found.compared.baseline else []),
+        ),
         lines,
     )
+
+
+def _cost(found: Found, condition: str) -> tuple[Value, Value]:
+    """In how many pairs both achieve, and the ratio of costs over these."""
+    return Value(str(found.both[condition])), Cell(found.cost[condition]).value
 
 
 def _curves(found: Found, measure: str) -> Iterator[Chart]:

@@ -1,5 +1,6 @@
 """Any two robots, conditions or runs compared, against what is counted by hand."""
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -139,3 +140,15 @@ def test_the_command_shows_every_comparison(swept: Path) -> None:
     done = CliRunner(env={"COLUMNS": "300"}).invoke(app, ["compare", str(swept)])
     assert done.exit_code == 0
     assert len(done.output.splitlines()) == 1 + 3
+
+
+def test_runs_in_folders_of_one_name_are_told_apart(swept: Path, tmp_path: Path) -> None:
+    """Each trial of the one is a pair with one of the other, and with no more."""
+    copy = shutil.copytree(swept, tmp_path / swept.name)
+    alone = [own for own in contrasts([load_run(swept)]) if own.place != CONDITIONS]
+    found = contrasts([load_run(swept), load_run(copy)])
+    assert {own.pairs for own in found} == {own.pairs for own in alone}
+    assert all(str(swept) in own.robots.baseline for own in found)
+    assert all(str(copy) in own.robots.treatment for own in found)
+    with pytest.raises(StoreError, match="twice"):
+        contrasts([load_run(swept), load_run(swept)])

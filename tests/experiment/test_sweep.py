@@ -8,7 +8,7 @@ import pytest
 from testbed.analysis import load_run
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
-from testbed.experiment.replay import stored_trial
+from testbed.experiment.replay import list_trials, replay, stored_trial
 from testbed.experiment.runner import run
 from testbed.experiment.store import read_records
 from tests.config.test_sweep import written
@@ -79,3 +79,16 @@ def test_a_swept_run_goes_on_and_its_trials_are_found(folder: Path) -> None:
     spec, record = stored_trial(folder, last.trial)
     assert record == last
     assert spec.cell == last.cell == "adversary.rate=0.5, knowledge=seen"
+
+
+def test_a_list_of_trials_and_a_replay_tell_the_condition(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    listed: list[str] = []
+    list_trials(folder, listed.append)
+    rows = [line for line in listed if "adversary.rate=0.5, knowledge=seen" in line]
+    assert len(rows) == 6
+    told: list[str] = []
+    assert replay(folder, rows[0].split()[0], told.append)
+    assert "adversary.rate=0.5, knowledge=seen" in told[0]
