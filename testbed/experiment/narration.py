@@ -6,10 +6,15 @@ from asp.language import Action, Fluent
 from asp.refinement import Refinement
 from testbed.experiment.specs import Setting
 from testbed.experiment.stories import FineStep, StoryStep, applied, believed
-from testbed.experiment.timeline import explanation
 from testbed.experiment.trial import refinement_of
+from testbed.experiment.wording import Said, explained, noticed, reasons, refined, told
 from testbed.text import Say
 from testbed.world import world_of
+
+SEPARATORS = {"told": ", "} | dict.fromkeys(
+    ("unheeded", "certain now", "inferred", "relevant", "refined to"), " "
+)
+"""Between texts that stand in one line."""
 
 
 class Narrator:
@@ -29,11 +34,7 @@ class Narrator:
 
     def _lines(self, step: StoryStep) -> Iterator[str]:
         yield from self._state(step)
-        if step.goal_holds is False:
-            yield "  told         the goal does not hold"
-        if step.told:
-            news = (f"{event.action} at step {event.step}" for event in step.told)
-            yield f"  told         {', '.join(news)}"
+        yield from _lines(told(step))
         yield from self._mind(step)
         ended = ": did not happen" if step.happened is False else ": gives up" * step.gives_up
         yield f"  action       {step.action}{ended}"
@@ -48,22 +49,9 @@ class Narrator:
         yield f"  belief       {self._belief(step)}"
         if step.mistaken:
             yield f"               in truth {' '.join(step.mistaken)}"
-        if step.unheeded:
-            yield f"  unheeded     {' '.join(step.unheeded)}"
-        for contrary in step.contradictions:
-            against = f"{contrary.observed} at step {contrary.step} against {contrary.believed}"
-            yield f"  unexpected   {against}"
-        if step.explanation is not None:
-            unproved = "; minimal: unproved" * (step.explanation.minimal == "unproved")
-            yield f"  explanation  {explanation(step.explanation)}{unproved}"
-        yield from (f"    or         {explanation(other)}" for other in step.alternatives)
-        if step.more_alternatives:
-            yield "    or         others, not all of which are listed"
+        yield from _lines(explained(step))
         yield f"  intention    {step.intention or '-'}{self._new_plan(step)}"
-        if step.reason:
-            yield f"  because      {step.reason}"
-        if step.no_plan is not None:
-            yield f"  no plan      {step.no_plan}, as far as the robot believes"
+        yield from _lines(reasons(step))
 
     def _belief(self, step: StoryStep) -> str:
         if step.mistaken is None:
@@ -105,25 +93,20 @@ class FineNarrator(Narrator):
 
     def _mind(self, step: StoryStep) -> Iterator[str]:
         fine = step.fine or FineStep()
-        for literal in fine.observed:
-            wrong = ", which is wrong" if literal in fine.wrong else ""
-            yield f"  observed     {literal}{wrong}"
-        if fine.committed:
-            yield f"  certain now  {' '.join(fine.committed)}"
-        if fine.failed:
-            yield f"  failed       {fine.failed}"
-        if fine.ended:
-            outcome = "happened" if fine.happened else "did not happen"
-            yield f"  over         {fine.ended}: {outcome}"
-            yield f"  inferred     {' '.join(fine.inferred) or 'nothing'}"
-        if not fine.abstract or fine.begun == step.step:
+        yield from _lines(noticed(fine))
+        begins = fine.begun == step.step
+        if not fine.abstract or begins:
             yield from super()._mind(step)
-        if fine.begun == step.step:
-            yield f"  abstract     {fine.abstract}"
-        if fine.zoomed:
-            yield f"  relevant     {' '.join(fine.zoomed)}"
-        if fine.plan:
-            yield f"  refined to   {' '.join(fine.plan)}"
+        yield from _lines(own for own in refined(fine) if begins or own[0] != "abstract")
+
+
+def _lines(said: Said) -> Iterator[str]:
+    """A line per term, or per text where a text is long."""
+    for term, texts in said:
+        separator = SEPARATORS.get(term)
+        shown = texts if separator is None else [separator.join(map(str, texts))]
+        label = "  or" if term == "or" else term
+        yield from (f"  {label:<12} {text}" for text in shown)
 
 
 def narrator_of(setting: Setting, say: Say) -> Narrator:

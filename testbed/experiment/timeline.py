@@ -1,13 +1,13 @@
 """A record in words: where its trial stands, its explanations, and the trial step by step."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from asp.language import Literal
-from testbed.experiment.record import COARSE, Explained, TrialRecord
-from testbed.protocol import Explanation
+from asp.language import Action, Literal
+from testbed.experiment.record import COARSE, Attempt, Explained, Occurrence, Rejected, TrialRecord
+from testbed.protocol import WAIT, Explanation
 
 _TRIAL = Markup(
     "<table><caption>{caption}</caption><thead><tr><th>step</th><th>robot</th><th>others</th>"
@@ -20,7 +20,30 @@ _ROW = Markup(
 
 @dataclass(frozen=True)
 class Step:
-    """A line of a trial's timeline; `kind` is how it is coloured."""
+    """What a record has of a step; `kind` is how it is coloured."""
+
+    number: int
+    attempt: Attempt | None
+    mental: Action | None
+    event: Occurrence | None
+    rejected: Sequence[Rejected]
+    explained: Explained | None
+
+    @property
+    def kind(self) -> str:
+        """Whether the robot acted, and whether that took effect."""
+        return kind_of(None if self.attempt is None else self.attempt.happened)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing begins at it or is heard of."""
+        own = (self.attempt, self.mental, self.event, self.explained)
+        return not self.rejected and all(one is None for one in own)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A step as a row of a table."""
 
     number: int
     kind: str
@@ -29,29 +52,49 @@ class Step:
     explained: str
 
 
-def timeline(record: TrialRecord) -> Iterator[Step]:
+def kind_of(happened: bool | None) -> str:
+    """The kind of a step from whether its physical action, if any, took effect."""
+    return "mental" if happened is None else "done" if happened else "failed"
+
+
+def steps_of(record: TrialRecord) -> Iterator[Step]:
+    """The steps of a trial."""
+    attempts = {own.step: own for own in record.actions}
+    mental = {own.step: own.action for own in record.mental}
+    events = {own.step: own for own in record.exogenous}
+    explanations = {own.step: own for own in record.explanations}
+    for number in range(1, record.steps + 1):
+        yield Step(
+            number,
+            attempts.get(number),
+            mental.get(number),
+            events.get(number),
+            [own for own in record.rejected if own.step == number],
+            explanations.get(number),
+        )
+
+
+def timeline(record: TrialRecord) -> Iterator[Row]:
     """The steps of a trial: what the robot did, what others did, what the robot explained.
 
     At the fine resolution those alone at which something begins or is heard of.
     """
-    attempts = {attempt.step: attempt for attempt in record.actions}
-    mental = {item.step: item.action for item in record.mental}
-    others = {item.step: item for item in record.exogenous}
-    explanations = {item.step: item for item in record.explanations}
-    rejected = {item.step: f"{item.action}, not possible" for item in record.rejected}
-    told = {*rejected, *attempts, *mental, *others, *explanations}
-    for number in range(1, record.steps + 1):
-        attempt, event = attempts.get(number), others.get(number)
-        if record.fine is not None and number not in told:
-            continue
-        kind, robot = "mental", str(mental.get(number, "wait"))
-        if attempt is not None:
-            kind, failed = ("done", "") if attempt.happened else ("failed", " failed")
-            robot = f"{attempt.action}{failed}"
-        unseen = "" if event is None or event.observed else ", unseen"
-        seen = rejected.get(number, "") if event is None else f"{event.action}{unseen}"
-        adopted = explanations.get(number)
-        yield Step(number, kind, robot, seen, explanation(adopted) if adopted else "")
+    for step in steps_of(record):
+        if record.fine is None or not step.is_empty:
+            told = explanation(step.explained) if step.explained else ""
+            yield Row(step.number, step.kind, _robot(step), ", ".join(_others(step)), told)
+
+
+def _robot(step: Step) -> str:
+    if step.attempt is None:
+        return str(step.mental or WAIT)
+    return f"{step.attempt.action}{'' if step.attempt.happened else ' failed'}"
+
+
+def _others(step: Step) -> Iterator[str]:
+    if step.event is not None:
+        yield f"{step.event.action}{'' if step.event.observed else ', unseen'}"
+    yield from (f"{own.action}, not possible" for own in step.rejected)
 
 
 def html_of(record: TrialRecord) -> str:

@@ -4,10 +4,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from typing import Any
 
-from testbed.experiment.record import COARSE, At, Report, TrialRecord
-from testbed.experiment.stories import FineStep, Story, StoryStep
-from testbed.experiment.timeline import explanation
-from testbed.protocol import FINISH, WAIT, Contradiction
+from testbed.experiment.record import COARSE, TrialRecord
+from testbed.experiment.stories import Story, StoryStep
+from testbed.experiment.timeline import Step, kind_of, steps_of
+from testbed.experiment.wording import Said, adopted, at_step, mind
+from testbed.protocol import FINISH, WAIT
 from testbed.report.scenes import Atoms, Scenes, Theatre
 from testbed.world import StateError, UnknownActionError, World
 
@@ -35,28 +36,33 @@ def facts(record: TrialRecord) -> Told:
         "units": record.execution_units,
         "reasoning_s": round(record.reasoning_time_s, 4),
         "steps": record.steps,
-        "explained": [{"step": own.step, "text": explanation(own)} for own in record.explanations],
     }
 
 
 def outline(record: TrialRecord) -> Iterator[Told]:
     """The steps of a trial as far as its record has them, and its end."""
-    attempts = {own.step: own for own in record.actions}
-    mental = {own.step: own.action for own in record.mental}
-    events = {own.step: own for own in record.exogenous}
-    for step in range(1, record.steps + 1):
-        attempt, event = attempts.get(step), events.get(step)
+    for own in steps_of(record):
+        attempt, event = own.attempt, own.event
         yield _filled(
-            step=step,
-            kind=_kind(attempt.happened if attempt else None),
-            action=attempt.action if attempt else FINISH if mental.get(step) == FINISH else WAIT,
-            mental=mental.get(step),
+            step=own.number,
+            kind=own.kind,
+            action=attempt.action if attempt else FINISH if own.mental == FINISH else WAIT,
+            mental=own.mental,
             happened=attempt and attempt.happened,
             event=event and event.action,
             seen=event and event.observed,
-            told=[_at(own) for own in record.reports if own.told == step],
+            skipped=[one.action for one in own.rejected],
+            mind=_terms(_known(record, own)),
         )
     yield {"step": record.steps + 1, "kind": "end"}
+
+
+def _known(record: TrialRecord, step: Step) -> Said:
+    """What a record has of the mind at a step."""
+    if news := [own for own in record.reports if own.told == step.number]:
+        yield "told", [*map(at_step, news)]
+    if step.explained is not None:
+        yield "explanation", [adopted(step.explained)]
 
 
 def without_story(record: TrialRecord, theatre: Theatre, scenes: Scenes) -> list[Told]:
@@ -103,68 +109,26 @@ def _step(step: StoryStep, true: Atoms, seen: bool, theatre: Theatre, scenes: Sc
     mistaken = step.mistaken
     told = _filled(
         step=step.step,
-        kind=_kind(step.happened),
+        kind=kind_of(step.happened),
         action=step.action,
         mental=step.mental,
         happened=step.happened,
         event=step.event,
         seen=seen if step.event else None,
-        told=[*map(_at, step.told)],
-        goal_holds=step.goal_holds,
+        skipped=step.skipped,
+        mind=_terms(mind(step)),
         scene=scenes.world(theatre, true),
         belief=scenes.belief(theatre, true, mistaken) if mistaken else None,
-        unheeded=step.unheeded,
-        contradictions=[*map(_contrary, step.contradictions)],
-        explanation=step.explanation and explanation(step.explanation),
-        alternatives=[*map(explanation, step.alternatives)],
-        more_alternatives=step.more_alternatives or None,
-        intention=step.intention,
-        plan=step.plan,
-        reason=step.reason,
-        also=dict(_also(step)),
     )
     return told | {"mistaken": mistaken}
 
 
-def _also(step: StoryStep) -> Iterator[tuple[str, Sequence[str]]]:
-    """What only some trials have, term by term."""
-    if step.no_plan is not None:
-        yield "no plan", [f"{step.no_plan}, as far as the robot believes"]
-    if step.skipped:
-        yield "not possible", step.skipped
-    yield from _carried_out(step.fine or FineStep())
-
-
-def _carried_out(fine: FineStep) -> Iterator[tuple[str, Sequence[str]]]:
-    """How an abstract action is carried out."""
-    if fine.observed:
-        wrong = {*fine.wrong}
-        yield "observed", [own + ", which is wrong" * (own in wrong) for own in fine.observed]
-    if fine.committed:
-        yield "certain now", fine.committed
-    if fine.failed:
-        yield "failed", [fine.failed]
-    if fine.ended:
-        yield "over", [f"{fine.ended}: {'happened' if fine.happened else 'did not happen'}"]
-        yield "inferred", fine.inferred or ["nothing"]
-    if fine.abstract:
-        yield "abstract action", [fine.abstract]
-    if fine.zoomed:
-        yield "relevant", [" ".join(fine.zoomed)]
-    if fine.plan:
-        yield "refined to", fine.plan
-
-
-def _kind(happened: bool | None) -> str:
-    return "mental" if happened is None else "done" if happened else "failed"
-
-
-def _at(own: At | Report) -> str:
-    return f"{own.action} at step {own.step}"
-
-
-def _contrary(own: Contradiction) -> str:
-    return f"{own.observed} at step {own.step}, against {own.believed}"
+def _terms(said: Said) -> dict[str, list[object]]:
+    """The texts of each term."""
+    terms: dict[str, list[object]] = {}
+    for term, texts in said:
+        terms.setdefault(term, []).extend(texts)
+    return terms
 
 
 def _filled(**values: object) -> Told:

@@ -9,13 +9,15 @@ from zlib import crc32
 
 import pytest
 
+from asp.language import Action
 from benchmarks.own import Own
 from testbed.analysis import load_run
 from testbed.analysis.table import table_of
 from testbed.config import load_config
 from testbed.experiment import store
+from testbed.experiment.narration import narrator_in
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.record import TrialRecord
+from testbed.experiment.record import At, Explained, Rejected, TrialRecord
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import write_config
 from testbed.experiment.stories import Story, decode
@@ -143,7 +145,9 @@ def test_the_last_whole_line_of_a_trial_is_its_story(garden: Played) -> None:
     told = {trial["id"]: trial["story"] for trial in data_of(folder)["trials"]}
     file.write_bytes(lines)
     assert [step.get("action") for step in told[first]] == ["own", None]
-    assert all("intention" not in step for step in told[second])  # damaged: the record alone
+    assert all(
+        "intention" not in step.get("mind", {}) for step in told[second]
+    )  # damaged: the record alone
     assert len(told) == len(stories)
 
 
@@ -161,8 +165,8 @@ def test_the_fine_resolution_says_how_actions_are_carried_out(play: Play, tmp_pa
     folder, *_ = play(own.write(goal=goal, limit=2, robots=["intentional"]))
     told = data_of(folder)
     steps = [step for trial in told["trials"] for step in trial["story"]]
-    terms = {term for step in steps for term in step.get("also", {})}
-    assert {"abstract action", "refined to"} <= terms
+    terms = {term for step in steps for term in step.get("mind", {})}
+    assert {"abstract", "refined to"} <= terms
     assert all(0 <= step["scene"] < len(told["scenes"]) for step in steps)
     assert len({step["scene"] for step in steps}) > 1
 
@@ -229,3 +233,31 @@ def test_of_more_failures_than_a_page_holds_each_condition_has_some() -> None:
 def test_where_all_failed_the_page_is_full() -> None:
     chosen = list(sampled(table_of(many("a", 300, 300))))
     assert sum(map(len, chosen)) == MOST_TRIALS
+
+
+def test_a_record_alone_tells_what_was_not_possible_and_what_is_unproved(tmp_path: Path) -> None:
+    blown, raised = (
+        At(1, Action.parse("blow(sail)")),
+        Rejected(2, Action.parse("raise(sail)"), "no"),
+    )
+    known = Explained(2, [blown], [], minimal="unproved")
+    with store.TrialWriter(tmp_path) as writer:
+        writer.append(a_record(steps=2, rejected=[raised], explanations=[known]))
+    write_config(tmp_path, load_config("office"))
+    (trial,) = data_of(tmp_path)["trials"]
+    assert trial["story"][1]["skipped"] == ["raise(sail)"]
+    (text,) = trial["story"][1]["mind"]["explanation"]
+    assert text.startswith("blow(sail) at step 1")
+    assert "unproved" in text
+
+
+def test_what_a_mind_is_told_to_be_is_told_alike_in_lines_and_in_the_page(garden: Played) -> None:
+    folder, _, stories = garden
+    minds = {trial["id"]: trial["story"] for trial in data_of(folder)["trials"]}
+    for trial, story in stories.items():
+        for step, told in zip(story.steps, minds[trial], strict=False):
+            lines: list[str] = []
+            narrator_in(None, lines.append).tell(step)
+            for term in ("unexpected", "explanation", "because"):
+                own = [line[15:] for line in lines if line[2:].startswith(f"{term} ")]
+                assert own == told["mind"].get(term, []), (trial, step.step)
