@@ -24,7 +24,6 @@ class Narrator:
         self._say = say
         self._true: frozenset[Fluent] = frozenset()
         self._plan: tuple[Action, ...] = ()
-        self._believed = False
 
     def tell(self, step: StoryStep) -> None:
         """Tell one step."""
@@ -55,8 +54,7 @@ class Narrator:
 
     def _belief(self, step: StoryStep) -> str:
         if step.mistaken is None:
-            return "as before" if self._believed else "not reported"
-        self._believed = True
+            return "not reported"
         return " ".join(sorted(believed(self._of_beliefs(), step.mistaken)))
 
     def _of_beliefs(self) -> frozenset[Fluent]:
