@@ -291,7 +291,7 @@ def test_a_trial_with_another_relevance_is_another_trial_with_the_same_seed() ->
 def test_the_published_studies_heed_what_the_released_controller_did() -> None:
     relevances = {name: load_config(name).relevance for name in config_names()}
     published = {name for name, relevance in relevances.items() if relevance == "published"}
-    assert published == {"quickstart", "table1", "levels"}
+    assert published == {"quickstart", "table1", "levels", "ties"}
     assert set(relevances.values()) == {"published", "definition"}
 
 
