@@ -4,6 +4,8 @@ Of a large run the page holds a sample. What it holds is chosen by the table of 
 stories are read of these trials alone.
 """
 
+import json
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,6 +24,8 @@ from testbed.report.scenes import Scenes, theatre_of
 from testbed.report.stories import command_of, serving_command
 from testbed.report.telling import Told, facts, with_story, without_story
 
+OUTSIDE_SCRIPTS = re.compile(r"[^ -;=-~]")
+"""Characters of JSON that may not stand in a script, among some that may."""
 MOST_BYTES = 4 * 2**20
 """Of the trials and drawings that a page holds."""
 
@@ -123,7 +127,15 @@ def _script(
         "scenes": scenes,
         "trials": trials,
     }
-    return Markup(encoded(told).decode().replace("<", r"\u003c"))
+    return Markup(OUTSIDE_SCRIPTS.sub(_escaped, encoded(told).decode()))
+
+
+def _escaped(found: re.Match[str]) -> str:
+    """A character as JSON escapes it, unless it is one that is seen."""
+    character = found[0]
+    if character == "<":
+        return r"\u003c"
+    return character if character.isprintable() else json.dumps(character)[1:-1]
 
 
 def _within(
