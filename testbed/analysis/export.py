@@ -1,5 +1,6 @@
 """The table of a run as files for other programs: Parquet and CSV, written in pieces."""
 
+import errno
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -28,8 +29,8 @@ def export(folder: Path) -> tuple[Path, Path]:
     columnar, text = folder / PARQUET, folder / CSV
     draft = columnar.with_name(f"{PARQUET}.part")
     try:
-        with naming(draft):
-            write_parquet(read_records(folder), draft)
+        with naming(columnar):
+            _write(folder, draft)
         if not pl.scan_parquet(draft).select(pl.len()).collect().item():
             raise StoreError(f"{folder}: has no trials to export yet")
         os.replace(draft, columnar)
@@ -37,6 +38,16 @@ def export(folder: Path) -> tuple[Path, Path]:
         draft.unlink(missing_ok=True)
     replace_lines(text, _csv(pl.scan_parquet(columnar)))
     return columnar, text
+
+
+def _write(folder: Path, file: Path) -> None:
+    """Write the table of a run. Raises OSError where the file cannot hold it."""
+    try:
+        write_parquet(read_records(folder), file)
+    except pl.exceptions.ComputeError as error:
+        if not str(error).startswith("parquet: "):
+            raise
+        raise OSError(errno.EIO, "cannot be written; the disk may be full") from None
 
 
 def _csv(table: pl.LazyFrame) -> Iterator[bytes]:

@@ -1,6 +1,8 @@
 """Each benchmark runs in its smallest size; its sides agree and nothing is left out."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -9,7 +11,6 @@ from agents.shared.reasoning import MOST_DOMAINS
 from benchmarks import (
     decisions,
     driver,
-    growth,
     hostile,
     hostile_settings,
     large_runs,
@@ -63,8 +64,12 @@ def test_decisions_of_all_scenarios_are_those_of_the_reference(
     assert {specs[t].initial for t in warm}.isdisjoint(specs[t].initial for t in measured)
 
 
-def test_growth_has_every_point_and_the_sides_agree() -> None:
-    sheets = rows_of(growth.main("small"))
+def test_growth_has_every_point_and_the_sides_agree(tmp_path: Path) -> None:
+    """In a process of its own: it looks through all objects of its process time and again."""
+    command = [sys.executable, "-m", "benchmarks", "growth", "--size", "small"]
+    subprocess.run([*command, "--out", str(tmp_path)], check=True, capture_output=True)
+    told = json.loads((tmp_path / "growth.json").read_text(encoding="utf-8"))
+    sheets = {sheet["name"]: sheet["rows"] for sheet in told["sheets"]}
     points = {"books": BOOKS, "rooms": ROOMS, "carrying": CARRIED, "corridor": CORRIDORS}
     for name, values in points.items():
         assert column(sheets[name], name) == list(values["small"])

@@ -116,7 +116,9 @@ def test_the_report_of_a_complete_run_says_nothing_of_it(tmp_path: Path) -> None
     play_missing(config, tmp_path, 1, _ignore)
     done = CliRunner().invoke(app, ["report", str(tmp_path)])
     assert "incomplete" not in done.output
-    assert 'class="notice"' not in (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert 'class="notice" role="note"' not in (tmp_path / "report.html").read_text(
+        encoding="utf-8"
+    )
     summary = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
     assert (summary["planned"], summary["missing"]) == (2, {})
 
