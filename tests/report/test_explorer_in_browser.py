@@ -58,14 +58,6 @@ ROOMS = """((which, names, rooms) => {
 })"""
 
 
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    assert CHROMIUM is not None
-    opened = Browser(CHROMIUM, tmp_path_factory.mktemp("profile"))
-    yield opened
-    opened.close()
-
-
 class Played:
     """A run with its page and its records."""
 
