@@ -20,6 +20,7 @@ from testbed.experiment.recorder import NAMED
 from testbed.experiment.robots import ROBOTS
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import sealed
+from testbed.experiment.texts import refuse_another
 from testbed.experiment.trial import setup_of
 from testbed.registry import RegistryError
 
@@ -38,9 +39,7 @@ def row_of(spec: TrialSpec, record: TrialRecord) -> bytes:
     texts, hashes = {}, _hashes(record)
     for key, place in _places(spec.setting).items():
         _, texts[key] = READ[key](place)
-        if hashes[key] not in (None, sha256(texts[key])):
-            other = f"another {key} than trial {spec.trial} was played in"
-            raise StoreError(f"{place}: {other}, whose SHA-256 is {hashes[key]}; bring that back")
+        refuse_another(key, place, texts[key], hashes[key], f"trial {spec.trial}")
     whole = msgspec.to_builtins(record, enc_hook=str) | {"texts": texts}
     return sealed(msgspec.json.encode(whole))
 

@@ -11,6 +11,7 @@ from typing import BinaryIO
 
 from testbed.config import SCENARIO_KEYS, ExperimentConfig, load_config, write_yaml
 from testbed.experiment.errors import StoreError
+from testbed.experiment.texts import check_texts
 
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
 STORIES = "stories.jsonl"
@@ -153,10 +154,15 @@ def replace_lines(path: Path, lines: Iterable[bytes]) -> None:
 
 
 def read_config(folder: Path) -> ExperimentConfig:
-    """The configuration stored in a run folder. Raises StoreError or ConfigError."""
+    """The configuration stored in a run folder, in whose texts its trials were played.
+
+    Raises StoreError, also for another text, or ConfigError.
+    """
     if not (folder / CONFIG).is_file():
         raise StoreError(f"{folder}: is not a run folder (it has no {CONFIG})")
-    return as_played(load_config(folder / CONFIG))
+    config = as_played(load_config(folder / CONFIG))
+    check_texts(folder / TRIALS, _own_files(config))
+    return config
 
 
 def is_stored(path: Path) -> bool:
