@@ -12,6 +12,7 @@ from testbed.config.loading import config_names as config_names
 from testbed.config.loading import find_config as find_config
 from testbed.config.loading import lists_keys as lists_keys
 from testbed.config.loading import load_config as load_config
+from testbed.config.loading import validated as validated
 from testbed.config.models import TRIGGERS as TRIGGERS
 from testbed.config.models import AdversarySettings as AdversarySettings
 from testbed.config.models import ExperimentConfig as ExperimentConfig
@@ -21,5 +22,7 @@ from testbed.config.models import ScenarioSettings as ScenarioSettings
 from testbed.config.models import ScriptEntry as ScriptEntry
 from testbed.config.places import ConfigError as ConfigError
 from testbed.config.places import Finding as Finding
+from testbed.config.places import Key as Key
+from testbed.config.places import Places as Places
 from testbed.config.places import dotted as dotted
 from testbed.config.scenarios import early_script_findings as early_script_findings

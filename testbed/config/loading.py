@@ -49,12 +49,12 @@ def load_config(
         message = str(error) if error.strerror is None else f"{source}: {error.strerror}"
         raise ConfigError([message]) from None
     places = Places(path, text, [item.partition("=")[0] for item in overrides], given_in)
-    config = _checked(compose(text, overrides, places), path, places, checks)
+    config = validated(compose(text, overrides, places), path, places, checks)
     if config.is_sweep:
         _refuse_without_effect(config, overrides, given_in)
         for name, keys in config.sweep.cells.items():
             own = Places(path, text, list(keys), f"{places.of(('sweep',))}: {name}")
-            _checked(_varied(config, keys, own), path, own, checks)
+            validated(_varied(config, keys, own), path, own, checks)
     return config
 
 
@@ -77,10 +77,14 @@ def _varied(config: ExperimentConfig, keys: Mapping[str, Any], places: Places) -
         raise ConfigError([f"{places.elsewhere}: {str(error).splitlines()[0]}"]) from None
 
 
-def _checked(
+def validated(
     composed: dict[str, Any], path: Path, places: Places, checks: Sequence[Check]
 ) -> ExperimentConfig:
-    """The configuration that these keys are. Raises ConfigError."""
+    """The configuration that these keys are; `path` is the file that they stand in.
+
+    Raises:
+        ConfigError: one line per error, each with its place.
+    """
     try:
         config = _located(ExperimentConfig.model_validate(composed), path)
     except ValidationError as error:

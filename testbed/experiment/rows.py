@@ -12,17 +12,15 @@ import msgspec
 
 from asp.language import packaged_domains, read_domain
 from asp.refinement import read_refinement
-from testbed.experiment.adversaries import ADVERSARIES
 from testbed.experiment.errors import StoreError
 from testbed.experiment.origin import Origin, here, sha256
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import NAMED
-from testbed.experiment.robots import ROBOTS
+from testbed.experiment.row_rules import check_row
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import sealed
 from testbed.experiment.texts import refuse_another
 from testbed.experiment.trial import setup_of
-from testbed.registry import RegistryError
 
 ENDINGS = {"domain": ".al", "refinement": ".fine"}
 """Of the files of texts, by what a text is."""
@@ -64,8 +62,9 @@ def trial_of(file: Path, record: TrialRecord, texts: Texts) -> Iterator[TrialSpe
     """The trial of a row, which can be played within this block; `file` is where the row lies.
 
     Raises:
-        StoreError: where the record does not say what it was played under, a text is missing or
-            another than it was, or its robot or adversary is not to be found.
+        StoreError: where the record does not say what it was played under, or a text is missing or
+            another than it was.
+        ConfigError: for what no configuration would allow in it, such as a robot that there is not.
     """
     setting = record.condition
     if setting is None:
@@ -77,7 +76,8 @@ def trial_of(file: Path, record: TrialRecord, texts: Texts) -> Iterator[TrialSpe
         names = _places(setting)
         found = {key: finder.find(key, name, hashes[key]) for key, name in names.items()}
         setting = _placed(setting, found)
-        _check(file, record, setting)
+        check_row(file, record, setting)
+        _check_level(file, record, setting)
         yield TrialSpec(**named, initial=tuple(record.initial), setting=setting)
 
 
@@ -88,17 +88,11 @@ def _placed(setting: Setting, found: Mapping[str, str]) -> Setting:
     return msgspec.structs.replace(setting, domain=found.get("domain", setting.domain), fine=fine)
 
 
-def _check(file: Path, record: TrialRecord, setting: Setting) -> None:
-    """Raise StoreError for another level than was made then, and what is not to be found."""
+def _check_level(file: Path, record: TrialRecord, setting: Setting) -> None:
+    """Raise StoreError for another level than was made then."""
     hashes = tuple(_hashes(record).values())
     if any(hashes) and setup_of(setting).hashes != hashes:
         raise StoreError(f"{file}: the level that is made of its size is another one here")
-    try:
-        ROBOTS.find(record.robot)
-        if setting.strategy is not None:
-            ADVERSARIES.find(setting.strategy)
-    except RegistryError as error:
-        raise StoreError(f"{file}: {error}") from None
 
 
 class _Finder:
