@@ -5,7 +5,9 @@ at the step before is not kept again: the world is told by its changes.
 """
 
 from collections.abc import Iterable, Iterator
+from itertools import pairwise
 from pathlib import Path
+from typing import Annotated
 
 import msgspec
 
@@ -17,6 +19,8 @@ from testbed.protocol import Contradiction, Count, Explanation, NoPlan, literal_
 
 MOST_BYTES = 4 * 2**20
 """Of one story as a line; of one that is longer no steps are kept."""
+MOST_STEPS = 200_000
+"""More of the shortest steps than a line has room for."""
 START = b'{"trial":"'
 """How a line begins, before the id of its trial."""
 
@@ -56,7 +60,7 @@ class StoryStep(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     `fine` has the rest.
     """
 
-    step: Count
+    step: Annotated[int, msgspec.Meta(ge=0, le=MOST_STEPS)]
     action: Action
     mental: Action | None = None
     happened: bool | None = None
@@ -117,11 +121,15 @@ def encode(story: Story) -> bytes:
 
 
 def decode(line: bytes) -> Story:
-    """The story in a line. Raises msgspec.DecodeError for anything else."""
+    """The story in a line. Raises msgspec.DecodeError for anything else, and where a step lacks."""
     try:
-        return _decoder.decode(line)
+        story = _decoder.decode(line)
     except (UnicodeDecodeError, RecursionError) as error:
         raise msgspec.DecodeError(str(error)) from error
+    for step, following in pairwise(story.steps):
+        if following.step != step.step + 1:
+            raise msgspec.DecodeError(f"after step {step.step} comes step {following.step}")
+    return story
 
 
 def story_lines(folder: Path) -> Iterator[tuple[str, bytes]]:
@@ -173,7 +181,7 @@ class StoryFile:
             return None
         with self._path.open("rb") as file:
             file.seek(self._places[trial])
-            story = _whole(file.readline())
+            story = _whole(file.readline(MOST_BYTES))
         # Of a file that was replaced since the last look another story may stand there.
         return story if story is not None and story.trial == trial else None
 

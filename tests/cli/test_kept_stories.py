@@ -118,6 +118,24 @@ def test_of_a_trial_that_is_told_twice_the_last_story_counts(copied: Path) -> No
     assert [step.action for step in _stories(copied)[trial].steps] == ["wait"]
 
 
+@pytest.mark.parametrize("numbers", [(2**31 - 1,), (-1,), (1, 2**31 - 1), (1, 3), (2, 1), (1, 1)])
+def test_a_story_whose_steps_do_not_follow_each_other_is_none(
+    copied: Path, numbers: tuple[int, ...]
+) -> None:
+    """Its trial is shown by its record; a page of what is told there would have no end."""
+    (record, *_) = _records(copied)
+    trial = str(record["trial"])
+    told = {"trial": trial, "steps": [{"step": own, "action": "wait"} for own in numbers]}
+    with (copied / STORIES).open("ab") as file:
+        file.write(json.dumps(told, separators=(",", ":")).encode() + b"\n")
+    assert trial not in _stories(copied)
+    assert _invoke("report", str(copied))[0] == 0
+    page = (copied / "report.html").read_text(encoding="utf-8")
+    shown = json.loads(page.partition('id="explorer-data">')[2].partition("</script>")[0])
+    (own,) = [one for one in shown["trials"] if one["id"] == trial]
+    assert [step["step"] for step in own["story"]] == [*range(1, int(str(record["steps"])) + 2)]
+
+
 def test_stories_are_read_on_as_they_come(copied: Path) -> None:
     lines = (copied / STORIES).read_bytes().splitlines(keepends=True)
     (copied / STORIES).unlink()

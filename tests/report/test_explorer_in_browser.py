@@ -484,6 +484,30 @@ def test_a_run_without_stories_is_told_as_far_as_its_records_are(
     assert tab.events("Runtime.exceptionThrown") == []
 
 
+def test_a_time_line_has_the_steps_that_there_are(browser: Browser, tmp_path: Path) -> None:
+    """However high their numbers, so that no page counts for ever."""
+    with TrialWriter(tmp_path) as writer:
+        writer.append(a_record(steps=3))
+    write_report(tmp_path, load_config("office"))
+    page, far = (tmp_path / REPORT).read_text(encoding="utf-8"), 2**31 - 1
+    head, data, rest = _split(page)
+    data["trials"][0]["story"][-1]["step"] = far
+    (tmp_path / REPORT).write_text(f"{head}{json.dumps(data)}{rest}", encoding="utf-8")
+    tab = Tab(browser, (tmp_path / REPORT).as_uri(), DESK, "light")
+    steps = "[...document.querySelectorAll('.system i')].map(own => Number(own.dataset.step))"
+    assert tab.evaluate(steps) == [1, 2, 3, far]
+    _slide(tab, far)
+    assert tab.evaluate(STEP).split()[1] == str(far)
+    assert tab.events("Runtime.exceptionThrown") == []
+
+
+def _split(page: str) -> tuple[str, dict[str, Any], str]:
+    """A page around the data of its explorer."""
+    before, mark, after = page.partition('id="explorer-data">')
+    data, _, rest = after.partition("</script>")
+    return before + mark, json.loads(data), f"</script>{rest}"
+
+
 def test_a_link_to_a_trial_that_is_not_there_says_so(browser: Browser, run: Played) -> None:
     tab = Tab(browser, f"{run.page.as_uri()}#trial=nosuch&step=2", DESK, "light")
     tab.until("!document.querySelector('[data-part=warning]').hidden")
