@@ -21,6 +21,8 @@ KEYS = {
     "outcome": "outcome",
 }
 """What trials are chosen by, with the columns of the table."""
+TRIAL = ("study", "trial")
+"""Columns that tell trials of runs apart."""
 MOST_PAIRS, MOST_OFFSET = 200, 10**9
 
 
@@ -76,7 +78,7 @@ def studies_of(runs: Sequence[Run]) -> list[str]:
 class Catalogue:
     """All trials of runs, as they were when they were read.
 
-    A trial that several of the runs have is that of the first of them.
+    Runs of the same configuration have trials of the same ids, which their studies tell apart.
     """
 
     def __init__(self, runs: Sequence[Run]) -> None:
@@ -84,7 +86,7 @@ class Catalogue:
         self._tellers = {study: Teller(run, study) for study, run in named}
         known = ("trial", "pair", "achieved", "correct", "robot", "outcome", *PLACE)
         listed = [run.table.select(known).with_columns(study=pl.lit(study)) for study, run in named]
-        trials = pl.concat(listed).unique("trial", keep="first", maintain_order=True).collect()
+        trials = pl.concat(listed).unique(TRIAL, keep="first", maintain_order=True).collect()
         place = ("study", *PLACE)
         order = pairs_of(trials, place).with_row_index("place").select("place", *place, "pair")
         self._trials = trials.join(order, on=[*place, "pair"], maintain_order="left").sort(
@@ -109,9 +111,12 @@ class Catalogue:
             ],
         }
 
-    def pair(self, trial: str) -> Told | None:
-        """The pair of a trial, with all that there is to see; None where there is no such trial."""
-        places = self._trials.filter(trial=trial)["place"]
+    def pair(self, trial: str, query: Query) -> Told | None:
+        """The pair of a trial, with all that there is to see; None where there is no such trial.
+
+        Of several runs that have the trial it is the first one which the query chooses.
+        """
+        places = self._trials.filter(pl.col("trial") == trial, *self._conditions(query))["place"]
         if not len(places):
             return None
         scenes = Scenes()
@@ -121,12 +126,12 @@ class Catalogue:
 
     def _records(self, trials: pl.DataFrame) -> list[tuple[Teller, TrialRecord]]:
         """The records of these trials in their order, each with who tells it."""
-        found: dict[str, tuple[Teller, TrialRecord]] = {}
+        found: dict[tuple[str, str], tuple[Teller, TrialRecord]] = {}
         for study in trials["study"].unique():
             teller = self._tellers[study]
             records = teller.records(trials.filter(study=study)["trial"])
-            found |= {trial: (teller, record) for trial, record in records.items()}
-        return [found[trial] for trial in trials["trial"]]
+            found |= {(study, trial): (teller, record) for trial, record in records.items()}
+        return [found[own] for own in trials.select(TRIAL).iter_rows()]
 
     def _facet(self, query: Query, key: str) -> dict[str, int]:
         """How many trials there are of each value, under the other choices."""

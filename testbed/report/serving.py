@@ -51,7 +51,7 @@ class Site:
         if path == "trials.json":
             return JSON, encoded(self._catalogue.found(_query(query)))
         trial = TRIAL.fullmatch(path)
-        told = self._catalogue.pair(trial[1]) if trial else None
+        told = self._catalogue.pair(trial[1], _query(query)) if trial else None
         if told is None:
             raise RefusedError(HTTPStatus.NOT_FOUND, "no such trial" if trial else "no such page")
         return JSON, encoded(told)

@@ -287,13 +287,31 @@ def test_a_trial_of_several_runs_comes_with_its_pair_in_its_own_run(
         assert {shlex.split(trial["command"])[2] for trial in found["trials"]} == {str(folder)}
 
 
-def test_a_trial_that_two_runs_have_is_that_of_the_first(folder: Path, tmp_path: Path) -> None:
+def test_runs_of_one_configuration_are_told_apart(folder: Path, tmp_path: Path) -> None:
+    """Their trials have the same ids; one that is asked for by its id alone is the first run's."""
     copied = tmp_path / "copied"
     shutil.copytree(folder, copied)
     for server in _serving(Site(PAGE, [load_run(folder), load_run(copied)])):
-        found = told(server, "/trials.json", limit=200)
-        assert found["total"] == len(found["trials"]) == 4 * PAIRS
-        assert {shlex.split(own["command"])[2] for own in found["trials"]} == {str(folder)}
+        assert told(server, "/trials.json")["total"] == 8 * PAIRS
+        for own in (folder, copied):
+            study = f"own ({own})"
+            found = told(server, "/trials.json", study=study, limit=200)
+            assert found["total"] == len(found["trials"]) == 4 * PAIRS
+            trials = [
+                *found["trials"],
+                *told(server, "/trial/calm-07-one.json", study=study)["trials"],
+            ]
+            assert {shlex.split(trial["command"])[2] for trial in trials} == {str(own)}
+        first = told(server, "/trial/calm-07-one.json")["trials"]
+        assert {shlex.split(trial["command"])[2] for trial in first} == {str(folder)}
+        assert [trial["id"] for trial in first] == ["calm-07-one", "calm-07-two"]
+        refused(server, "/trial/calm-07-one.json?study=nothing", 404)
+        refused(server, "/trial/calm-07-one.json?colour=red", 400)
+
+
+def test_a_run_that_is_given_twice_is_one(folder: Path) -> None:
+    for server in _serving(Site(PAGE, [load_run(folder), load_run(folder)])):
+        assert told(server, "/trials.json")["total"] == 4 * PAIRS
 
 
 @pytest.fixture(scope="module")
