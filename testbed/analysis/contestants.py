@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import polars as pl
 
@@ -32,7 +32,8 @@ class Contrast:
 
     `pairs` count; `baseline` and `treatment` are the shares of trials that achieve the goal, `test`
     McNemar's test of these; `ratios`, by measure, are of the baseline to the treatment over the
-    pairs in which both achieve it, each with Wilcoxon's test.
+    pairs in which both achieve it, each with Wilcoxon's test. `condition` is the sweep's that both
+    are of, "" where it is not one.
     """
 
     robots: Compared
@@ -42,6 +43,12 @@ class Contrast:
     treatment: Estimate | None
     test: Test | None
     ratios: Mapping[str, Ratio]
+    condition: str = ""
+
+    @property
+    def names(self) -> Compared:
+        """What is compared, without the condition that both are of."""
+        return Compared(*(_without(name, self.condition) for name in self.robots))
 
 
 def contrasts(
@@ -72,7 +79,12 @@ def contrasts(
         several = "the runs have no robot in common under the same condition"
         why = several if len(runs) > 1 else f"there is only {names[0]}"
         raise StoreError(f"nothing to compare: {why}; name two by --baseline and --treatment")
-    found = [own for robots in asked for own in _by_place(trials, robots, sure)]
+    cells = dict(_cells(runs, labels))
+    found = [
+        replace(own, condition=_common(robots, cells))
+        for robots in asked
+        for own in _by_place(trials, robots, sure)
+    ]
     if baseline is None and treatment is None and len(runs) == 1 and runs[0].config.is_sweep:
         found += _over_conditions(runs[0], sure)
     return corrected(found)
@@ -110,6 +122,23 @@ def _asked(runs: Sequence[Run], labels: Sequence[str]) -> Iterator[Compared]:
 
 def _name(run: Run, label: str, cell: str, robot: str) -> str:
     return MARK.join([*[label] * bool(label), *[cell] * run.config.is_sweep, robot])
+
+
+def _cells(runs: Sequence[Run], labels: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """The names of what runs hold, each with its condition."""
+    for run, label in zip(runs, labels, strict=True):
+        for cell in run.conditions:
+            yield from ((_name(run, label, cell, robot), cell) for robot in run.config.robots)
+
+
+def _common(robots: Compared, cells: Mapping[str, str]) -> str:
+    """The condition that both are of, "" where they are not of one."""
+    cell, *others = {cells.get(name, "") for name in robots}
+    return "" if others else cell
+
+
+def _without(name: str, cell: str) -> str:
+    return name.replace(f"{cell}{MARK}", "", 1) if cell else name
 
 
 def _known(name: str, names: Sequence[str]) -> str:

@@ -16,8 +16,8 @@ def grid(found: Iterable[Contrast]) -> Grid:
     heads = ("treatment / baseline", "in", "pairs", "baseline achieves", "treatment achieves")
     rows = [
         (
-            f"{own.robots.treatment} against {own.robots.baseline}",
-            own.place,
+            f"{own.names.treatment} against {own.names.baseline}",
+            f"{own.place} under {own.condition}" if own.condition else own.place,
             str(own.pairs),
             Cell(own.baseline, share=True).value.whole,
             Cell(own.treatment, share=True).value.whole + _tested(own.test),

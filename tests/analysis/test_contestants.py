@@ -142,6 +142,37 @@ def test_the_command_shows_every_comparison(swept: Path) -> None:
     assert len(done.output.splitlines()) == 1 + 3
 
 
+def _shown(*arguments: str | Path) -> list[str]:
+    """The lines of a comparison below its heads."""
+    asked = ["compare", *map(str, arguments)]
+    done = CliRunner(env={"COLUMNS": "300"}).invoke(app, asked)
+    assert done.exit_code == 0, done.output
+    return done.output.splitlines()[1:]
+
+
+def test_a_condition_of_both_is_named_once(swept: Path, tmp_path: Path) -> None:
+    cells = [f"adversary.rate={rate}" for rate in (0.2, 0.9)]
+    of_robots = _shown(swept)
+    assert [[line.count(cell) for cell in cells] for line in of_robots] == [[1, 0], [0, 1], [0, 0]]
+    assert all(line.startswith("intentional against traditional ") for line in of_robots)
+    copy = shutil.copytree(swept, tmp_path / "again")
+    of_runs = _shown(swept, copy)
+    assert [sum(line.count(cell) for cell in cells) for line in of_runs] == [1] * len(of_runs)
+    assert "again / traditional against gusts / traditional" in "".join(of_runs)
+    names = [f"{cell} / traditional" for cell in cells]
+    (line,) = _shown(swept, "--baseline", names[0], "--treatment", names[1])
+    assert line.startswith(f"{names[1]} against {names[0]} ")
+    assert [line.count(cell) for cell in cells] == [1, 1]
+
+
+def test_a_condition_without_trials_is_named_once_as_well(swept: Path, tmp_path: Path) -> None:
+    begun = shutil.copytree(swept, tmp_path / "begun")
+    lines = (begun / "trials.jsonl").read_text("utf-8").splitlines(keepends=True)
+    kept = [line for line in lines if '"cell":"adversary.rate=0.2"' in line]
+    (begun / "trials.jsonl").write_text("".join(kept), encoding="utf-8")
+    assert [line.count("adversary.rate=0.9") for line in _shown(begun)] == [0, 1, 0]
+
+
 def test_runs_in_folders_of_one_name_are_told_apart(swept: Path, tmp_path: Path) -> None:
     """Each trial of the one is a pair with one of the other, and with no more."""
     copy = shutil.copytree(swept, tmp_path / swept.name)
