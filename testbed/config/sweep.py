@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
@@ -153,12 +154,18 @@ def _refusal(key: str) -> str | None:
 
 
 def _axis(lists: Mapping[str, Sequence[Any]]) -> Axis:
-    """Lists that are gone through together; a point is named by the first key that tells it."""
+    """Lists that are gone through together; a point is named by the first key, or else by all.
+
+    Raises PydanticCustomError where not even all of them tell the points apart.
+    """
     first = next(iter(lists))
     rows = [dict(zip(lists, values, strict=True)) for values in zip(*lists.values(), strict=True)]
     texts = [_named(row, [first]) for row in rows]
     if len(set(texts)) < len(rows):
         texts = [_named(row, lists) for row in rows]
+    ((text, times),) = Counter(texts).most_common(1)
+    if times > 1:
+        raise PydanticCustomError("sweep", f"has {text} {times} times; keep one of them")
     return Axis(first, dict(zip(texts, rows, strict=True)))
 
 

@@ -108,6 +108,8 @@ sweep:
         ("{grid: {limits.steps: []}}", "should not be empty"),
         ("{zip: {limits.steps: [1], limits.plan: [1, 2]}}", "limits.plan has 2"),
         ("{grid: {limits.steps: [1]}, zip: {limits.steps: [2]}}", "limits.steps twice"),
+        ("{grid: {adversary.rate: [0.5, 0.1, 0.50]}}", "adversary.rate=0.5 2 times"),
+        ("{zip: {limits.steps: [7, 7], limits.plan: [2, 2]}}", "limits.steps=7, limits.plan=2 2"),
         ("{grd: {limits.steps: [1]}}", "did you mean 'grid'?"),
         ("{grid: {limits.steps: '1:1000:1', limits.plan: '1:1000:1'}}", "1000000 conditions"),
     ],
