@@ -129,7 +129,7 @@ class Sweep(Section):
     @property
     def axes(self) -> tuple[Axis, ...]:
         """What is varied, as it was given: named conditions, zipped groups, single keys."""
-        groups = [*self.zip, *({key: values} for key, values in self.grid.items())]
+        groups = [*filter(None, self.zip), *({key: own} for key, own in self.grid.items())]
         named = [Axis("condition", self.conditions)] if self.conditions else []
         return (*named, *map(_axis, groups))
 

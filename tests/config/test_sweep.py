@@ -56,6 +56,13 @@ def test_without_a_sweep_there_is_one_condition_that_changes_nothing(tmp_path: P
     assert not config.is_sweep
 
 
+@pytest.mark.parametrize(("zipped", "size"), [({}, 2), ([], 2), ([{}, {"b": [3, 4]}], 4)])
+def test_a_group_without_keys_takes_nothing_from_the_others(zipped: object, size: int) -> None:
+    swept = Sweep.model_validate({"zip": zipped, "grid": {"a": [1, 2]}})
+    assert {own["a"] for own in swept.cells.values()} == {1, 2}
+    assert swept.size == len(swept.cells) == size
+
+
 def test_zipped_values_that_a_first_key_does_not_tell_are_named_by_all() -> None:
     (axis,) = Sweep.model_validate({"zip": {"a": [1, 1], "b": [3, 4]}}).axes
     assert list(axis.points) == ["a=1, b=3", "a=1, b=4"]
