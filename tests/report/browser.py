@@ -11,10 +11,22 @@ import time
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 CHROMIUM = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))),
     None,
 )
+AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
+"""What `make test` installs by `package.json`."""
+AXE_CORE = pytest.mark.skipif(
+    not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report"
+)
+# Rules of WCAG 2 up to AA, and best practices, that a part of the page breaks.
+VIOLATIONS = """axe.run(document, {resultTypes: ['violations']}).then(found =>
+  found.violations.flatMap(rule => rule.nodes.map(node => [rule.id, node.html.slice(0, 120)])))"""
+PHONE, DESK = 390, 1300
+"""Widths of a page."""
 PATIENCE_S = 600.0
 HIGH = 20  # descriptors from here on are not those that the browser reads and writes
 # A program of its own: what subprocess runs between fork and exec may hang where there are threads.
@@ -151,6 +163,16 @@ class Tab:
         """The parameters of the events of these names."""
         own = [e for e in self._browser.events if e.get("sessionId") == self._session]
         return [event["params"] for event in own if event["method"] in methods]
+
+    def complaints(self) -> list[Event]:
+        """What the page wrote to the console, and errors that nothing caught."""
+        return self.events("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
+
+    def violations(self) -> list[list[str]]:
+        """The rules of accessibility that axe-core finds broken, each with the element."""
+        self.evaluate(AXE.read_text(encoding="utf-8") + ";0")
+        broken: list[list[str]] = self.evaluate(VIOLATIONS)
+        return broken
 
     def _wait(self, method: str) -> None:
         while not self.events(method):

@@ -1,85 +1,33 @@
 """The explorer of the report in a real browser: filters, pairs, steps, links, keys, copies."""
 
 import json
-import shlex
-import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import pytest
 
 from asp.language import Action, Literal, read_domain, scenario_notes
-from testbed.config import ExperimentConfig, load_config
+from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import Attempt, TrialRecord
 from testbed.experiment.robots import make_robot
 from testbed.experiment.run_folder import REPORT
-from testbed.experiment.runner import play_missing
-from testbed.experiment.store import TrialWriter, read_records
+from testbed.experiment.store import TrialWriter
 from testbed.experiment.trial import Moment, play_trial
 from testbed.link import InProcessRobot
 from testbed.report import write_report
-from testbed.report.page import page_of_several, written_report
-from testbed.report.serving import Server, Site
 from testbed.world import load_world
 from tests.experiment.samples import a_record
-from tests.report.browser import CHROMIUM, Browser, Tab
+from tests.report.browser import AXE_CORE, CHROMIUM, DESK, PHONE, Browser, Tab
+from tests.report.explorer import ROBOT, STEP, Played, chosen, drawn, slide, text
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here")
 
-PHONE, DESK = 390, 1300
-AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
-"""What `make test` installs by `package.json`."""
-VIOLATIONS = """axe.run(document, {resultTypes: ['violations']}).then(found =>
-  found.violations.flatMap(rule => rule.nodes.map(node => [rule.id, node.html.slice(0, 120)])))"""
-SWEPT = ["link=inprocess", "sweep.grid={goal_feedback: [true, false]}"]
-"""Trials of two conditions."""
-ROBOT = "document.querySelectorAll('.robot')"
-STEP = "document.querySelector('.transport output').textContent"
 PLAYS = "document.querySelector('.player').matches('.plays')"
 HOME, END, LEFT, RIGHT = ("Home", 36), ("End", 35), ("ArrowLeft", 37), ("ArrowRight", 39)
 SPACE = (" ", 32)
-
-# In which room of the first robot's drawing each of these names stands; of a room its own name.
-ROOMS = """((which, names, rooms) => {
-  const svg = document.querySelector(`.robot [data-part=${which}] svg`);
-  const texts = [...svg.querySelectorAll('text')];
-  const boxes = [...svg.querySelectorAll('rect')].map(own => own.getBoundingClientRect());
-  const around = name => {
-    const text = texts.find(own => own.textContent === name)?.getBoundingClientRect();
-    const holds = box => box.left <= text.left && text.right <= box.right
-      && box.top <= text.top && text.bottom <= box.bottom;
-    return text && boxes.filter(holds).sort((a, b) => b.width * b.height - a.width * a.height)[0];
-  };
-  return names.map(name => rooms.find(room => around(room) === around(name)) ?? null);
-})"""
-
-
-class Played:
-    """A run with its page and its records."""
-
-    def __init__(self, folder: Path, config: ExperimentConfig) -> None:
-        play_missing(config, folder, 1, lambda _: None)
-        write_report(folder, config)
-        self.config, self.page = config, folder / REPORT
-        self.records = list(read_records(folder))
-
-    def one(self, scenario: str, robot: str) -> TrialRecord:
-        """The first record of a robot in a scenario."""
-        found = (r for r in self.records if (r.scenario, r.robot) == (scenario, robot))
-        return next(found)
-
-    def address(self, record: TrialRecord, step: int = 1) -> str:
-        """The link to a step of a trial."""
-        return f"{self.page.as_uri()}#trial={record.trial}&step={step}"
-
-
-@pytest.fixture(scope="module")
-def run(tmp_path_factory: pytest.TempPathFactory) -> Played:
-    return Played(tmp_path_factory.mktemp("quickstart"), load_config("quickstart", SWEPT))
 
 
 @pytest.fixture
@@ -90,38 +38,6 @@ def opened(browser: Browser, run: Played) -> Callable[..., Tab]:
         return Tab(browser, run.address(record, step), width, media.pop("scheme", "light"), **media)
 
     return tab
-
-
-def _chosen(tab: Tab, key: str, value: str) -> list[str]:
-    """The trials that are listed once a filter has a value."""
-    tab.evaluate(f"""(() => {{
-      const select = document.querySelector('select[name={key}]');
-      select.value = {json.dumps(value)};
-      select.dispatchEvent(new Event('change', {{bubbles: true}}));
-    }})()""")
-    listed: list[str] = tab.evaluate(
-        "[...document.querySelectorAll('.found [data-trial]')].map(own => own.dataset.trial)"
-    )
-    return listed
-
-
-def _slide(tab: Tab, step: int) -> None:
-    tab.evaluate(f"""(() => {{
-      const slider = document.querySelector('input[type=range]');
-      slider.value = {step};
-      slider.dispatchEvent(new Event('input', {{bubbles: true}}));
-    }})()""")
-
-
-def _drawn(tab: Tab, names: Sequence[str], rooms: Sequence[str], which: str = "world") -> list[str]:
-    given = ", ".join(json.dumps(own) for own in (which, list(names), list(rooms)))
-    drawn: list[str] = tab.evaluate(f"{ROOMS}({given})")
-    return drawn
-
-
-def _text(tab: Tab, part: str, robot: int = 0) -> str:
-    text: str = tab.evaluate(f"{ROBOT}[{robot}].querySelector('[data-part={part}]').innerText")
-    return text
 
 
 def _moments(run: Played, record: TrialRecord) -> list[Moment]:
@@ -140,10 +56,10 @@ def test_a_filter_leaves_just_the_trials_with_its_value(browser: Browser, run: P
     for key, column in keys.items():
         for value in {getattr(record, column) for record in run.records}:
             expected = [r.trial for r in run.records if getattr(r, column) == value]
-            assert sorted(_chosen(tab, key, value)) == sorted(expected), (key, value)
+            assert sorted(chosen(tab, key, value)) == sorted(expected), (key, value)
             count = tab.evaluate("document.querySelector('.count').textContent")
             assert count.split()[0] == str(len(expected))
-        assert len(_chosen(tab, key, "")) == len(run.records)
+        assert len(chosen(tab, key, "")) == len(run.records)
 
 
 def test_pairs_in_which_a_robot_failed_come_first(browser: Browser, run: Played) -> None:
@@ -162,7 +78,7 @@ def test_both_robots_of_a_pair_are_on_one_time_line(
     both = [r for r in run.records if (r.pair, r.cell) == (record.pair, record.cell)]
     tab = opened(record)
     for number, own in enumerate(sorted(both, key=lambda r: r.robot)):
-        assert _text(tab, "name", number) == own.robot
+        assert text(tab, "name", number) == own.robot
         marks = f"document.querySelectorAll('.system .strip')[{number}].querySelectorAll('i')"
         kinds = tab.evaluate(f"[...{marks}].map(own => own.classList[0])")
         done = {a.step: "done" if a.happened else "failed" for a in own.actions}
@@ -191,15 +107,15 @@ def test_the_slider_shows_the_state_of_each_step(
     tab, state = opened(record), world.state(record.initial)
     tab.evaluate("document.querySelector('.beside input').click()")
     for step in range(1, record.steps + 2):
-        _slide(tab, step)
+        slide(tab, step)
         assert tab.evaluate(STEP).split()[1] == str(step)
         at = {a.arguments[0]: a.arguments[1] for a in world.true_atoms(state) if a.name == "loc"}
-        assert _drawn(tab, names, rooms) == [at[name] for name in names], step
+        assert drawn(tab, names, rooms) == [at[name] for name in names], step
         own = [a.action for a in record.actions if a.step == step and a.happened]
         others = [e.action for e in record.exogenous if e.step == step]
         if own or others:
             state = world.successor(state, [*map(Action.parse, map(str, [*own, *others]))])
-    assert _text(tab, "outcome").split(maxsplit=1)[1] == record.outcome.replace("_", " ")
+    assert text(tab, "outcome").split(maxsplit=1)[1] == record.outcome.replace("_", " ")
 
 
 def test_what_a_robot_has_wrong_is_marked_and_listed(
@@ -211,7 +127,7 @@ def test_what_a_robot_has_wrong_is_marked_and_listed(
     tab.evaluate("document.querySelector('.beside input').click()")
     for moment in _moments(run, record):
         step, belief = moment.percept.step, {*map(str, moment.decision.trace.belief)}
-        _slide(tab, step)
+        slide(tab, step)
         marked = tab.evaluate(f"{ROBOT}[0].querySelector('[data-part=belief]').matches('.wrong')")
         told = tab.evaluate(
             f"[...{ROBOT}[0].querySelectorAll('.differs code')].map(own => own.textContent)"
@@ -223,8 +139,8 @@ def test_what_a_robot_has_wrong_is_marked_and_listed(
         for literal in (own for own in wrong if own.startswith("-loc")):
             thing, room = Literal.parse(literal).complement.arguments
             rooms = world.description.sorts["room"]
-            assert _drawn(tab, [thing], rooms, "belief") == [room]
-            assert "≠" in _text(tab, "belief").replace("≠ In truth", "")
+            assert drawn(tab, [thing], rooms, "belief") == [room]
+            assert "≠" in text(tab, "belief").replace("≠ In truth", "")
             seen += 1
     assert seen > 0
 
@@ -234,7 +150,7 @@ def test_a_step_tells_the_mind_of_the_robot(opened: Callable[..., Tab], run: Pla
     explained = record.explanations[0]
     trace = _moments(run, record)[explained.step - 1].decision.trace
     tab = opened(record, explained.step)
-    told = _text(tab, "mind")
+    told = text(tab, "mind")
     for event in explained.unobserved:
         assert event.action in told
     for contrary in explained.contradictions:
@@ -244,16 +160,16 @@ def test_a_step_tells_the_mind_of_the_robot(opened: Callable[..., Tab], run: Pla
     note = scenario_notes(*reversed(read_domain("office")))[record.scenario]
     assert tab.evaluate("document.querySelector('[data-part=note]').textContent") == note
     event = record.exogenous[0]
-    _slide(tab, event.step)
-    assert str(event.action) in _text(tab, "event")
-    assert "unseen" in _text(tab, "event")
+    slide(tab, event.step)
+    assert str(event.action) in text(tab, "event")
+    assert "unseen" in text(tab, "event")
 
 
 def test_a_link_leads_to_a_step_and_back(opened: Callable[..., Tab], run: Played) -> None:
     record, other = run.one("5", "intentional"), run.one("6", "intentional")
     tab = opened(record, 3)
     assert tab.evaluate(STEP).split()[1] == "3"
-    assert record.trial in _text(tab, "command")
+    assert record.trial in text(tab, "command")
     tab.press(*RIGHT)
     tab.until(f"location.hash === '#trial={record.trial}&step=4'")
     tab.evaluate(f"document.querySelector('.found [data-trial=\"{other.trial}\"]').click()")
@@ -270,7 +186,7 @@ def test_a_link_leads_to_a_step_and_back(opened: Callable[..., Tab], run: Played
 def test_back_leads_to_what_was_shown_at_first(browser: Browser, run: Played) -> None:
     other = run.one("6", "intentional")
     tab = Tab(browser, run.page, DESK, "light")
-    first = _text(tab, "command")
+    first = text(tab, "command")
     assert other.trial not in first
     tab.evaluate(f"document.querySelector('.found [data-trial=\"{other.trial}\"]').click()")
     tab.until(f"{ROBOT}[0].textContent.includes('{other.trial}')")
@@ -337,7 +253,7 @@ def test_one_robot_can_be_looked_at_alone(opened: Callable[..., Tab], run: Playe
     assert tab.evaluate(f"{ROBOT}.length") == 2
     tab.evaluate("document.querySelector('.beside input').click()")
     assert tab.evaluate(f"{ROBOT}.length") == 1
-    assert _text(tab, "name") == "traditional"
+    assert text(tab, "name") == "traditional"
     assert tab.evaluate(STEP).split()[1] == "2"
 
 
@@ -360,12 +276,12 @@ def test_a_phone_compares_a_pair(opened: Callable[..., Tab], run: Played) -> Non
     bar = tab.evaluate("document.querySelector('.transport').offsetHeight")
     both = [r.steps for r in run.records if (r.pair, r.cell) == (record.pair, record.cell)]
     for step in range(1, min(both) + 1):
-        _slide(tab, step)
-        drawn = tab.evaluate(boxes)
+        slide(tab, step)
+        placed = tab.evaluate(boxes)
         order = ["name", "world"] * 2 + ["belief"] * 2 + ["mind"] * 2
-        assert [part for part, _, _ in drawn] == order
-        assert all(above[2] <= below[1] for above, below in pairwise(drawn))
-        assert drawn[3][2] - drawn[0][1] <= tab.evaluate("innerHeight") - bar
+        assert [part for part, _, _ in placed] == order
+        assert all(above[2] <= below[1] for above, below in pairwise(placed))
+        assert placed[3][2] - placed[0][1] <= tab.evaluate("innerHeight") - bar
 
 
 def test_where_a_time_line_wraps_a_robot_that_is_over_has_no_row(
@@ -401,7 +317,7 @@ def test_a_step_leaves_the_page_where_its_reader_is(
     assert tab.evaluate(at)[0] == pytest.approx(before, abs=2)
 
 
-@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report")
+@AXE_CORE
 @pytest.mark.parametrize(("width", "scheme"), [(DESK, "light"), (DESK, "dark"), (PHONE, "light")])
 def test_no_rule_of_accessibility_is_broken_where_a_belief_is_wrong(
     opened: Callable[..., Tab], run: Played, width: int, scheme: str
@@ -409,8 +325,7 @@ def test_no_rule_of_accessibility_is_broken_where_a_belief_is_wrong(
     tab = opened(run.one("2", "traditional"), 5, width, scheme=scheme)
     assert tab.evaluate("document.querySelectorAll('.wrong svg').length") == 1
     tab.evaluate("document.querySelectorAll('.robot details').forEach(own => own.open = true)")
-    tab.evaluate(AXE.read_text(encoding="utf-8") + ";0")
-    assert tab.evaluate(VIOLATIONS) == []
+    assert tab.violations() == []
 
 
 def test_nothing_is_asked_for_or_complained_of_while_it_is_used(
@@ -427,8 +342,7 @@ def test_nothing_is_asked_for_or_complained_of_while_it_is_used(
     asked: list[Any] = tab.events("Network.requestWillBeSent")
     urls = {event["request"]["url"] for event in asked}
     assert {url for url in urls if not url.startswith("data:")} == {run.page.as_uri()}
-    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
-    assert tab.events(*complaints) == []
+    assert tab.complaints() == []
 
 
 def test_texts_that_would_break_out_of_the_page_are_shown_as_text(
@@ -459,12 +373,11 @@ def test_texts_that_would_break_out_of_the_page_are_shown_as_text(
     tab.evaluate("document.querySelectorAll('details').forEach(own => own.open = true)")
     assert tab.evaluate("window.broken === undefined && !document.querySelector('img')")
     for part in ("name", "mind", "facts"):
-        assert shown in " ".join(_text(tab, part).split()), part
-    assert _text(tab, "mind").count(shown) == 3
+        assert shown in " ".join(text(tab, part).split()), part
+    assert text(tab, "mind").count(shown) == 3
     assert shown in tab.evaluate("document.querySelector('.found').textContent")
-    assert _chosen(tab, "robot", hostile) == ["t1"]
-    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
-    assert tab.events(*complaints) == []
+    assert chosen(tab, "robot", hostile) == ["t1"]
+    assert tab.complaints() == []
 
 
 def test_a_run_without_stories_is_told_as_far_as_its_records_are(
@@ -477,10 +390,10 @@ def test_a_run_without_stories_is_told_as_far_as_its_records_are(
     tab = Tab(browser, tmp_path / REPORT, DESK, "light")
     kinds = "[...document.querySelectorAll('.system i')].map(own => own.classList[0])"
     assert tab.evaluate(kinds) == ["done", "failed", "mental", "end"]
-    _slide(tab, 2)
-    assert "act" in _text(tab, "action")
-    assert "failed" in _text(tab, "result")
-    assert "not" in _text(tab, "belief")
+    slide(tab, 2)
+    assert "act" in text(tab, "action")
+    assert "failed" in text(tab, "result")
+    assert "not" in text(tab, "belief")
     assert tab.events("Runtime.exceptionThrown") == []
 
 
@@ -496,7 +409,7 @@ def test_a_time_line_has_the_steps_that_there_are(browser: Browser, tmp_path: Pa
     tab = Tab(browser, (tmp_path / REPORT).as_uri(), DESK, "light")
     steps = "[...document.querySelectorAll('.system i')].map(own => Number(own.dataset.step))"
     assert tab.evaluate(steps) == [1, 2, 3, far]
-    _slide(tab, far)
+    slide(tab, far)
     assert tab.evaluate(STEP).split()[1] == str(far)
     assert tab.events("Runtime.exceptionThrown") == []
 
@@ -512,137 +425,3 @@ def test_a_link_to_a_trial_that_is_not_there_says_so(browser: Browser, run: Play
     tab = Tab(browser, f"{run.page.as_uri()}#trial=nosuch&step=2", DESK, "light")
     tab.until("!document.querySelector('[data-part=warning]').hidden")
     assert "nosuch" in tab.evaluate("document.querySelector('[data-part=warning]').textContent")
-
-
-PAIRS = 30
-"""More than are listed at once."""
-
-
-@pytest.fixture(scope="module")
-def many(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of a run with many pairs, of which one robot fails in the last."""
-    folder = tmp_path_factory.mktemp("many")
-    initial = ["loc(rob1,kitchen)", "loc(book1,kitchen)", "loc(book2,kitchen)"]
-    moved = [Attempt(1, Action.parse("move(rob1,office2)"), True)]
-    with TrialWriter(folder) as writer:
-        for number in range(PAIRS):
-            for robot in ("intentional", "traditional"):
-                lost = number == PAIRS - 1 and robot == "traditional"
-                writer.append(
-                    a_record(
-                        f"{robot}-{number}",
-                        pair=f"pair-{number:02}",
-                        robot=robot,
-                        steps=2,
-                        actions=moved,
-                        initial=[*map(Literal.parse, initial)],
-                        achieved=not lost,
-                        outcome="gave_up" if lost else "achieved",
-                    )
-                )
-    return folder
-
-
-@pytest.fixture(scope="module")
-def address(many: Path) -> Iterator[str]:
-    """Where the page of this run is served."""
-    report = written_report(many, load_config("office"))
-    yield from _served(Site(report.page(served=True), [report.run]))
-
-
-def _served(site: Site) -> Iterator[str]:
-    with Server(site) as server:
-        thread = Thread(target=server.serve_forever)
-        thread.start()
-        yield server.address
-        server.shutdown()
-        thread.join()
-
-
-def test_a_served_page_has_all_trials_page_by_page(browser: Browser, address: str) -> None:
-    tab = Tab(browser, address, DESK, "light")
-    listed = "document.querySelectorAll('.found li').length"
-    tab.until(f"{listed} && {ROBOT}.length")
-    assert tab.evaluate("document.querySelector('.count').textContent").split()[0] == "60"
-    assert tab.evaluate(listed) < PAIRS
-    assert _text(tab, "outcome", 1).startswith("✗")
-    tab.evaluate("document.querySelector('[data-part=more]').click()")
-    tab.until(f"{listed} === {PAIRS}")
-    assert tab.evaluate("document.querySelector('[data-part=more]').hidden") is True
-    tab.evaluate("document.querySelector('[data-trial=intentional-7]').click()")
-    tab.until(f"{ROBOT}[0].textContent.includes('intentional-7')")
-    assert _drawn(tab, ["rob1"], ["kitchen", "office2"]) == ["kitchen"]
-    _slide(tab, 2)
-    assert _drawn(tab, ["rob1"], ["kitchen", "office2"]) == ["office2"]
-    _chosen(tab, "outcome", "gave_up")
-    tab.until(f"{listed} === 1")
-    assert tab.evaluate("[...document.querySelectorAll('.found .bad')].length") == 1
-    asked = {event["request"]["url"] for event in tab.events("Network.requestWillBeSent")}
-    assert all(url.startswith((address, "data:")) for url in asked)
-    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
-    assert tab.events(*complaints) == []
-
-
-def test_a_link_to_a_served_page_opens_the_trial(browser: Browser, address: str) -> None:
-    tab = Tab(browser, f"{address}#trial=traditional-3&step=2", DESK, "light")
-    tab.until(f"{ROBOT}.length")
-    assert tab.evaluate(STEP).split()[1] == "2"
-    assert "traditional-3" in _text(tab, "command", 1)
-    tab = Tab(browser, f"{address}#trial=nosuch", DESK, "light")
-    tab.until("document.querySelector('[data-part=warning]').textContent.includes('nosuch')")
-
-
-def test_a_page_with_some_of_the_trials_says_so(
-    browser: Browser, many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("testbed.report.explorer.MOST_BYTES", 20_000)
-    folder = tmp_path / "many o'clock"
-    shutil.copytree(many, folder)
-    write_report(folder, load_config("office"))
-    tab = Tab(browser, folder / REPORT, DESK, "light")
-    kept = "JSON.parse(document.getElementById('explorer-data').textContent).trials.length"
-    held = tab.evaluate(kept)
-    said = tab.evaluate("document.querySelector('[data-part=partial]').innerText")
-    assert 0 < held < 2 * PAIRS
-    assert said.startswith(f"{held} of {2 * PAIRS} ")
-    command = tab.evaluate("document.querySelector('[data-part=partial] code').textContent")
-    assert shlex.split(command) == ["testbed", "report", "--serve", str(folder)]
-
-
-@pytest.fixture(scope="module")
-def several(run: Played, many: Path) -> Iterator[str]:
-    """Where the page of two runs is served."""
-    reports = [
-        written_report(run.page.parent, run.config),
-        written_report(many, load_config("office", ["name=many"])),
-    ]
-    yield from _served(Site(page_of_several(reports), [own.run for own in reports]))
-
-
-def test_trials_of_several_runs_are_told_apart(browser: Browser, run: Played, several: str) -> None:
-    tab = Tab(browser, several, DESK, "light")
-    tab.until(f"document.querySelector('.found li') && {ROBOT}.length")
-    total = "document.querySelector('.count').textContent.split(' ')[0]"
-    assert int(tab.evaluate(total)) == len(run.records) + 2 * PAIRS
-    of_run = {record.trial for record in run.records}
-    _chosen(tab, "study", run.config.name)
-    tab.until(f"{total} === '{len(of_run)}'")
-    assert {*_chosen(tab, "robot", "")} <= of_run
-    _chosen(tab, "study", "many")
-    tab.until(f"{total} === '{2 * PAIRS}'")
-    tab.evaluate("document.querySelector('.found [data-trial]').click()")
-    tab.until(f"{ROBOT}[0].textContent.includes('-{PAIRS - 1}')")
-    assert "many" in tab.evaluate("document.querySelector('[data-part=title]').textContent")
-    assert tab.events("Runtime.consoleAPICalled", "Runtime.exceptionThrown") == []
-
-
-@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report")
-@pytest.mark.parametrize(("width", "scheme"), [(DESK, "dark"), (PHONE, "light")])
-def test_no_rule_of_accessibility_is_broken_by_the_page_of_several_runs(
-    browser: Browser, several: str, width: int, scheme: str
-) -> None:
-    tab = Tab(browser, several, width, scheme)
-    tab.until(f"document.querySelector('.found li') && {ROBOT}.length")
-    tab.evaluate(AXE.read_text(encoding="utf-8") + ";0")
-    assert tab.evaluate(VIOLATIONS) == []
-    assert tab.evaluate("document.documentElement.scrollWidth") <= width

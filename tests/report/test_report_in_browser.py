@@ -9,21 +9,15 @@ from testbed.experiment.run_folder import REPORT
 from testbed.experiment.runner import play_missing
 from testbed.experiment.status import RunStatus
 from testbed.report import write_report
-from tests.report.browser import CHROMIUM, Browser, Tab
+from tests.report.browser import AXE_CORE, CHROMIUM, DESK, PHONE, Browser, Tab
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium here")
 
-AXE = Path(__file__).parent / "node_modules" / "axe-core" / "axe.min.js"
-"""What `make test` installs by `package.json`."""
-PHONE, DESK = 390, 1300
 RUNS = {
     "table1": ("table1", ["limit=2"]),
     "levels": ("levels", ["levels=[L1,L2]", "limit=1"]),
     "quickstart": ("quickstart", ["link=inprocess"]),
 }
-# Rules of WCAG 2 up to AA, and best practices, that a part of the page breaks.
-VIOLATIONS = """axe.run(document, {resultTypes: ['violations']}).then(found =>
-  found.violations.flatMap(rule => rule.nodes.map(node => [rule.id, node.html.slice(0, 120)])))"""
 TAB, ENTER = ("Tab", 9), ("Enter", 13, "\r")
 
 # The text of least contrast with what is behind it, by WCAG 2, and that contrast.
@@ -76,8 +70,7 @@ def test_it_asks_for_nothing_and_complains_of_nothing(browser: Browser, page: Pa
     tab = Tab(browser, page, DESK, "light")
     asked = [event["request"]["url"] for event in tab.events("Network.requestWillBeSent")]
     assert {url for url in asked if not url.startswith("data:")} == {page.as_uri()}
-    complaints = ("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded")
-    assert tab.events(*complaints) == []
+    assert tab.complaints() == []
     assert tab.evaluate("document.querySelectorAll('h2').length") >= 4
 
 
@@ -124,15 +117,14 @@ def test_a_keyboard_gets_to_every_part_and_opens_what_is_closed(
     assert tab.evaluate("document.activeElement.parentElement.open") is True
 
 
-@pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed: npm ci in tests/report")
+@AXE_CORE
 @pytest.mark.parametrize(("width", "scheme"), [(DESK, "light"), (DESK, "dark"), (PHONE, "light")])
 def test_no_rule_of_accessibility_is_broken(
     browser: Browser, page: Path, width: int, scheme: str
 ) -> None:
     tab = Tab(browser, page, width, scheme)
     tab.evaluate("document.querySelectorAll('details').forEach(own => own.open = true)")
-    tab.evaluate(AXE.read_text(encoding="utf-8") + ";0")
-    assert tab.evaluate(VIOLATIONS) == []
+    assert tab.violations() == []
 
 
 def test_each_table_says_what_it_is_and_each_row_whose_it_is(browser: Browser, page: Path) -> None:
