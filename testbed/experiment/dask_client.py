@@ -14,7 +14,7 @@ from distributed.utils import LoopRunner
 
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import interrupts_later
-from testbed.experiment.worker_pool import safe_path
+from testbed.experiment.worker import safe_path
 
 LOST_S = 3600.0
 DASHBOARD = "127.0.0.1:8787"

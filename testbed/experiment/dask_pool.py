@@ -21,7 +21,8 @@ from testbed.experiment.fingerprint import difference, fingerprint
 from testbed.experiment.luggage import Luggage
 from testbed.experiment.recorder import Result, lost_worker
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.worker_pool import AHEAD, OpenPlayer, Results
+from testbed.experiment.worker import OpenPlayer
+from testbed.experiment.worker_pool import AHEAD, Results
 from testbed.protocol import in_one_line
 from testbed.text import warn
 

@@ -21,7 +21,8 @@ from testbed.experiment.luggage import MODULES, Luggage
 from testbed.experiment.recorder import Result
 from testbed.experiment.robots import ROBOTS
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.worker_pool import OpenPlayer, Play, not_ready, play_here, why_not_ready
+from testbed.experiment.worker import OpenPlayer, Play, not_ready, why_not_ready
+from testbed.experiment.worker_pool import play_here
 from testbed.registry import search_last, search_no_more
 
 

@@ -30,7 +30,8 @@ from testbed.experiment.specs import TrialSpec
 from testbed.experiment.status import Notify, RunStatus
 from testbed.experiment.store import TrialWriter, read_records
 from testbed.experiment.trial import play_trial
-from testbed.experiment.worker_pool import Play, Results, play_all, workers_for
+from testbed.experiment.worker import Play
+from testbed.experiment.worker_pool import Results, play_all, workers_for
 from testbed.link import connect
 
 BAD_INPUT = 2

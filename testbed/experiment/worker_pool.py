@@ -1,40 +1,25 @@
-"""Worker processes that play trials, one after the other, and live across them.
+"""Trials played by worker processes, one after the other, which live across them.
 
 `concurrent.futures` gives up the whole pool when one worker dies; here that costs an attempt at
 one trial. The trials of a pair are played by one worker, one right after the other, so that their
 times are of the same process.
-
-Workers are spawned: a forked process with an open zenoh session hangs. Each leads a process group,
-to which its robots belong: no signal of the driver's terminal reaches either, and killing the
-group leaves nobody behind, whatever they are doing.
 """
 
-import os
-import signal
 from collections import deque
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager, suppress
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from itertools import groupby
-from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection, wait
-from threading import Thread
 
-from testbed.experiment.errors import WorkerError
-from testbed.experiment.interrupts import SIGNALS, interrupts_later, kill
 from testbed.experiment.origin import cores
 from testbed.experiment.recorder import Result, lost_worker
 from testbed.experiment.specs import TrialSpec
-from testbed.protocol import RobotLost, in_one_line
+from testbed.experiment.worker import OpenPlayer, Play, Worker
 
-Play = Callable[[TrialSpec], Result]
-OpenPlayer = Callable[[], AbstractContextManager[Play]]
 Results = Generator[tuple[int, Result], None, None]
 """With their positions in the plan."""
 
 AHEAD = 4096  # trials that may wait, finished, for an earlier one: what bounds the memory
 WORTH = 50  # trials for which another process is worth its start
-EXIT_S = 10.0
-SAFE_PATH = "PYTHONSAFEPATH"
 
 
 def play_all(specs: Sequence[TrialSpec], workers: int, open_player: OpenPlayer) -> Results:
@@ -87,116 +72,6 @@ def _is_retried(position: int, result: Result, failed: dict[int, str]) -> bool:
     if position in failed:
         record.retried = [failed.pop(position)]
     return False
-
-
-class Worker:
-    """A process, the pipe to it, and positions: of the trial that it plays, of its next.
-
-    It is `ready` once it has said that it can play.
-    """
-
-    def __init__(self, open_player: OpenPlayer) -> None:
-        context = get_context("spawn")
-        self.pipe, self._far_end = context.Pipe()
-        self._process = context.Process(target=_serve, args=(self._far_end, open_player))
-        self.ready = False
-        self.position: int | None = None
-        self.next: deque[int] = deque()
-
-    def start(self) -> None:
-        """Start the process, deaf to the signals that this one gets."""
-        with safe_path(), interrupts_later():
-            self._process.start()
-        self._far_end.close()
-
-    def play(self, position: int, spec: TrialSpec) -> None:
-        """Give it a trial; a dead worker shows when its answer is received."""
-        self.position = position
-        with suppress(OSError):
-            self.pipe.send(spec)
-
-    def receive(self) -> Result | None:
-        """What it says: None once it is ready, then the results of its trials.
-
-        Raises:
-            EOFError: when it ended in the middle of a trial.
-            WorkerError: when it could not get ready.
-        """
-        try:
-            said: Result | str | None = self.pipe.recv()
-        except (EOFError, OSError):
-            if self.ready:
-                raise EOFError from None
-            code = self.end(at_once=True)
-            raise not_ready(f"a process ended with exit code {code} as it started") from None
-        if isinstance(said, str):
-            raise not_ready(said)
-        self.ready = True
-        return said
-
-    def leave(self, at_once: bool) -> None:
-        """Tell the process that nothing is left to play, or kill it with its robots."""
-        self.pipe.close()
-        if at_once and self._process.pid is not None:
-            kill(self._process)
-
-    def end(self, at_once: bool) -> int | None:
-        """End the process and return its exit code; None of one that did not start."""
-        self.leave(at_once)
-        if self._process.pid is not None:
-            self._process.join(EXIT_S)
-            if self._process.exitcode is None:
-                kill(self._process)
-                self._process.join()
-        return self._process.exitcode
-
-
-def not_ready(reason: str) -> WorkerError:
-    """The error of a process that cannot play."""
-    return WorkerError(f"no trial can be played: {reason}")
-
-
-def why_not_ready(error: Exception) -> str:
-    """Why a process cannot play, in one line."""
-    return str(error) if isinstance(error, RobotLost) else in_one_line(error)
-
-
-def _serve(pipe: Connection, open_player: OpenPlayer) -> None:
-    """A worker's life: until the pipe closes, or the driver is gone."""
-    os.setsid()
-    for number in SIGNALS:
-        signal.signal(number, signal.SIG_IGN)
-    Thread(target=_end_with_driver, daemon=True).start()
-    with suppress(EOFError, OSError), ExitStack() as stack:
-        try:
-            play = stack.enter_context(open_player())
-        except Exception as error:
-            pipe.send(why_not_ready(error))
-            return
-        pipe.send(None)
-        while True:
-            pipe.send(play(pipe.recv()))
-
-
-def _end_with_driver() -> None:
-    driver = parent_process()
-    assert driver is not None
-    driver.join()
-    os.killpg(0, signal.SIGKILL)
-
-
-@contextmanager
-def safe_path() -> Iterator[None]:
-    """Let a Python that is started in this block import nothing from the working directory."""
-    before = os.environ.get(SAFE_PATH)
-    os.environ[SAFE_PATH] = "1"
-    try:
-        yield
-    finally:
-        if before is None:
-            del os.environ[SAFE_PATH]
-        else:
-            os.environ[SAFE_PATH] = before
 
 
 class _Crew:

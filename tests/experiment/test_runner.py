@@ -27,7 +27,8 @@ from testbed.experiment.status import RunStatus
 from testbed.experiment.store import read_records
 from testbed.experiment.storyteller import Moment
 from testbed.experiment.trial import play_trial
-from testbed.experiment.worker_pool import WORTH, Play, play_all, workers_for
+from testbed.experiment.worker import Play
+from testbed.experiment.worker_pool import WORTH, play_all, workers_for
 from testbed.link import spawned_robot
 from testbed.protocol import Robot
 from tests.experiment.samples import Configure, ids
