@@ -9,9 +9,10 @@ from textwrap import wrap
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.interrupts import INTERRUPTED, stoppable
+from testbed.experiment.lock import locked
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import progress
-from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_run, locked
+from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_run
 from testbed.experiment.runner import run_in
 from testbed.experiment.shard import Shard
 from testbed.experiment.status import RunStatus

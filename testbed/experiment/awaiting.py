@@ -4,7 +4,8 @@ import time
 from pathlib import Path
 
 from testbed.config import ExperimentConfig
-from testbed.experiment.run_folder import CONFIG, LOCK, is_written, read_config
+from testbed.experiment.lock import LOCK, is_written
+from testbed.experiment.run_folder import CONFIG, read_config
 from testbed.text import Say
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
+from testbed.experiment.lock import locked
 from testbed.experiment.pilot import Pilot
 from testbed.experiment.plan import coverage_of, plan_trials
 from testbed.experiment.provenance import Provenance, sessions_of
@@ -16,7 +17,6 @@ from testbed.experiment.run_folder import (
     TRIALS,
     choose_folder,
     differences,
-    locked,
     read_config,
     replace_lines,
     write_config,

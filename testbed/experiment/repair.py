@@ -9,9 +9,10 @@ from pathlib import Path
 import msgspec
 
 from testbed.experiment.digest import logical
+from testbed.experiment.lock import locked
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.recorder import strangeness
-from testbed.experiment.run_folder import STORIES, TRIALS, locked, read_config, replace_lines
+from testbed.experiment.run_folder import STORIES, TRIALS, read_config, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_lines, settle
 from testbed.experiment.stories import is_whole

@@ -1,13 +1,11 @@
 """The folder of a run: where it is, how its files are replaced, and the configuration in it."""
 
-import fcntl
 import os
 import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from itertools import count, takewhile, zip_longest
 from pathlib import Path
-from typing import BinaryIO
 
 from testbed.config import SCENARIO_KEYS, ExperimentConfig, load_config, write_yaml
 from testbed.experiment.errors import StoreError
@@ -16,7 +14,6 @@ from testbed.experiment.texts import check_texts
 TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
 STORIES = "stories.jsonl"
 SUMMARY, REPORT, ERRORS = "summary.json", "report.html", "errors"
-LOCK = ".lock"
 # Keys on which no logical result depends.
 ANY_RESULT = ("link", "limits.answer_s", "runner", "scheduler", "tls.ca", "tls.cert", "tls.key")
 MOST_CHANGES = 8
@@ -86,45 +83,6 @@ def _new(name: str) -> Path:
             folder.mkdir()
             return folder
     raise AssertionError("numbers do not end")
-
-
-@contextmanager
-def locked(folder: Path) -> Iterator[None]:
-    """Be the only one who writes into a run folder, as long as this block or process lasts.
-
-    Raises:
-        StoreError: where another one is.
-    """
-    folder.mkdir(parents=True, exist_ok=True)
-    with (folder / LOCK).open("ab") as lock:
-        while not _got(lock, fcntl.LOCK_EX):
-            if _is_taken(lock):  # else somebody has only asked whether it is
-                raise StoreError(f"{folder}: another run is writing here")
-        yield
-
-
-def is_written(folder: Path) -> bool:
-    """Whether a process writes into a run folder."""
-    try:
-        with (folder / LOCK).open("rb") as lock:
-            return _is_taken(lock)
-    except FileNotFoundError:
-        return False
-
-
-def _is_taken(lock: BinaryIO) -> bool:
-    if not _got(lock, fcntl.LOCK_SH):
-        return True
-    fcntl.flock(lock, fcntl.LOCK_UN)
-    return False
-
-
-def _got(lock: BinaryIO, kind: int) -> bool:
-    try:
-        fcntl.flock(lock, kind | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from pathlib import Path
 from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
+from testbed.experiment.lock import locked
 from testbed.experiment.origin import sha256
 from testbed.experiment.pilot import Pilot
 from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
@@ -21,7 +22,6 @@ from testbed.experiment.run_folder import (
     ERRORS,
     begin_or_resume,
     choose_folder,
-    locked,
     naming,
     stored_text,
 )

@@ -16,10 +16,10 @@ from asp.language import suggestion
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import StoreError
 from testbed.experiment.live_run import LiveRun, Played
+from testbed.experiment.lock import is_written
 from testbed.experiment.narration import narrator_in
 from testbed.experiment.progress import in_line
 from testbed.experiment.record import OUTCOMES
-from testbed.experiment.run_folder import is_written
 from testbed.experiment.status import RunStatus
 from testbed.experiment.stories import Story
 from testbed.experiment.timeline import in_words, of_place

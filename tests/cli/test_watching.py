@@ -20,7 +20,7 @@ from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment import run
 from testbed.experiment.errors import StoreError
-from testbed.experiment.run_folder import is_written, locked
+from testbed.experiment.lock import is_written, locked
 from testbed.experiment.shard import Shard
 from tests.experiment.gardens import GARDEN, ROWS
 from tests.pots import write_pots

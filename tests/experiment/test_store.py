@@ -10,12 +10,12 @@ import yaml
 import asp
 from testbed.config import AdversarySettings, ExperimentConfig, Limits, load_config
 from testbed.experiment import StoreError
+from testbed.experiment.lock import locked
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.run_folder import (
     check_unchanged,
     choose_folder,
     config_text,
-    locked,
     read_config,
     replace_text,
     write_config,
@@ -94,7 +94,7 @@ def test_a_folder_has_one_writer(tmp_path: Path) -> None:
 def test_a_writer_killed_leaves_the_folder_free(tmp_path: Path) -> None:
     program = (
         "import os, signal, sys; from pathlib import Path;"
-        "from testbed.experiment.run_folder import locked;"
+        "from testbed.experiment.lock import locked;"
         "locked(Path(sys.argv[1])).__enter__(); os.kill(os.getpid(), signal.SIGKILL)"
     )
     killed = subprocess.run([sys.executable, "-c", program, str(tmp_path)], check=False)
