@@ -20,10 +20,11 @@ from asp.reasoning.diagnosis import cannot_hold, never_together
 from asp.refinement import Refinement
 from asp.translation import translate
 from testbed.config.levels import map_findings, refinements, settings_findings
-from testbed.config.models import GOAL, Drawing, ExperimentConfig, ScenarioSettings
+from testbed.config.models import GOAL, ExperimentConfig
 from testbed.config.places import ConfigError, Diction, Finding, Key, Places, dotted, unfit_literals
 from testbed.config.running import runner_findings
 from testbed.config.scenarios import scenario_findings, scenarios_of, script_findings
+from testbed.config.sections import Drawing, ScenarioSettings
 from testbed.config.values import NONE
 from testbed.world import StateError, World, world_of
 

@@ -15,8 +15,9 @@ from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
 from asp.language import Literal
-from testbed.config.models import FINE_STEPS, ExperimentConfig, Limits
+from testbed.config.models import FINE_STEPS, ExperimentConfig
 from testbed.config.places import ConfigError, Places, parsed
+from testbed.config.sections import Limits
 
 MOST_NODES = 100_000
 """The most nodes of a document, each alias counted as what it stands for."""

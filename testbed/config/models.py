@@ -1,30 +1,35 @@
 """The keys of a configuration, each with its type and default.
 
-Literals and actions are ASP text without spaces, `f(a,b)` or `-f(a,b)`. Whether a domain knows
-them is checked in `testbed.config.checking`.
+Those of its sections stand in `testbed.config.sections`. Literals and actions are ASP text without
+spaces, `f(a,b)` or `-f(a,b)`. Whether a domain knows them is checked in `testbed.config.checking`.
 """
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from asp import language
 from testbed import environment
 from testbed.config.running import Runner, Tls
+from testbed.config.sections import (
+    AdversarySettings,
+    Drawing,
+    LevelSettings,
+    Limits,
+    Observability,
+    ScenarioSettings,
+    ScriptEntry,
+)
 from testbed.config.sweep import Sweep
 from testbed.config.values import (
     LARGEST_SEED,
-    MOST,
     Count,
     Flag,
     Literals,
-    LiteralText,
     Name,
     Names,
     Probability,
     Scenarios,
-    Seconds,
     Section,
 )
 from testbed.protocol import Knowledge, Plans, Relevance
@@ -39,99 +44,6 @@ TREATMENT, BASELINE = "intentional", "traditional"
 """The robots that are compared unless others are named: those of the published study."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'
 """How a goal is written."""
-
-
-class Observability(Section):
-    """Whether the robot is told of an exogenous action, how often, how truly and how late.
-
-    `false_reports`: probability a step of a report of something that did not happen; `delay`:
-    steps by which every report is late.
-    """
-
-    mode: environment.Mode = "never"
-    probability: Probability = 1.0
-    false_reports: Probability = 0.0
-    delay: Annotated[int, Field(strict=True, ge=0, le=MOST)] = 0
-
-
-class ScriptEntry(Section):
-    """An exogenous action and when it happens: either at a step, or with an action of the robot.
-
-    `at_action`: the number of the physical action of the robot, from 1 on, that it happens with.
-    """
-
-    step: Count | None = None
-    at_action: Count | None = None
-    action: LiteralText
-
-
-class Limits(Section):
-    """Bounds of a trial: environment steps, length of a plan, seconds for an answer.
-
-    A decision may take so many `conflicts` of the solver, ground programs of at most so many
-    `ground_rules`, and so many `expansions` of sets of states; None: any number. `decision_s` are
-    the seconds that it may take with everything, a guard. At any of them a robot waits for a step.
-    `judge_states` are the states that are looked at, after the trial, for the fewest actions that
-    achieve its goal; where they do not suffice these are not known.
-    """
-
-    steps: Count = 100
-    plan: Count = 30
-    answer_s: Seconds = 60.0
-    conflicts: Count | None = 50_000
-    ground_rules: Count | None = 1_000_000
-    expansions: Count | None = 1_000_000
-    decision_s: Seconds | None = 30.0
-    judge_states: Count = 5_000
-
-
-class AdversarySettings(Section):
-    """What others do, and when.
-
-    `strategy`: the domain's `triggers`, `random` events, or an adversary of one's own; absent:
-    triggers in scenarios, random at levels. `rate`: probability per step that a trigger fires,
-    absent: as the domain states it; or that a random event happens, absent: 0.1, at levels 0; of
-    others what they take it for. `options` are those that the strategy declares. `pace`: at the
-    fine resolution, at each `concrete` action or only at those that change what holds at the coarse
-    one (`abstract`).
-    """
-
-    strategy: Name | None = None
-    options: dict[str, Any] = Field(default_factory=dict)
-    rate: Probability | None = None
-    pace: environment.Pace = "concrete"
-
-
-class LevelSettings(Section):
-    """Rooms in a row, each a grid of cells; `objects` are kinds of them, each (number, parts)."""
-
-    rooms: Annotated[int, Field(strict=True, ge=2, le=MOST)]
-    rows: Count
-    columns: Count
-    objects: Annotated[tuple[tuple[Count, Count], ...], Field(min_length=1)]
-
-
-class Drawing(Section):
-    """What a trial at a level draws with its seed.
-
-    `goal`: literals with sorts in place of constants, equal sorts being one constant, which is
-    drawn such that the goal does not hold yet. `holding`: probability that the robot starts with
-    something in its hand.
-    """
-
-    goal: Annotated[Literals, Field(min_length=1)] = (language.Literal.parse("loc(object,room)"),)
-    holding: Probability = 0.2
-
-
-class ScenarioSettings(Section):
-    """What one scenario has of its own; a key left out is the experiment's."""
-
-    initial: Literals | None = None
-    goal: Literals | None = None
-    script: tuple[ScriptEntry, ...] | None = None
-    exogenous_while_thinking: Flag | None = None
-    goal_feedback: Flag | None = None
-    repeats: Count | None = None
 
 
 class ExperimentConfig(Section):

@@ -3,8 +3,9 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from asp.language import Signature, suggestion, unknown_atom
-from testbed.config.models import ExperimentConfig, ScenarioSettings, ScriptEntry
+from testbed.config.models import ExperimentConfig
 from testbed.config.places import Finding, Key
+from testbed.config.sections import ScenarioSettings, ScriptEntry
 from testbed.config.values import NONE
 
 SCRIPT = "script"
