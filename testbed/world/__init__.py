@@ -6,11 +6,11 @@ from asp.language import Description, Problems, load_description, signature_of, 
 from asp.refinement import Refinement
 from testbed.world.closure import bits as bits
 from testbed.world.compiled import CompiledWorld
+from testbed.world.errors import NotExecutableError as NotExecutableError
+from testbed.world.errors import StateError as StateError
+from testbed.world.errors import UnknownActionError as UnknownActionError
+from testbed.world.errors import UnknownFluentError as UnknownFluentError
 from testbed.world.matched.world import MatchedWorld
-from testbed.world.world import NotExecutableError as NotExecutableError
-from testbed.world.world import StateError as StateError
-from testbed.world.world import UnknownActionError as UnknownActionError
-from testbed.world.world import UnknownFluentError as UnknownFluentError
 from testbed.world.world import World as World
 
 

@@ -11,23 +11,12 @@ from typing import Any
 
 from asp.language import Action, Description, Facts, Fluent, Literal
 from testbed.world.closure import bits
-
-
-class StateError(ValueError):
-    """Literals that describe no state of the domain; one line says why."""
-
-
-class UnknownFluentError(ValueError):
-    """A literal whose atom is no fluent of the description."""
-
-
-class UnknownActionError(ValueError):
-    """The name of an action that the description does not declare."""
-
-
-class NotExecutableError(ValueError):
-    """A compound action without a successor in the state; one line says why."""
-
+from testbed.world.errors import (
+    NotExecutableError,
+    StateError,
+    UnknownActionError,
+    UnknownFluentError,
+)
 
 _STATES = 256
 """Of how many states the facts are remembered."""
