@@ -1,11 +1,14 @@
 """Check a configuration."""
 
-from testbed.cli.common import Config, Overrides, emit, examples, input_errors
+from testbed.cli.common import Config, Overrides, Swept, emit, examples, input_errors
 
-EPILOG = examples("testbed check quickstart scenarios=[5] limits.steps=40")
+EPILOG = examples(
+    "testbed check quickstart scenarios=[5] limits.steps=40",
+    "testbed check office -m adversary.strategy=random adversary.rate=0:0.4:0.1",
+)
 
 
-def command(config: Config, overrides: Overrides = None) -> None:
+def command(config: Config, overrides: Overrides = None, sweep: Swept = False) -> None:
     """Validate a configuration and print it as resolved.
 
     A warning says where an action of its domain has several outcomes, and where its effects
@@ -18,7 +21,7 @@ def command(config: Config, overrides: Overrides = None) -> None:
     from testbed.experiment.run_folder import config_text
 
     with input_errors():
-        resolved = load(config, overrides or [])
+        resolved = load(config, overrides or [], sweep)
         emit(config_text(resolved))
         if not resolved.levels:  # each level's domain is made of rooms and cells, and branches not
             file, text = read_domain(resolved.domain)

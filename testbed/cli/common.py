@@ -20,6 +20,15 @@ Overrides = Annotated[
     list[str] | None,
     typer.Argument(metavar="KEY=VALUE", help="Keys to override, dotted where nested."),
 ]
+Swept = Annotated[
+    bool,
+    typer.Option(
+        "-m",
+        "--sweep",
+        help="Every combination of overrides with several values, KEY=V1,V2, or a range, "
+        "KEY=FIRST:LAST:STEP.",
+    ),
+]
 Domain = Annotated[
     str, typer.Argument(metavar="DOMAIN", help="A description (.al), or a packaged domain's name.")
 ]

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from testbed.config import ConfigError, ExperimentConfig, dotted, load_config
+from testbed.config import ConfigError, ExperimentConfig, dotted, load_config, with_sweep
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.plan import sweep_findings
 from testbed.experiment.provenance import modules_of
@@ -12,8 +12,12 @@ from testbed.registry import search_as_told, search_last
 from testbed.studies import study_findings
 
 
-def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
+def load(
+    source: str | Path, overrides: Sequence[str] = (), sweep: bool = False
+) -> ExperimentConfig:
     """The configuration of a file or a packaged name, with overrides. Raises ConfigError.
+
+    With `sweep` overrides with several values, or a range, are swept.
 
     What lies beside the file can be imported from then on, but nothing in the place of ours. One
     that is stored in a run folder is read as there.
@@ -22,7 +26,8 @@ def load(source: str | Path, overrides: Sequence[str] = ()) -> ExperimentConfig:
         search_beside(Path(source))
     else:
         search_as_told()
-    config = load_config(source, overrides, (*CHECKS, study_findings))
+    given = with_sweep(overrides) if sweep else overrides
+    config = load_config(source, given, (*CHECKS, study_findings))
     if twins := [f"{source}: {dotted(key)}: {told}" for key, told in sweep_findings(config)]:
         raise ConfigError(twins)
     return as_played(config) if is_stored(Path(source)) else config

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from testbed.cli.common import Config, Overrides, examples, input_errors, refuse
+from testbed.cli.common import Config, Overrides, Swept, examples, input_errors, refuse
 from testbed.text import warn
 
 if TYPE_CHECKING:
@@ -22,15 +22,7 @@ EPILOG = examples(
 def command(
     config: Config,
     overrides: Overrides = None,
-    sweep: Annotated[
-        bool,
-        typer.Option(
-            "-m",
-            "--sweep",
-            help="Run every combination of overrides with several values, KEY=V1,V2, or a range, "
-            "KEY=FIRST:LAST:STEP.",
-        ),
-    ] = False,
+    sweep: Swept = False,
     out: Annotated[
         Path | None, typer.Option(help="Run folder; without it runs/NAME, numbered if taken.")
     ] = None,
@@ -68,13 +60,12 @@ def command(
 ) -> None:
     """Run every trial of a configuration and print a table of what came out."""
     from testbed.cli.loading import load
-    from testbed.config import with_sweep
 
     if retry_failed and not resume:
         refuse(["--retry-failed: needs --resume; it plays trials of a run folder again"])
     part = _shard(shard)
     with input_errors():
-        loaded = load(config, with_sweep(overrides or []) if sweep else overrides or [])
+        loaded = load(config, overrides or [], sweep)
         if not quiet:
             warn(f"preparing {loaded.name}: statistics, the plan of its trials, robots")
         from testbed.cli.session import run_session

@@ -8,8 +8,9 @@ from typing import Any
 import msgspec
 from omegaconf import OmegaConf
 
-from testbed.config.composing import read_yaml
+from testbed.config.composing import REFUSALS, read_yaml
 from testbed.config.models import ExperimentConfig
+from testbed.config.places import ConfigError
 from testbed.config.sweep import RANGE
 
 PARTS = re.compile(r"""(?:"(?:\\.|[^"\\])*"|'[^']*'|\[[^\]]*\]|\{[^}]*\}|\([^)]*\)|[^,"'\[{(])+""")
@@ -63,7 +64,7 @@ def with_sweep(overrides: Sequence[str]) -> list[str]:
     """Overrides of which those with several values, or a range, are of the grid of a sweep.
 
     Values stand between commas that are in no brackets and no quotes: `a,b` are two, `[a,b]` is
-    one. Raises YAMLError.
+    one. Raises ConfigError.
     """
     grid: dict[str, object] = {}
     fixed = []
@@ -73,7 +74,15 @@ def with_sweep(overrides: Sequence[str]) -> list[str]:
         if RANGE.match(value):
             grid[key] = value
         elif len(parts) > 1:
-            grid[key] = [read_yaml(part) for part in parts]
+            grid[key] = [_value(key, part) for part in parts]
         else:
             fixed.append(item)
     return [*fixed, f"sweep.grid={msgspec.json.encode(grid).decode()}"] if grid else fixed
+
+
+def _value(key: str, text: str) -> object:
+    try:
+        return read_yaml(text)
+    except REFUSALS as error:
+        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
+        raise ConfigError([f"command line: {key}: '{text}' is not YAML: {problem}"]) from None
