@@ -5,7 +5,8 @@
 
 Of a configuration the environment uses domain, goal, initial, observability, goal_feedback,
 exogenous_while_thinking and limits.steps; scenarios and scripts are an adversary's business, and
-the adversary is an agent here. Any key can be overridden: `env(goal_feedback=False)`. With
+the adversary is an agent here. Any key can be overridden: `env(goal_feedback=False)`. Of a sweep
+it is given one condition. With
 `level="L3"`, or a configuration with a refinement, the robot acts at the fine resolution.
 """
 
@@ -56,6 +57,10 @@ def make_core(
 ) -> Core:
     """The game that a configuration describes. Raises ConfigError."""
     read = _read(config, level, overrides)
+    if read.is_sweep:
+        example = f'testbed.config.conditions_of(config)["{next(iter(read.sweep.cells))}"]'
+        one = f"give one, as in {example}, or sweep={{}} for what they have in common"
+        raise ConfigError([f"{read.name}: is a sweep of {read.sweep.size} conditions; {one}"])
     rules = Rules(
         goal=read.goal,
         steps=read.limits.steps if max_cycles is None else max_cycles,

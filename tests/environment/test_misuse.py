@@ -1,5 +1,6 @@
 """What is asked of an environment at the wrong time, of the wrong agent, or in the wrong form."""
 
+import json
 import pickle
 import re
 from collections.abc import Callable
@@ -11,6 +12,7 @@ import pytest
 from gymnasium.utils.env_checker import data_equivalence
 
 from testbed import office_v0
+from testbed.config import ConfigError, conditions_of, load_config
 from testbed.environment import (
     ADVERSARY,
     ROBOT,
@@ -181,3 +183,33 @@ def test_after_the_end_nothing_is_left_but_to_do_nothing(
         seen = _seen(env, agent)
         assert np.flatnonzero(seen["action_mask"]).tolist() == [0]
         assert env.observation_space(agent).contains(seen)
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_a_sweep_is_refused_until_one_condition_is_chosen(
+    make: Callable[..., Any], garden: dict[str, Any], tmp_path: Path
+) -> None:
+    given = {"name": "dry", **garden, "sweep": {"grid": {"limits.steps": [3, 7]}}}
+    path = tmp_path / "dry.yaml"
+    path.write_text(json.dumps(given), encoding="utf-8")
+    swept = load_config(path)
+    for config in (path, str(path), swept):
+        with pytest.raises(ConfigError) as caught:
+            make(config)
+        (line,) = caught.value.lines
+        assert line.startswith("dry: ")
+        assert '["limits.steps=3"]' in line
+        assert "sweep={}" in line
+    for steps in (3, 7):
+        env = make(conditions_of(swept)[f"limits.steps={steps}"])
+        env.reset(seed=1)
+        taken = 0
+        while env.agents and not _is_over(env):
+            _step(env, 0)
+            taken += 1
+        assert taken == steps
+    make(path, sweep={}).reset(seed=1)
+
+
+def _is_over(env: Any) -> bool:
+    return any(getattr(env, "truncations", {}).values())
