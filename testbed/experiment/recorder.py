@@ -200,4 +200,8 @@ def strangeness(record: TrialRecord, spec: TrialSpec | None) -> str | None:
         told, planned = getattr(record, key), getattr(blank, key)
         if told != planned:
             return f"trial {record.trial} has {key} {told!r}, not {planned!r}"
+    if record.steps > spec.setting.step_limit:
+        return (
+            f"trial {record.trial} has {record.steps} steps, and {spec.setting.step_limit} end it"
+        )
     return None

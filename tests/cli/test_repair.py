@@ -53,6 +53,7 @@ DAMAGES: dict[str, tuple[Callable[[Lines], Lines], list[int]]] = {
     "another result, twice": (lambda own: [own[1], *own, _with(own[1], plans=9)], [1, 3, 6]),
     "a stranger": (lambda own: [*own, _with(own[0], trial="0" * 16)], [5]),
     "another seed": (lambda own: [*own[:2], _with(own[2], seed=4), own[3]], [3]),
+    "steps after the last": (lambda own: [*own[:3], _with(own[3], steps=2**31 - 1)], [4]),
     "a digit": (lambda own: [own[0], _changed(own[1]), *own[2:]], [2]),
     "another order": (
         lambda own: [own[0], json.dumps(json.loads(own[1])).encode() + b"\n", *own[2:]],
