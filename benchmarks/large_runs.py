@@ -56,6 +56,7 @@ def _measured(folder: Path, config: ExperimentConfig) -> Iterator[Row]:
         within(inf, partial(make_run, part, config, Shard(number, SHARDS)))
     commands: dict[str, Sequence[str | Path]] = {
         "report": ["report", whole],
+        "report, the table stored": ["report", whole],
         "export": ["export", whole],
         "compare": ["compare", whole],
         "run --resume": ["run", whole / "config.yaml", "--out", whole, "--resume", "--quiet"],

@@ -13,9 +13,9 @@ from testbed.analysis.bootstrap import CONFIDENCE, Estimate
 from testbed.analysis.comparison import by_condition, compared, eventful, with_apart
 from testbed.analysis.pairs import OTHER, Compared, Sample, cluster_of, corrected, pairs_of
 from testbed.analysis.population import exhausted_under
+from testbed.analysis.run import Run
 from testbed.analysis.sentences import COST, OVERALL, SUCCESS, sentence
 from testbed.analysis.statistics import Test
-from testbed.analysis.table import Run
 from testbed.config import ExperimentConfig
 
 MEASURE = "execution_units"
@@ -147,8 +147,7 @@ def _shares(pairs: Sample) -> dict[str, Estimate | None]:
 
 
 def _ratio(pairs: Sample) -> dict[str, Estimate | None]:
-    above, below = pl.col(MEASURE), pl.col(MEASURE + OTHER)
-    return {"ratio": pairs.where(below != 0).mean(above / below)}
+    return {"ratio": pairs.mean_ratio(MEASURE)}
 
 
 def _numbers(own: Estimate | None) -> dict[str, float | None] | None:

@@ -5,8 +5,10 @@ of each other (repeats from one initial state) have the same label. A resample d
 replacement, each with all of its values; without labels each value is a cluster of its own.
 """
 
-from collections.abc import Callable, Hashable, Iterable
+from collections import defaultdict
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypeAlias
 
 import numpy as np
@@ -16,6 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 CONFIDENCE = 0.95
 RESAMPLES = 1000
 BATCH = 50
+DRAWN_TOGETHER = 2**15
+"""Clusters drawn at the same time, of as many resamples: more do not fit into a cache."""
 SEED = 1
 TIE = 1e-9
 """Parts of a whole weight that differ by less are the same: what lies between is rounding."""
@@ -118,14 +122,18 @@ def medians(sample: Observations, drawn: Counts) -> Values:
 
 
 def proportion(sample: Observations) -> Estimate | None:
-    """The share of ones among zeros and ones; where no resample differs, the exact interval.
+    """The share of ones among zeros and ones; where no resample differs, the exact interval."""
+    return as_share(bootstrap(means, sample), sample)
+
+
+def as_share(mean: Estimate | None, sample: Observations) -> Estimate | None:
+    """The mean of zeros and ones, with the exact interval where no resample differs.
 
     Its number of trials is that of the clusters: what a cluster repeats says nothing new there.
     """
-    estimate = bootstrap(means, sample)
-    if estimate is None or estimate.single or estimate.low < estimate.high:
-        return estimate
-    return exact(estimate.value, sample.clusters)
+    if mean is None or mean.single or mean.low < mean.high:
+        return mean
+    return exact(mean.value, sample.clusters)
 
 
 def exact(share: float, trials: float) -> Estimate:
@@ -142,32 +150,80 @@ def bootstrap(statistic: Statistic, *samples: Observations) -> Estimate | None:
 
     The interval has the percentiles over resamples, each sample being resampled by itself.
     """
-    if not all(sample.clusters for sample in samples):
+    found = _without_interval(statistic, samples)
+    if found is None or not _varies(samples):
+        return found
+
+    def of_resamples(*drawn: Counts) -> Values:
+        each = iter(drawn)
+        counts = [next(each) if own.clusters > 1 else _once(own) for own in samples]
+        return _of_all(statistic, samples, counts)
+
+    low, high = _interval(of_resamples, [own.clusters for own in samples if own.clusters > 1])
+    return replace(found, low=float(low), high=float(high))
+
+
+def bootstraps(statistic: Statistic, samples: Sequence[Observations]) -> list[Estimate | None]:
+    """The statistic of each sample, as of each alone; those of one size are resampled together."""
+    found = [_without_interval(statistic, [own]) for own in samples]
+    sizes: defaultdict[int, list[int]] = defaultdict(list)
+    for number, own in enumerate(samples):
+        if _varies([own]):
+            sizes[own.clusters].append(number)
+    for size, numbers in sizes.items():
+        of_each = partial(_stacked, statistic, [samples[number] for number in numbers])
+        for number, low, high in zip(numbers, *_interval(of_each, [size]), strict=True):
+            found[number] = replace(found[number], low=float(low), high=float(high))  # type: ignore[type-var]
+    return found
+
+
+def _without_interval(statistic: Statistic, samples: Sequence[Observations]) -> Estimate | None:
+    """The statistic, with its value as the interval; None of nothing."""
+    if not all(own.clusters for own in samples):
         return None
-    value = float(_of_all(statistic, samples, [_once(sample) for sample in samples])[0])
-    varying = [sample.clusters for sample in samples if sample.clusters > 1]
-    if not varying or all(own.values[0] == own.values[-1] for own in samples):
-        return Estimate(value, value, value, single=not varying)
+    value = float(_of_all(statistic, samples, list(map(_once, samples)))[0])
+    return Estimate(value, value, value, single=all(own.clusters == 1 for own in samples))
 
-    def of_resamples(*indices: Counts, axis: int = -1) -> Values:
+
+def _varies(samples: Iterable[Observations]) -> bool:
+    """Whether resamples of one of them may differ from each other."""
+    return any(own.clusters > 1 for own in samples) and any(
+        own.clusters and own.values[0] != own.values[-1] for own in samples
+    )
+
+
+def _interval(of_resamples: Callable[..., Values], sizes: Sequence[int]) -> tuple[Values, Values]:
+    """The ends of the interval of what is a value per resample, of samples with so many clusters.
+
+    It is given per sample how often each cluster is drawn, one row per resample; these are the last
+    axis of what it returns.
+    """
+
+    def of_indices(*indices: Counts, axis: int = -1) -> Values:
         del axis
-        drawn = iter(map(_times_drawn, indices))
-        counts = [next(drawn) if own.clusters > 1 else _once(own) for own in samples]
-        return _of_all(statistic, samples, counts).reshape(indices[0].shape[:-1])
+        return of_resamples(*map(_times_drawn, indices))
 
+    # Two samples are drawn in turns: with another batch the draws would be others.
+    batch = BATCH if len(sizes) > 1 else max(1, DRAWN_TOGETHER // sizes[0])
     interval = scipy.stats.bootstrap(
-        [np.arange(size) for size in varying],
-        of_resamples,
+        list(map(np.arange, sizes)),
+        of_indices,
         n_resamples=RESAMPLES,
-        batch=BATCH,
+        batch=batch,
         confidence_level=CONFIDENCE,
         method="percentile",
         rng=np.random.default_rng(SEED),
     ).confidence_interval
-    return Estimate(value, float(interval.low), float(interval.high))
+    return interval.low, interval.high
 
 
-def _of_all(statistic: Statistic, samples: tuple[Observations, ...], drawn: list[Counts]) -> Values:
+def _stacked(statistic: Statistic, samples: Sequence[Observations], drawn: Counts) -> Values:
+    return np.stack([statistic(own, drawn) for own in samples])
+
+
+def _of_all(
+    statistic: Statistic, samples: Sequence[Observations], drawn: Sequence[Counts]
+) -> Values:
     own = [statistic(sample, counts) for sample, counts in zip(samples, drawn, strict=True)]
     return own[0] if len(own) == 1 else own[0] / own[1]
 

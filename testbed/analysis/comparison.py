@@ -8,7 +8,8 @@ import polars as pl
 
 from testbed.analysis import explanations, quality
 from testbed.analysis.pairs import Compared
-from testbed.analysis.table import Run, Trials
+from testbed.analysis.run import Run
+from testbed.analysis.table import Trials
 from testbed.config import ExperimentConfig
 from testbed.experiment.record import FAILURES
 from testbed.world import load_world

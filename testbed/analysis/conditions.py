@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import polars as pl
 
 from testbed.analysis import quality
-from testbed.analysis.bootstrap import Estimate, bootstrap, means, proportion, sample_of
+from testbed.analysis.bootstrap import (
+    Estimate,
+    Observations,
+    as_share,
+    bootstraps,
+    means,
+    sample_of,
+)
 from testbed.analysis.comparison import by_condition, compared, eventful, with_apart
 from testbed.analysis.explanations import PREFIX
 from testbed.analysis.pairs import Compared, Sample, cluster_of, pairs_of
 from testbed.analysis.population import exhausted_under
-from testbed.analysis.table import Run
+from testbed.analysis.run import Run
 from testbed.config import ExperimentConfig
 
 VALUES: Mapping[str, pl.Expr] = {
@@ -25,6 +32,8 @@ VALUES: Mapping[str, pl.Expr] = {
 }
 """What a trial counts for in the mean of each measure; null: it does not count."""
 SHARES = ("achieved", *quality.SHARES)
+COST = "actions"
+"""What is divided by what the other robot needed."""
 
 
 @dataclass(frozen=True)
@@ -62,33 +71,39 @@ def _condition(
     counted = with_apart(rows, main, eventful(config)).filter(pl.col("apart").is_null())
     whole = set(counted["scenario"]) <= exhausted
     pairs = pairs_of(counted, main)
-    cost = Sample(pairs, cluster_of(pairs), whole=whole).achieved.ratio("actions")
+    both = Sample(pairs, cluster_of(pairs), whole=whole).achieved
     return Condition(
         counted["pair"].n_unique(),
-        cost.pairs,
-        {
-            measure: {
-                name: _estimate(counted.filter(robot=name), measure, whole)
-                for name in config.robots
-            }
-            for measure in measures
-        },
-        cost.mean,
+        len(both.divisible(COST).pairs),
+        _estimates(counted, measures, config.robots, whole),
+        both.mean_ratio(COST),
     )
 
 
-def _estimate(trials: pl.DataFrame, measure: str, whole: bool) -> Estimate | None:
-    """The mean of a measure; what is of events or explanations has the weight of their number.
+def _estimates(
+    trials: pl.DataFrame, measures: Iterable[str], robots: Sequence[str], whole: bool
+) -> dict[str, dict[str, Estimate | None]]:
+    """The mean of each measure of each robot.
 
     There is no interval where the trials are a whole population.
     """
+    asked = [(measure, name) for measure in measures for name in robots]
+    own = {name: trials.filter(robot=name) for name in robots}
+    samples = [_sample(own[name], measure) for measure, name in asked]
+    found: dict[str, dict[str, Estimate | None]] = {measure: {} for measure, _ in asked}
+    for (measure, name), sample, mean in zip(
+        asked, samples, bootstraps(means, samples), strict=True
+    ):
+        estimate = as_share(mean, sample) if measure in SHARES else mean
+        found[measure][name] = estimate.exactly if estimate and whole else estimate
+    return found
+
+
+def _sample(trials: pl.DataFrame, measure: str) -> Observations:
+    """A measure of trials; what is of events or explanations has the weight of their number."""
     known = trials.with_columns(value=VALUES[measure]).filter(pl.col("value").is_not_null())
-    if not len(known):
-        return None
     cluster = cluster_of(known)
-    labels = None if cluster is None else known[cluster].to_list()
+    labels = None if cluster is None else known[cluster].rank("dense").to_numpy()
     of = quality.OF.get(measure)
     weights = None if of is None else known[PREFIX + of].to_numpy()
-    sample = sample_of(known["value"].to_numpy(), weights, labels)
-    found = proportion(sample) if measure in SHARES else bootstrap(means, sample)
-    return found.exactly if found and whole else found
+    return sample_of(known["value"].to_numpy(), weights, labels)

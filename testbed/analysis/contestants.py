@@ -11,10 +11,10 @@ import polars as pl
 from asp.language import suggestion
 from testbed.analysis.bootstrap import Estimate
 from testbed.analysis.comparison import MEASURES, compared, eventful, measured, with_apart
-from testbed.analysis.pairs import OTHER, Compared, Ratio, Sample, cluster_of, corrected, pairs_of
+from testbed.analysis.pairs import OTHER, Compared, Sample, cluster_of, corrected, pairs_of
 from testbed.analysis.population import exhausted_under
+from testbed.analysis.run import Run
 from testbed.analysis.statistics import Test
-from testbed.analysis.table import Run
 from testbed.experiment import StoreError
 from testbed.experiment.record import COARSE
 
@@ -24,6 +24,14 @@ START = ("scenario", "level", "seed", "start", "goal")
 """What two trials have in common that are a pair; robots and conditions may differ."""
 MARK = " / "
 """Between the parts of a contestant's name."""
+
+
+@dataclass(frozen=True)
+class Divided:
+    """The mean of a measure of the baseline divided by the treatment's, and the test of both."""
+
+    mean: Estimate | None
+    test: Test | None
 
 
 @dataclass(frozen=True)
@@ -42,7 +50,7 @@ class Contrast:
     baseline: Estimate | None
     treatment: Estimate | None
     test: Test | None
-    ratios: Mapping[str, Ratio]
+    ratios: Mapping[str, Divided]
     condition: str = ""
 
     @property
@@ -205,5 +213,5 @@ def _contrast(pairs: pl.DataFrame, robots: Compared, place: str) -> Contrast:
         sample.share("achieved"),
         sample.share("achieved" + OTHER),
         sample.mcnemar("achieved"),
-        {name: both.ratio(name) for name in MEASURES},
+        {name: Divided(both.mean_ratio(name), both.signed_rank(name)) for name in MEASURES},
     )

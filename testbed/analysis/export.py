@@ -1,19 +1,17 @@
 """The table of a run as files for other programs: Parquet and CSV, written in pieces."""
 
-import errno
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
 import polars as pl
 
 from testbed.analysis.columns import as_json
-from testbed.analysis.table import BATCH, write_parquet
+from testbed.analysis.stored_table import PARQUET, stored_table
+from testbed.analysis.table import BATCH
 from testbed.experiment import StoreError
-from testbed.experiment.run_folder import naming, read_config, replace_lines
-from testbed.experiment.store import read_records
+from testbed.experiment.run_folder import read_config, replace_lines
 
-PARQUET, CSV = "trials.parquet", "trials.csv"
+CSV = "trials.csv"
 FORMULA = "^[=+@\t\r\n\u2212\uff1d\uff0b\uff0d\uff20-]"
 """How text begins that spreadsheets take for a formula."""
 
@@ -25,29 +23,11 @@ def export(folder: Path) -> tuple[Path, Path]:
         StoreError: for a folder without a run, or a run without trials.
         ConfigError: where the stored configuration is not valid any more.
     """
-    read_config(folder)
-    columnar, text = folder / PARQUET, folder / CSV
-    draft = columnar.with_name(f"{PARQUET}.part")
-    try:
-        with naming(columnar):
-            _write(folder, draft)
-        if not pl.scan_parquet(draft).select(pl.len()).collect().item():
-            raise StoreError(f"{folder}: has no trials to export yet")
-        os.replace(draft, columnar)
-    finally:
-        draft.unlink(missing_ok=True)
-    replace_lines(text, _csv(pl.scan_parquet(columnar)))
-    return columnar, text
-
-
-def _write(folder: Path, file: Path) -> None:
-    """Write the table of a run. Raises OSError where the file cannot hold it."""
-    try:
-        write_parquet(read_records(folder), file)
-    except pl.exceptions.ComputeError as error:
-        if not str(error).startswith("parquet: "):
-            raise
-        raise OSError(errno.EIO, "cannot be written; the disk may be full") from None
+    rows, text = stored_table(folder, read_config(folder)).rows, folder / CSV
+    if not rows.select(pl.len()).collect().item():
+        raise StoreError(f"{folder}: has no trials to export yet")
+    replace_lines(text, _csv(rows))
+    return folder / PARQUET, text
 
 
 def _csv(table: pl.LazyFrame) -> Iterator[bytes]:

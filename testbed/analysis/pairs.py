@@ -100,7 +100,7 @@ class Sample:
     def ratio(self, name: str) -> Ratio:
         """A measure of the baseline divided by the treatment's."""
         above, below = pl.col(name), pl.col(name + OTHER)
-        known = self.where(below != 0)
+        known = self.divisible(name)
         quotients = sample_of(known._values(above / below), **known._labels)
         weight = pl.lit(1.0) if self.weight is None else pl.col(self.weight)
         sums = self.pairs.select(a=(weight * above).sum(), b=(weight * below).sum()).row(0)
@@ -111,6 +111,14 @@ class Sample:
             test=self.signed_rank(name),
             of_sums=sums[0] / sums[1] if sums[1] else None,
         )
+
+    def divisible(self, name: str) -> Sample:
+        """The pairs in which the treatment's measure is not 0."""
+        return self.where(pl.col(name + OTHER) != 0)
+
+    def mean_ratio(self, name: str) -> Estimate | None:
+        """The mean of a measure of the baseline divided by the treatment's; None of none."""
+        return self.divisible(name).mean(pl.col(name) / pl.col(name + OTHER))
 
     def signed_rank(self, name: str) -> Test | None:
         """Wilcoxon's test of a measure; the effect is above 0 where the baseline has more."""

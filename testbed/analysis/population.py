@@ -2,7 +2,7 @@
 
 import polars as pl
 
-from testbed.analysis.table import Run
+from testbed.analysis.run import Run
 from testbed.experiment.plan import enumerated
 from testbed.experiment.record import FAILURES
 

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from testbed.analysis.bootstrap import Labels, Values, numbered
 
+MOST_EXACT = 13
+"""Differences of which every choice of signs is looked at."""
 DIGITS = 12
 """Decimals of a mean of differences: what comes behind them is rounding."""
 
@@ -44,7 +46,23 @@ def signed_rank(
         return Test(1.0, 0.0)
     ranks = scipy.stats.rankdata(np.abs(nonzero))
     effect = float(ranks @ np.sign(nonzero) / ranks.sum())
-    return Test(float(scipy.stats.wilcoxon(nonzero).pvalue), effect)
+    return Test(_chance_of(nonzero, ranks), effect)
+
+
+def _chance_of(differences: Values, ranks: Values) -> float:
+    """The p-value of the ranks of differences: exact of few, as `scipy.stats.wilcoxon` has it.
+
+    Where some are of one size it goes through all signs one by one; here they are one product.
+    """
+    if not 1 < len(differences) <= MOST_EXACT:
+        return float(scipy.stats.wilcoxon(differences).pvalue)
+    found = scipy.stats.permutation_test(
+        (differences,),
+        lambda signed, axis: np.moveaxis(np.sign(signed), axis, -1) @ ranks,
+        permutation_type="samples",
+        vectorized=True,
+    )
+    return float(found.pvalue)
 
 
 def mcnemar(

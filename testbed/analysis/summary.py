@@ -12,8 +12,9 @@ from testbed.analysis.answers import answers_of
 from testbed.analysis.comparison import ACCURACY, COUNTS, DIVIDED, MEASURES, TIMES
 from testbed.analysis.pairs import OTHER, Compared, Sample, corrected, pairs_of
 from testbed.analysis.population import exhausted
+from testbed.analysis.run import Run
 from testbed.analysis.statistics import Test
-from testbed.analysis.table import Run, Trials
+from testbed.analysis.table import Trials
 from testbed.experiment.run_folder import SUMMARY, replace_text
 
 Tests: TypeAlias = Mapping[str, Test | None]

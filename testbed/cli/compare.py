@@ -30,8 +30,8 @@ def command(
     brackets: the effect, and p after Holm's correction over all tests.
     """
     with input_errors():
+        from testbed.analysis import load_run
         from testbed.analysis.contestants import contrasts
-        from testbed.analysis.table import load_run
         from testbed.report.contrasts import grid
         from testbed.text import columns
 

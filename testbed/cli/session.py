@@ -10,11 +10,12 @@ from textwrap import wrap
 from testbed.config import ExperimentConfig
 from testbed.experiment.interrupts import INTERRUPTED, stoppable
 from testbed.experiment.lock import locked
-from testbed.experiment.plan import plan_trials
+from testbed.experiment.plan import trials_of
 from testbed.experiment.progress import progress
 from testbed.experiment.run_folder import CONFIG, REPORT, choose_folder, holds_run
 from testbed.experiment.runner import run_in
 from testbed.experiment.shard import Shard
+from testbed.experiment.specs import TrialSpec
 from testbed.experiment.status import RunStatus
 from testbed.protocol import shortened
 from testbed.report import Report, Tables, grid, write_report, written_report
@@ -58,13 +59,16 @@ def run_session(
 def report_again(folder: Path, config: ExperimentConfig) -> Report:
     """Table, summary and report of a run, made again. Raises StoreError."""
     say = Printer()
-    # An iterator, since nobody needs the plan once it is read; to draw levels again takes long.
-    specs = None if config.is_fine else iter(plan_trials(config))
-    report = written_report(folder, config, specs)
+    report = written_report(folder, config, _plan(config))
     for line in _told(report.tables):
         say(line)
     say(f"report: {folder / REPORT}")
     return report
+
+
+def _plan(config: ExperimentConfig) -> Iterator[TrialSpec] | None:
+    """The trials that records are to be of; to draw levels again takes long."""
+    return None if config.is_fine else trials_of(config)
 
 
 def serve_reports(reports: Sequence[Report], port: int) -> None:
@@ -88,7 +92,7 @@ def serve_reports(reports: Sequence[Report], port: int) -> None:
 def _conclude(
     folder: Path, config: ExperimentConfig, run: RunStatus, say: Say, shard: Shard | None
 ) -> None:
-    tables = write_report(folder, config)
+    tables = write_report(folder, config, _plan(config))
     if tables.rows:
         for line in _told(tables):
             say(line)

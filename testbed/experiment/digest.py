@@ -59,6 +59,11 @@ class Digest:
             self._sorted.append(gzip.compress(b"".join(sorted(self._lines)), compresslevel=1))
             self._lines.clear()
 
+    def taken(self, record: TrialRecord) -> TrialRecord:
+        """The record, which is taken in."""
+        self.add(record)
+        return record
+
     @property
     def value(self) -> str:
         """The SHA-256 of the results in the records so far, in hexadecimal."""

@@ -28,16 +28,14 @@ SCENARIO = "levels"
 
 def plan_trials(config: ExperimentConfig) -> list[TrialSpec]:
     """The trials of a configuration in their order: condition, scenario or level, pair, robot."""
-    if not config.is_sweep:
-        return list(_planned(config))
-    conditions = conditions_of(config).items()
-    return [
-        msgspec.structs.replace(s, cell=cell) for cell, own in conditions for s in _planned(own)
-    ]
+    return list(trials_of(config))
 
 
-def _planned(config: ExperimentConfig) -> Iterator[TrialSpec]:
-    return (_at_levels if config.is_fine else _in_scenarios)(config)
+def trials_of(config: ExperimentConfig) -> Iterator[TrialSpec]:
+    """The same, one at a time."""
+    for cell, own in conditions_of(config).items():
+        for spec in (_at_levels if own.is_fine else _in_scenarios)(own):
+            yield msgspec.structs.replace(spec, cell=cell) if config.is_sweep else spec
 
 
 def sweep_findings(config: ExperimentConfig) -> Iterator[Finding]:

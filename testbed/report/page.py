@@ -10,10 +10,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from asp.language import read_domain, scenario_notes
-from testbed.analysis import Run, load_run
+from testbed.analysis import Run
 from testbed.analysis.comparison import COUNTS, MEASURES, compared, eventful, measured, with_apart
 from testbed.analysis.condition import condition
 from testbed.analysis.pairs import Compared
+from testbed.analysis.run import run_of
+from testbed.analysis.stored_table import stored_table
 from testbed.analysis.summary import write_summary
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import coverage_of
@@ -70,7 +72,8 @@ def write_report(
 ) -> Tables:
     """Write `summary.json` and `report.html` from the records of a run; its tables.
 
-    With `specs` records are to be those of these trials. Raises StoreError for one that is not.
+    The table of its trials is stored there, too. With `specs` records are to be those of these
+    trials, which are the plan of the configuration. Raises StoreError for one that is not.
     """
     return written_report(folder, config, specs).tables
 
@@ -79,7 +82,7 @@ def written_report(
     folder: Path, config: ExperimentConfig, specs: Iterable[TrialSpec] | None = None
 ) -> Report:
     """The same; the whole report."""
-    run = load_run(folder, config, specs)
+    run = run_of(folder, config, stored_table(folder, config, specs))
     found = results_of(run)
     covered = coverage_of(run.table.select("scenario", "level").collect().iter_rows(), config)
     summary = write_summary(run, covered.numbers(), [own.numbers for own in found])

@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import scipy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -66,6 +67,19 @@ def test_the_effect_is_favourable_ranks_less_unfavourable(values: list[int]) -> 
     signed = sum(rank(value) * (1 if value > 0 else -1) for value in nonzero)
     assert test.effect == pytest.approx(signed / sum(range(1, len(nonzero) + 1)))
     assert 0.0 <= test.p <= 1.0
+
+
+@settings(max_examples=40)
+@given(st.lists(st.integers(-4, 4).filter(bool), min_size=1, max_size=10), st.booleans())
+def test_the_chance_of_few_differences_is_that_of_scipys_test(
+    values: list[int], tied: bool
+) -> None:
+    own = np.array(values, dtype=float)
+    if not tied:
+        own *= 1 + np.arange(len(own)) / 100  # few are of one size
+    test = signed_rank(own)
+    assert test is not None
+    assert test.p == pytest.approx(scipy.stats.wilcoxon(own).pvalue, abs=1e-12)
 
 
 @settings(max_examples=40)

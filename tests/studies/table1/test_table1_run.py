@@ -49,7 +49,7 @@ def test_the_intentional_robot_never_fails_with_feedback(here: Path) -> None:
 
 
 def test_the_traditional_robot_fails_where_the_goal_was_undone(here: Path) -> None:
-    trials = load_run(here, _config()).trials
+    trials = load_run(here).trials
     robots = Compared("traditional", "intentional")
     pairs = list(each(pairs_in(trials, load_world("office"), robots, ())))
     assert len(pairs) == 6 * 4
