@@ -22,7 +22,9 @@ KEPT = [
     "report.html",
     "stories.jsonl",
     "summary.json",
+    "table.json",
     "trials.jsonl",
+    "trials.parquet",
 ]
 
 
@@ -252,13 +254,13 @@ def test_a_mistake_in_a_description_is_placed() -> None:
 
 def test_report_makes_everything_again_from_the_trials() -> None:
     _testbed("run", "quickstart", "scenarios=[1]", "link=inprocess", "--out", "run")
-    before = {name: Path("run", name).read_text(encoding="utf-8") for name in KEPT}
+    before = {name: Path("run", name).read_bytes() for name in KEPT}
     Path("run/report.html").unlink()
     Path("run/summary.json").unlink()
     done = _testbed("report", "run")
     assert done.returncode == 0
     assert "intentional" in done.stdout
-    assert {name: Path("run", name).read_text(encoding="utf-8") for name in KEPT} == before
+    assert {name: Path("run", name).read_bytes() for name in KEPT} == before
 
 
 def test_replay_tells_the_trial_and_whether_it_is_as_recorded() -> None:

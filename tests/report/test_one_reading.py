@@ -45,6 +45,10 @@ def test_a_report_and_an_export_read_each_record_once(
     folder = tmp_path / "run"
     _do("run", *arguments, "link=inprocess", "--out", folder, "--quiet")
     for command in ("report", "export"):
-        before = opened(folder / "trials.jsonl")
-        _do(command, folder)
-        assert opened(folder / "trials.jsonl") - before == 1
+        for stored in (False, True):
+            if not stored:
+                (folder / "table.json").unlink()
+            before = opened(folder / "trials.jsonl")
+            _do(command, folder)
+            hashed, read = 1, 0 if stored else 1
+            assert opened(folder / "trials.jsonl") - before == hashed + read
