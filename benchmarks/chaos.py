@@ -14,11 +14,12 @@ from pathlib import Path
 from threading import Event, Thread
 from typing import Literal
 
+from benchmarks import fragile_driver, killing
 from benchmarks.clusters import until
 from benchmarks.fragile_cluster import OTHER_VERSION, FragileCluster
-from benchmarks.killing import COMMAND, HELD
 from benchmarks.sheets import DisagreementError, Row, Sheet, gathered
 from testbed.cli.loading import load
+from testbed.experiment import runner
 from testbed.experiment.digest import digest, logical
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FAILURES, TrialRecord
@@ -30,17 +31,19 @@ Fault = Literal["worker", "unlike", "scheduler", "driver"]
 
 PAIRS = {"small": 2, "full": 25}  # of each scenario of the published comparison
 WORKERS = {"small": 2, "full": 4}
+DRIVERS = {"small": fragile_driver.COMMAND, "full": killing.COMMAND}
 EVERY_S = {"small": None, "full": 4.0}
 FAULTS: Mapping[str, Mapping[int, Fault]] = {
-    "small": {2: "worker", 6: "driver", 9: "unlike", 12: "scheduler", 16: "worker", 18: "driver"},
+    "small": {2: "worker", 6: "driver", 10: "unlike", 14: "scheduler", 18: "worker", 22: "driver"},
     "full": {50: "unlike", 100: "driver", 150: "scheduler", 200: "driver"},
 }
 """What happens when so many records are written."""
+UNTIMED = "limits.decision_s=null"  # on a busy machine, too, a decision is that of an idle one
 
 
 def main(size: str) -> list[Sheet]:
     """Sheet `chaos`: what was killed, and what came of it. Raises DisagreementError."""
-    own = Chaos(["table1", f"limit={PAIRS[size]}"], WORKERS[size])
+    own = Chaos(["table1", f"limit={PAIRS[size]}", UNTIMED], WORKERS[size], DRIVERS[size])
     every = EVERY_S[size]
     often = "" if every is None else f"; besides a worker every {every:g} s"
     faults = ", ".join(f"{fault} at {number}" for number, fault in FAULTS[size].items())
@@ -56,19 +59,20 @@ def main(size: str) -> list[Sheet]:
                 f"killed at so many records: {faults}{often};",
                 "unlike is a worker of another version that joins;",
                 "executions: trials that workers began; equal: digest, stories and records as of a",
-                "run of 2 local workers that nothing disturbed, but for times and origin",
+                "run in this process that nothing disturbed, but for times and origin",
             ),
         )
     ]
 
 
 class Chaos:
-    """A configuration that is played by a cluster, and by local workers."""
+    """A configuration that is played by a cluster, and by this process."""
 
-    def __init__(self, config: Sequence[str], workers: int) -> None:
-        self._config, self._workers = config, workers
+    def __init__(self, config: Sequence[str], workers: int, driver: Sequence[str]) -> None:
+        self._config, self._workers, self._driver = config, workers, driver
         name, *overrides = config
-        self._planned = [spec.trial for spec in plan_trials(load(name, overrides))]
+        self._loaded = load(name, overrides)
+        self._planned = [spec.trial for spec in plan_trials(self._loaded)]
 
     def play(self, faults: Mapping[int, Fault], every_s: float | None) -> Row:
         """Play with faults, and besides a worker killed every so many seconds.
@@ -85,8 +89,7 @@ class Chaos:
                 seconds = time.perf_counter() - began
                 begun, unlike = cluster.begun(), cluster.begun("unlike")
             errors = (folder / ERRORS).read_text(encoding="utf-8")
-            run = ["run", *self._config, "--workers", "2", "--quiet"]
-            subprocess.run([*COMMAND, "", *run, "--out", str(folder / CALM)], check=True)
+            runner.run(self._loaded, folder / CALM, workers=0)
             return {
                 "trials": len(self._planned),
                 "executions": len(begun),
@@ -131,7 +134,7 @@ class Chaos:
         self, cluster: FragileCluster, folder: Path, faults: dict[int, Fault], more: Sequence[str]
     ) -> str:
         where = ["runner=dask", f"scheduler={cluster.address}", "--out", str(folder / RUN)]
-        command = [*COMMAND, ",".join(map(str, faults)), "run", *self._config, *where]
+        command = [*self._driver, ",".join(map(str, faults)), "run", *self._config, *where]
         errors = folder / ERRORS  # of all drivers
         with (
             errors.open("ab") as file,
@@ -146,15 +149,15 @@ class Chaos:
             assert driver.stdin is not None
             assert driver.stdout is not None
             for line in driver.stdout:
-                if line.strip() != HELD:
+                if line.strip() != killing.HELD:
                     continue
                 fault = faults.pop(min(faults))
                 if fault == "driver":
                     driver.kill()
                     return fault
-                _inject(fault, cluster, errors)
-                driver.stdin.write("\n")
-                driver.stdin.flush()
+                with _injected(fault, cluster, errors):
+                    driver.stdin.write("\n")
+                    driver.stdin.flush()
         return {0: "done", 1: "failed", 2: "lost"}[driver.returncode]
 
 
@@ -162,14 +165,19 @@ def _logical(records: Sequence[TrialRecord]) -> dict[str, dict[str, object]]:
     return {record.trial: logical(record) for record in records}
 
 
-def _inject(fault: Fault, cluster: FragileCluster, errors: Path) -> None:
+@contextmanager
+def _injected(fault: Fault, cluster: FragileCluster, errors: Path) -> Iterator[None]:
+    """Let a fault happen; the driver, which is held, is to go on in the block."""
     if fault == "worker":
-        cluster.kill_worker()
-    elif fault == "scheduler":
+        with cluster.killing_in_trial():
+            yield
+        return
+    if fault == "scheduler":
         cluster.restart_scheduler()
     else:
-        cluster.add_unlike()
-        until(lambda: OTHER_VERSION in errors.read_text(encoding="utf-8"))
+        unlike = cluster.add_unlike()
+        until(lambda: OTHER_VERSION in errors.read_text(encoding="utf-8"), unlike)
+    yield
 
 
 @contextmanager

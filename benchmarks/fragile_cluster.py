@@ -1,15 +1,14 @@
 """A cluster of Dask of which parts are killed while it plays, and started again."""
 
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from random import Random
 from threading import Lock
 from typing import Self
 
-from distributed import Client
-
 from benchmarks.clusters import ROOT, Process, scheduler, until, worker
-from benchmarks.counting import BEGUN
+from benchmarks.counting import BEGUN, STANDS, STOP
 
 OTHER_VERSION = "0.0.0"
 COUNTING = ("--preload", "benchmarks.counting")
@@ -65,9 +64,33 @@ class FragileCluster:
         with self._lock:
             playing = [folder for folder in self._workers if (folder / BEGUN).exists()]
             if 2 * len(playing) >= self._size:
-                self._workers.pop(self._random.choice(playing)).kill()
-                self.workers_killed += 1
-                self._new_worker()
+                self._kill(self._random.choice(playing))
+
+    @contextmanager
+    def killing_in_trial(self) -> Iterator[None]:
+        """Kill (SIGKILL) a worker in the middle of a trial that it begins from now on.
+
+        At the end of the block one is waited for. Workers that begin others stand still until then.
+        """
+        with self._lock:
+            stops = [folder / STOP for folder in self._workers]
+            for stop in stops:
+                stop.touch()
+            yield
+            until(self._standing)
+            self._kill(self._random.choice(self._standing()))
+            for stop in stops:
+                stop.unlink(missing_ok=True)
+                stop.with_name(STANDS).unlink(missing_ok=True)
+
+    def _standing(self) -> list[Path]:
+        return [folder for folder in self._workers if (folder / STANDS).exists()]
+
+    def _kill(self, folder: Path) -> None:
+        """Kill the worker of a folder, and start another one in its place."""
+        self._workers.pop(folder).kill()
+        self.workers_killed += 1
+        self._new_worker()
 
     def restart_scheduler(self) -> None:
         """Kill (SIGKILL) the scheduler, and start another one with workers of its own.
@@ -79,18 +102,16 @@ class FragileCluster:
             self.schedulers_killed += 1
             self._begin()
 
-    def add_unlike(self) -> None:
-        """Let a worker with another version of this testbed join."""
+    def add_unlike(self) -> Process:
+        """Start a worker with another version of this testbed; it need not have joined yet."""
         other = self._folder / "other"
         facts = other / f"intention_testbed-{OTHER_VERSION}.dist-info/METADATA"
         facts.parent.mkdir(parents=True)
         lines = ("Metadata-Version: 2.1", "Name: intention-testbed", f"Version: {OTHER_VERSION}")
         facts.write_text("\n".join(lines), encoding="utf-8")
-        with self._lock, Client(self.address, set_as_default=False) as client:
-            there = len(client.scheduler_info()["workers"])
+        with self._lock:
             unlike = worker(self.address, self._new_folder("unlike"), *COUNTING, path=[other, ROOT])
-            own = self._stack.enter_context(unlike)
-            until(lambda: len(client.scheduler_info()["workers"]) > there, own)
+            return self._stack.enter_context(unlike)
 
     def begun(self, name: str = "worker") -> list[str]:
         """The ids of the trials that workers began, one for each time."""

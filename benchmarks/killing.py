@@ -62,12 +62,16 @@ def _held_at(records: Collection[int]) -> type[TrialWriter]:
     return Held
 
 
+def numbers(records: str) -> set[int]:
+    """The numbers of records that stand in an argument."""
+    return {int(number) for number in records.split(",") if number}
+
+
 def main() -> None:
     """The command line with a writer that stands still."""
     _, records, *arguments = sys.argv
     sys.argv = ["testbed", *arguments]
-    numbers = {int(number) for number in records.split(",") if number}
-    runner.TrialWriter = _held_at(numbers)  # type: ignore[attr-defined]
+    runner.TrialWriter = _held_at(numbers(records))  # type: ignore[attr-defined]
     cli.main()
 
 
