@@ -126,7 +126,7 @@ def test_the_driver_of_a_run_grows_by_what_it_knows_of_each_trial() -> None:
 
 def test_commands_about_a_made_run_end_well_and_are_measured() -> None:
     (rows,) = rows_of(large_runs.main("small")).values()
-    commands = ["report", "export", "compare", "run --resume", "merge"]
+    commands = ["report", "report, the table stored", "export", "compare", "run --resume", "merge"]
     assert column(rows, "command") == commands
     assert len({*column(rows, "trials")}) == 1
     assert all(float(str(row["peak_mb"])) > 0 for row in rows)

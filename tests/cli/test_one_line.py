@@ -82,7 +82,7 @@ def _limited(most: int) -> Callable[[], None]:
     [
         (["report", "run"], 8_000, "run/report.html"),
         (["translate", "lamps.al", "-o", "lamps.lp"], 100, "lamps.lp"),
-        (["export", "run"], 100, "run/trials.parquet"),
+        (["export", "run"], 100, "run/trials.csv"),
     ],
 )
 def test_a_full_disk_is_told_with_the_file(arguments: list[str], most: int, file: str) -> None:
@@ -92,6 +92,17 @@ def test_a_full_disk_is_told_with_the_file(arguments: list[str], most: int, file
     assert process.returncode == 2, told
     (line,) = told.splitlines()
     assert line.startswith(f"{file}: ")
+
+
+@pytest.mark.parametrize("command", ["report", "export"])
+def test_a_disk_without_room_for_the_table_is_told(command: str) -> None:
+    assert CliRunner().invoke(app, [*PLAY, "limit=1", "--quiet"]).exit_code == 0
+    Path("run/table.json").unlink()
+    process = _start(command, "run", stdout=subprocess.DEVNULL, preexec_fn=_limited(100))
+    _, told = process.communicate()
+    assert process.returncode == 2, told
+    (line,) = told.splitlines()
+    assert line.startswith("run/trials.parquet: ")
 
 
 def test_records_that_cannot_be_written_are_told_with_their_file() -> None:
