@@ -117,6 +117,7 @@ def check_sizes(source: syntax.Source, signature: Signature, problems: Problems)
             problems.report(largest.place, f"{message}: smaller sorts")
 
 
+@lru_cache(maxsize=MOST_TEXTS)
 def check_one_robot(text: str, file: str) -> None:
     """Check that the actions of a description are those of one robot.
 

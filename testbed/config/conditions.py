@@ -16,6 +16,9 @@ from testbed.config.sweep import RANGE
 PARTS = re.compile(r"""(?:"(?:\\.|[^"\\])*"|'[^']*'|\[[^\]]*\]|\{[^}]*\}|\([^)]*\)|[^,"'\[{(])+""")
 """Parts between commas that are in no quotes and no brackets; brackets of a kind are not nested."""
 
+SECTION = re.compile(r"[.\[]")
+"""Behind the first key of a dotted one."""
+
 
 def conditions_of(config: ExperimentConfig) -> dict[str, ExperimentConfig]:
     """The configuration under each condition, by the condition's name; of no sweep itself, by "".
@@ -53,11 +56,14 @@ def varied(config: ExperimentConfig, keys: Mapping[str, Any]) -> dict[str, Any]:
 
     Raises an error of OmegaConf, or ValueError or TypeError, for a key that leads nowhere.
     """
-    given = OmegaConf.create(config.model_dump(mode="json", exclude_unset=True, exclude={"sweep"}))
+    given = config.model_dump(mode="json", exclude_unset=True, exclude={"sweep"})
+    first = {SECTION.split(key, maxsplit=1)[0] for key in keys}
+    # Only what these keys lead into: OmegaConf takes long for a whole configuration.
+    changed = OmegaConf.create({key: value for key, value in given.items() if key in first})
     for key, value in keys.items():
-        OmegaConf.update(given, key, value, merge=value != {}, force_add=True)
-    composed: Any = OmegaConf.to_container(given)
-    return {str(key): value for key, value in composed.items()}
+        OmegaConf.update(changed, key, value, merge=value != {}, force_add=True)
+    composed: Any = OmegaConf.to_container(changed)
+    return given | {str(key): value for key, value in composed.items()}
 
 
 def with_sweep(overrides: Sequence[str]) -> list[str]:
