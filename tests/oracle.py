@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
-from testbed.experiment.judge import cheapest_plan
+from testbed.search import cheapest_plan
 from testbed.world import World
 
 

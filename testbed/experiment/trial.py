@@ -13,7 +13,7 @@ from asp.refinement import Refinement
 from testbed.config import refinement_of_files, refinement_of_size
 from testbed.environment import Core, IllegalActionError, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
-from testbed.experiment.judge import Judge, Narrowing
+from testbed.experiment.judge import Judge
 from testbed.experiment.origin import load, sha256
 from testbed.experiment.record import Occurrence, Rejected
 from testbed.experiment.recorder import Recorder, Result
@@ -32,6 +32,7 @@ from testbed.protocol import (
     in_one_line,
     shortened,
 )
+from testbed.search import Narrowing
 from testbed.text import listed
 from testbed.world import World, load_world, world_of
 

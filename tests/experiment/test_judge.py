@@ -9,9 +9,10 @@ import pytest
 
 from asp import parse_description
 from testbed.config import load_config
-from testbed.experiment.judge import Goal, Judge, Problem
+from testbed.experiment.judge import Judge
 from testbed.experiment.runner import play_missing
 from testbed.report import write_report
+from testbed.search import Goal, Problem
 from testbed.world import world_of
 
 Run = Callable[..., tuple[list[dict[str, Any]], dict[str, Any], str]]

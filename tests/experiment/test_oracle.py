@@ -8,7 +8,7 @@ import pytest
 from asp.domains import level_text
 from asp.language import analyse, ground_description
 from testbed.environment import RandomGoal
-from testbed.experiment.judge import Narrowing, cheapest_plan
+from testbed.search import Narrowing, cheapest_plan
 from testbed.world import World, load_world, world_of
 from tests.literals import parsed
 from tests.oracle import minimal_actions, minimal_units

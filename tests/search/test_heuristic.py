@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from asp.language import SourceError, parse_description
 from testbed.config import load_config
-from testbed.experiment import judge
-from testbed.experiment.heuristic import Potentials, blind
 from testbed.experiment.runner import play_missing
+from testbed.search import plans
+from testbed.search.heuristic import Potentials, blind
 from testbed.world import World, load_world, world_of
 from tests.experiment.gardens import GARDEN
 from tests.literals import parsed
@@ -192,7 +192,7 @@ def check(world: World, goal: tuple[str, ...], costs: Mapping[str, int], starts:
 @pytest.fixture
 def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """The heuristic is found after the first state."""
-    monkeypatch.setattr(judge, "UNINFORMED", 1)
+    monkeypatch.setattr(plans, "UNINFORMED", 1)
 
 
 def measures(world: World) -> tuple[Mapping[str, int], Mapping[str, int]]:
@@ -251,7 +251,7 @@ def test_in_a_random_world_the_heuristic_is_consistent(
     goal = tuple(data.draw(st.lists(st.sampled_from(literals), min_size=1, max_size=3)))
     costs = {action: data.draw(st.integers(0, 9)) for action in world.agent_actions}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(judge, "UNINFORMED", 1)
+        patch.setattr(plans, "UNINFORMED", 1)
         check(world, goal, costs, 16)
 
 
@@ -259,7 +259,7 @@ def test_what_is_too_much_to_enumerate_is_searched_without(monkeypatch: pytest.M
     world = world_of(parse_description(CARTS))
     start, goal, (costs, _) = next(world.states()), parsed(["at(jar,gate)"]), measures(world)
     assert Potentials(world.description).heuristic(start, goal, costs) is not blind
-    monkeypatch.setattr("testbed.experiment.heuristic.MOST_CHANGES", 3)
+    monkeypatch.setattr("testbed.search.heuristic.MOST_CHANGES", 3)
     assert Potentials(world.description).heuristic(start, goal, costs) is blind
 
 
