@@ -1,10 +1,10 @@
 """The judge of trials: the fewest actions, and units, that achieve a goal, known completely."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 
 from testbed.experiment.record import Minimal
-from testbed.search import BudgetError, Goal, Problem, cheapest_plan
+from testbed.search import BudgetError, Goal, Pose, cheapest_plan
 
 MOST_ANSWERS = 4_096
 """How many answers are remembered: trials from the same state ask the same."""
@@ -13,7 +13,7 @@ MOST_ANSWERS = 4_096
 class Judge:
     """Answers questions about states of one world, each once."""
 
-    def __init__(self, problem: Callable[[int, Goal], Problem], costs: Mapping[str, int]) -> None:
+    def __init__(self, problem: Pose, costs: Mapping[str, int]) -> None:
         """`problem` gives what is searched for a state and a goal; `costs` are execution units."""
         self._problem, self._costs = problem, costs
         self._fewest = lru_cache(MOST_ANSWERS)(self._search)

@@ -1,4 +1,4 @@
-"""Problems without what no plan needs."""
+"""Problems without what no plan needs, and those of a refinement at its coarse resolution."""
 
 from collections.abc import Collection
 from functools import lru_cache
@@ -13,6 +13,7 @@ from asp.language import (
     without_exogenous,
 )
 from asp.reasoning import Relevance
+from asp.refinement import Refinement
 from testbed.search.plans import Goal, Problem
 from testbed.world import World, world_of
 
@@ -35,3 +36,22 @@ class Narrowing:
     def _without(self, dropped: frozenset[str]) -> World:
         source, signature = restrict(self._source, dropped), narrowed(self._signature, dropped)
         return world_of(ground_description(source, signature, self._name))
+
+
+def coarse_problem(refinement: Refinement, state: int, goal: Goal) -> Problem:
+    """The problem of a fine state: the coarse one of it, narrowed.
+
+    A goal with fine literals is one of the fine world, as it is.
+    """
+    narrowing, coarse = _coarse(refinement)
+    fine = world_of(refinement)
+    if not coarse.issuperset(literal.atom for literal in goal):
+        return fine, state, goal
+    return narrowing.problem(coarse.intersection(fine.true_atoms(state)), goal)
+
+
+@lru_cache(maxsize=16)
+def _coarse(refinement: Refinement) -> tuple[Narrowing, frozenset[Fluent]]:
+    signature, name = refinement.coarse_signature, refinement.description.name
+    known = frozenset(refinement.description.fluents)
+    return Narrowing(refinement.coarse, signature, name), known

@@ -4,7 +4,7 @@ The search shares no line with the robots' planners: it is by uniform cost at fi
 heuristic that is consistent in every domain.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from heapq import heapify, heappop, heappush
 from itertools import count
@@ -16,8 +16,15 @@ from testbed.world import World
 Goal = tuple[Literal, ...]
 Problem = tuple[World, int, Goal]
 """A world, the state to begin in, and the goal."""
+Pose = Callable[[int, Goal], Problem]
+"""Poses the problem of a state and a goal of a game."""
 UNINFORMED = 200
 """States expanded by uniform cost: most searches end before a heuristic would be found."""
+
+
+def as_it_is(world: World, state: int, goal: Goal) -> Problem:
+    """The problem in a world itself."""
+    return world, state, goal
 
 
 class BudgetError(RuntimeError):

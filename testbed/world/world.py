@@ -154,14 +154,15 @@ class World(ABC):
         """
         return self._remembered(state, frozenset(actions))
 
-    def moves(self, state: int) -> Iterator[tuple[Action, int]]:
+    def moves(self, state: int, beside: Iterable[Action] = ()) -> Iterator[tuple[Action, int]]:
         """Each action of the agents that can be executed, with each state it can lead to.
 
-        In the order of declaration. Nothing is remembered: this is for searches, whose memory would
-        grow with all actions of every state that they look at.
+        In the order of declaration, together with what happens `beside` it. Nothing is remembered:
+        this is for searches, whose memory would grow with all actions of every state.
         """
+        others = frozenset(beside)
         for action in self.agent_actions:
-            for reached in self._successors(state, frozenset([action])):
+            for reached in self._successors(state, others | {action}):
                 yield action, reached
 
     def successor(self, state: int, actions: Iterable[Action]) -> int:
