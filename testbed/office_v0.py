@@ -4,10 +4,10 @@
     env = office_v0.env(config="configs/office.yaml", render_mode="ansi")
 
 Of a configuration the environment uses domain, goal, initial, observability, goal_feedback,
-exogenous_while_thinking and limits.steps; scenarios and scripts are an adversary's business, and
-the adversary is an agent here. Any key can be overridden: `env(goal_feedback=False)`. Of a sweep
-it is given one condition. With
-`level="L3"`, or a configuration with a refinement, the robot acts at the fine resolution.
+exogenous_while_thinking, rewards, limits.steps, limits.judge_states, and what bounds the adversary;
+scenarios and scripts are an adversary's business, and the adversary is an agent here. Any key can
+be overridden: `env(goal_feedback=False)`. Of a sweep it is given one condition. With `level="L3"`,
+or a configuration with a refinement, the robot acts at the fine resolution.
 """
 
 import json
@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 from asp import load_description
 from asp.language import suggestion
 from testbed.config import ConfigError, ExperimentConfig, lists_keys, load_config, refinements
-from testbed.environment import Core, RandomGoal, Rules, fine_core
+from testbed.environment import Core, EventRules, RandomGoal, Rewards, Rules, fine_core
 from testbed.environment.aec import AECView, OrderedView
 from testbed.environment.parallel import ParallelView
 from testbed.world import world_of
@@ -67,6 +67,9 @@ def make_core(
         observability=read.rules_of_news(),
         goal_feedback=read.goal_feedback,
         exogenous_while_thinking=read.exogenous_while_thinking,
+        adversary=EventRules(**read.adversary.bounds()),
+        rewards=Rewards(**dict(read.rewards)),
+        search_states=read.limits.judge_states,
     )
     if read.is_fine:
         return _fine(read, rules)

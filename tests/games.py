@@ -113,12 +113,12 @@ sees
 
 
 class Domain(NamedTuple):
-    """A domain, a goal in it, a state to begin in, and a sort of what events name."""
+    """A domain, a goal in it, a state to begin in, and events per game that may name an object."""
 
     text: str
     goal: Sequence[str]
     initial: Sequence[str]
-    sort: str
+    per_object: Mapping[str, int]
 
 
 DOMAINS = {
@@ -126,11 +126,14 @@ DOMAINS = {
         HARBOUR,
         ["lies(silk,west)", "lies(salt,west)"],
         ["lies(silk,east)", "lies(salt,dock)", "stands(mate,dock)"],
-        "crate",
+        {"crate": 2, "berth": 1},
     ),
-    "lanterns": Domain(LANTERNS, ["glows(red)", "glows(blue)"], ["glows(green)"], "lantern"),
+    "lanterns": Domain(LANTERNS, ["glows(red)", "glows(blue)"], ["glows(green)"], {"lantern": 1}),
     "pottery": Domain(
-        POTTERY, ["firm(bowl)", "hot(bowl)", "firm(vase)"], ["soft(bowl)", "soft(vase)"], "piece"
+        POTTERY,
+        ["firm(bowl)", "hot(bowl)", "firm(vase)"],
+        ["soft(bowl)", "soft(vase)"],
+        {"piece": 1},
     ),
 }
 

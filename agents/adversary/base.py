@@ -1,11 +1,12 @@
 """The interface of an adversary, its view of a game, and its observation at a step."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal as Choice
 from typing import Protocol
 
 from asp.language import Action, Description, Fluent, Literal
+from testbed.environment import EventRules, Left
 
 Sight = Choice["state", "robot_action"]
 """What a class of adversaries may declare to see, as its attribute `sees`."""
@@ -15,14 +16,16 @@ Sight = Choice["state", "robot_action"]
 class Game:
     """What an adversary is told of a trial before it begins.
 
-    `goal` are the robot's literals, `exogenous_actions` the ground actions that the adversary has,
-    `description` the domain, at the coarse resolution.
+    `goal` are the robot's literals, `exogenous_actions` the ground actions that the adversary has
+    and may use, `description` the domain, at the coarse resolution, `rules` what bounds the
+    adversary, and what an event costs it.
     """
 
     scenario: str
     goal: tuple[Literal, ...]
     exogenous_actions: Sequence[Action]
     description: Description
+    rules: EventRules = field(default_factory=EventRules)
 
 
 @dataclass(frozen=True)
@@ -31,10 +34,10 @@ class AdversaryView:
 
     `state` are the true fluents, `robot_action` what the robot will attempt at this step; without
     the sight of them `state` is empty and `robot_action` None. `legal` is what may be answered:
-    `none`, and the exogenous actions possible beside the robot's. Where these are many, asking
-    whether one is legal is quick, and listing all is not. `physical`: whether the robot's action is
-    one that is to change the world, and not a mental action or a test; False without the sight of
-    `robot_action`.
+    `none`, and the exogenous actions possible beside the robot's that the rules allow. Where these
+    are many, asking whether one is legal is quick, and listing all is not. `physical`: whether the
+    robot's action is one that is to change the world, and not a mental action or a test; False
+    without the sight of `robot_action`. `left`: what is left of the budget and of the cooldown.
     """
 
     step: int
@@ -42,6 +45,7 @@ class AdversaryView:
     robot_action: Action | None
     legal: Sequence[Action]
     physical: bool = True
+    left: Left = field(default_factory=Left)
 
 
 class Adversary(Protocol):

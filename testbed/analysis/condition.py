@@ -1,5 +1,6 @@
 """The condition that trials are played under: in words, and what a published one has otherwise."""
 
+import json
 from collections.abc import Callable, Collection, Mapping
 
 from agents.adversary import RANDOM_RATE
@@ -110,7 +111,14 @@ def _news(own: Observability) -> str:
 
 def _adversary(config: ExperimentConfig, own: ScenarioSettings) -> str:
     thinking = ", also while the robot thinks" if own.exogenous_while_thinking else ""
-    return f"{_strategy(config, own)}{thinking}"
+    return f"{_strategy(config, own)}{thinking}{_bounds(config)}"
+
+
+def _bounds(config: ExperimentConfig) -> str:
+    """The rules for the adversary, as far as there are any."""
+    bounds = set(config.adversary.bounds())
+    given = config.adversary.model_dump(mode="json", include=bounds, exclude_defaults=True)
+    return "".join(f", {in_words(name)} {json.dumps(value)}" for name, value in given.items())
 
 
 def _strategy(config: ExperimentConfig, own: ScenarioSettings) -> str:

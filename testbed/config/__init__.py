@@ -24,5 +24,6 @@ from testbed.config.scenarios import early_script_findings as early_script_findi
 from testbed.config.sections import AdversarySettings as AdversarySettings
 from testbed.config.sections import Limits as Limits
 from testbed.config.sections import Observability as Observability
+from testbed.config.sections import RewardSettings as RewardSettings
 from testbed.config.sections import ScenarioSettings as ScenarioSettings
 from testbed.config.sections import ScriptEntry as ScriptEntry

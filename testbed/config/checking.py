@@ -19,6 +19,7 @@ from asp.language import (
 from asp.reasoning.diagnosis import cannot_hold, never_together
 from asp.refinement import Refinement
 from asp.translation import translate
+from testbed.config.game import event_findings
 from testbed.config.levels import map_findings, refinements, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig
 from testbed.config.places import ConfigError, Diction, Finding, Key, Places, dotted, unfit_literals
@@ -139,6 +140,7 @@ def _domain_findings(
         yield ("domain",), NO_ROBOT
     if not config.goal:
         yield ("goal",), f"should not be empty; for example {GOAL}"
+    yield from event_findings(config.adversary, signature)
     goals, states = goals_of(world, signature), Diction(signature, world.state)
     yield from _said((), config, goals, states)
     played = scenarios_of(config, known)
@@ -172,6 +174,7 @@ def _level_findings(config: ExperimentConfig, refinement: Refinement) -> Iterato
     why = "no such action at this resolution"
     yield from _names(("observability",), config.observability, weak, "exogenous", why)
     yield from _names(("statistics",), config.statistics, refinement.strong_signature, "agent", why)
+    yield from event_findings(config.adversary, weak)
     goals = Diction(coarse, lambda given: world_of(refinement.description).check_together(given))
     states = Diction(weak, lambda given: world_of(refinement).state(given))
     yield from _said((), config, goals, states)

@@ -7,6 +7,7 @@ from pathlib import Path
 from asp.domains import LEVELS, LevelSize, level_text
 from asp.language import read_domain, suggestion
 from asp.refinement import Refinement, load, read_refinement, refined_name
+from testbed.config.game import reward_findings
 from testbed.config.models import TRIGGERS, ExperimentConfig
 from testbed.config.places import Finding
 
@@ -65,6 +66,7 @@ def settings_findings(config: ExperimentConfig) -> Iterator[Finding]:
         yield ("domain",), "goes with no levels, which are made; with a domain give its refinement"
     if config.adversary.strategy == TRIGGERS:
         yield ("adversary", "strategy"), "triggers belong to scenarios; at levels events are random"
+    yield from reward_findings(config.rewards)
     known = (*LEVELS, *config.level_sizes)
     for index, name in enumerate(config.levels):
         if name not in known:

@@ -17,6 +17,7 @@ from testbed.config.sections import (
     LevelSettings,
     Limits,
     Observability,
+    RewardSettings,
     ScenarioSettings,
     ScriptEntry,
 )
@@ -62,6 +63,7 @@ class ExperimentConfig(Section):
     the study that the trials are for: a name, or `module:OBJECT`. `sweep` says under which
     conditions trials are played, each under all of them. `runner` is what plays them: processes of
     this machine, or Dask: the workers of a `scheduler`, without one a cluster on this machine.
+    `rewards` is what a game of the environment is worth; results of trials do not depend on it.
 
     With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
     resolution. They are drawn: each has its initial state and its goal unless these are given.
@@ -99,6 +101,7 @@ class ExperimentConfig(Section):
     script_policy: ScriptPolicy = "error"
     statistics: dict[str, Probability] = Field(default_factory=dict)
     adversary: AdversarySettings = AdversarySettings()
+    rewards: RewardSettings = RewardSettings()
     limits: Limits = Limits()
     sweep: Sweep = Sweep()
 

@@ -1,5 +1,6 @@
 """The sections of a configuration: keys that belong together, each with its type and default."""
 
+from dataclasses import fields
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -8,11 +9,13 @@ from asp import language
 from testbed import environment
 from testbed.config.values import (
     MOST,
+    Amount,
     Count,
     Flag,
     Literals,
     LiteralText,
     Name,
+    Natural,
     Probability,
     Seconds,
     Section,
@@ -29,7 +32,7 @@ class Observability(Section):
     mode: environment.Mode = "never"
     probability: Probability = 1.0
     false_reports: Probability = 0.0
-    delay: Annotated[int, Field(strict=True, ge=0, le=MOST)] = 0
+    delay: Natural = 0
 
 
 class ScriptEntry(Section):
@@ -49,8 +52,9 @@ class Limits(Section):
     A decision may take so many `conflicts` of the solver, ground programs of at most so many
     `ground_rules`, and so many `expansions` of sets of states; None: any number. `decision_s` are
     the seconds that it may take with everything, a guard. At any of them a robot waits for a step.
-    `judge_states` are the states that are looked at, after the trial, for the fewest actions that
-    achieve its goal; where they do not suffice these are not known.
+    `judge_states` are the states that a search with complete knowledge looks at: after the trial,
+    for the fewest actions that achieve its goal, which are not known where they do not suffice; and
+    what rules and rewards of the game ask for.
     """
 
     steps: Count = 100
@@ -72,12 +76,41 @@ class AdversarySettings(Section):
     others what they take it for. `options` are those that the strategy declares. `pace`: at the
     fine resolution, at each `concrete` action or only at those that change what holds at the coarse
     one (`abstract`).
+
+    What bounds any strategy, and any script: `budget` events per game, `per_object` events per game
+    that name one object of a sort, `cooldown` steps that pass after an event, `events` that it may
+    use (names of exogenous actions, or ground ones; null: all), and with `fair` only events after
+    which the goal can still be achieved. `cost`: what an event takes from its reward.
     """
 
     strategy: Name | None = None
     options: dict[str, Any] = Field(default_factory=dict)
     rate: Probability | None = None
     pace: environment.Pace = "concrete"
+    budget: Natural | None = None
+    per_object: dict[Name, Natural] = Field(default_factory=dict)
+    cooldown: Natural = 0
+    cost: Amount = 0.0
+    events: Literals | None = None
+    fair: Flag = False
+
+    def bounds(self) -> dict[str, Any]:
+        """What bounds the adversary, by the names of the environment's rules."""
+        return {field.name: getattr(self, field.name) for field in fields(environment.EventRules)}
+
+
+class RewardSettings(Section):
+    """What a game is worth: docs/game.md has the equations.
+
+    `step`: what a step costs the robot; `shaping`: the factor of the potential-based reward;
+    `discount`: that of the learner, which the latter needs.
+    """
+
+    robot: environment.RobotReward = "goal"
+    adversary: environment.AdversaryReward = "zero_sum"
+    step: Amount = 0.0
+    shaping: Amount = 0.0
+    discount: Annotated[float, Field(strict=True, gt=0.0, le=1.0)] = 1.0
 
 
 class LevelSettings(Section):

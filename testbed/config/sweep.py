@@ -24,7 +24,9 @@ RANGE = re.compile(rf"({NUMBER}):({NUMBER}):({NUMBER})$")
 """`FIRST:LAST:STEP`, in decimal."""
 FIXED: Mapping[str, str] = {
     **dict.fromkeys(("name", "protocol", "sweep"), "is that of the whole run"),
-    **dict.fromkeys(("link", "limits.answer_s", "runner", "scheduler", "tls"), "changes no result"),
+    **dict.fromkeys(
+        ("link", "limits.answer_s", "rewards", "runner", "scheduler", "tls"), "changes no result"
+    ),
     **dict.fromkeys(
         ("robots", "scenarios", "levels"), "is a list that is played under every condition"
     ),

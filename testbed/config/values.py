@@ -63,6 +63,8 @@ LiteralText = Annotated[Literal, PlainValidator(_literal), PlainSerializer(str, 
 Literals = Annotated[tuple[LiteralText, ...], BeforeValidator(_whole)]
 Name = Annotated[str, BeforeValidator(_named), Field(min_length=1)]
 Count = Annotated[int, Field(strict=True, ge=1, le=MOST)]
+Natural = Annotated[int, Field(strict=True, ge=0, le=MOST)]
+Amount = Annotated[float, Field(strict=True, ge=0.0, le=1e9)]
 Seconds = Annotated[float, Field(strict=True, gt=0.0, le=LONGEST_S)]
 Probability = Annotated[float, Field(strict=True, ge=0.0, le=1.0)]
 Flag = Annotated[bool, Field(strict=True)]

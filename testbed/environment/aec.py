@@ -9,7 +9,7 @@ from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 from asp.language import Action
 from testbed.environment.core import Snapshot
 from testbed.environment.observation import Observation, View, infos, observe
-from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, listed, name_of, rewards
+from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, listed, name_of
 
 _TOLD = ("rewards", "_cumulative_rewards", "terminations", "truncations", "infos")
 """The attributes in which PettingZoo tells the agents of a step."""
@@ -80,7 +80,7 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         self._chosen = None
         self.agent_selection = ROBOT
         self.terminations, self.truncations = self._ends()
-        self.rewards = rewards(self.core.situation.ending)
+        self.rewards = self.core.rewards
         self.infos = infos(self.core, None)
 
     def observe(self, agent: str) -> Observation:

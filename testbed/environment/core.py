@@ -5,15 +5,19 @@ nothing in the world, so that a game begins at step 1, at which the robot gives 
 """
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from asp.language import Action, Literal
+from testbed.environment.allowance import Allowance, Left
 from testbed.environment.execution import Execution, Played
-from testbed.environment.legality import LegalEvents
+from testbed.environment.legality import LegalEvents, Legality
+from testbed.environment.payoff import Payoff
 from testbed.environment.rules import Ending, IllegalActionError, NotResetError, Rules, Situation
 from testbed.protocol import FINISH, NONE, WAIT, Percept
+from testbed.search import Pose, Reach, as_it_is
 from testbed.world import World
 
 Snapshot: TypeAlias = tuple[Situation, Any]
@@ -28,8 +32,9 @@ class Core:
     """A game in a world under rules; `initial` are the states that it may begin in, or a draw.
 
     `execution` says how the robot's attempts come out; by default what is possible takes effect.
-    A game has the goal of the rules unless `draw_goal` draws one for it.
-    Raises UnknownFluentError if the goal is not of the domain.
+    A game has the goal of the rules unless `draw_goal` draws one for it. `pose` gives what the
+    searches of the rules look at; by default that is the world itself.
+    Raises UnknownFluentError if the goal is not of the domain, ValueError for rules that are not.
     """
 
     def __init__(
@@ -39,6 +44,7 @@ class Core:
         initial: Sequence[int] | Draw,
         execution: Execution | None = None,
         draw_goal: DrawGoal | None = None,
+        pose: Pose | None = None,
     ) -> None:
         world.satisfies(0, rules.goal)
         self.world = world
@@ -49,9 +55,15 @@ class Core:
         self.robot = self.execution.robot
         self.robot_actions = (WAIT, FINISH, *self.execution.actions)
         self.adversary_actions = (NONE, *world.exogenous_actions)
+        self.allowance = Allowance(rules.adversary, world.description)
+        posed = pose or partial(as_it_is, world)
+        self._payoff = Payoff(rules, posed, world.description.costs)
+        self._reach = Reach(posed, rules.search_states)
+        self._legality = Legality(
+            self.execution, rules, self.adversary_actions, self.allowance, self._reach
+        )
         self._random = np.random.default_rng()
         self._situation: Situation | None = None
-        self._legal: LegalEvents | None = None
 
     @property
     def situation(self) -> Situation:
@@ -76,7 +88,14 @@ class Core:
         else:
             state = self._draw(self.initial)
         goal = self.draw_goal(state, self._random) if self.draw_goal else self.rules.goal
-        self._situation = Situation(trial=trial, step=1, state=state, goal=goal)
+        self._situation = Situation(
+            trial=trial,
+            step=1,
+            state=state,
+            goal=goal,
+            start=state,
+            in_reach=self._stays_in_reach(state, goal),
+        )
 
     def snapshot(self) -> Snapshot:
         """What `restore` needs to play on from here, as often as wanted, in the same way."""
@@ -90,6 +109,16 @@ class Core:
     def achieved(self) -> bool:
         """Whether the goal holds, as opposed to what the robot believes."""
         return self.world.satisfies(self.situation.state, self.situation.goal)
+
+    @property
+    def left(self) -> Left:
+        """What is left to the adversary of its budget, and of its cooldown."""
+        return self.allowance.left(self.situation)
+
+    @property
+    def rewards(self) -> dict[str, float]:
+        """What the last step was worth to each agent."""
+        return self._payoff(self.situation)
 
     @property
     def visible(self) -> tuple[Literal, ...]:
@@ -120,12 +149,7 @@ class Core:
 
     def legal_events(self, robot_action: Action | None) -> LegalEvents:
         """The same, each tested only when it is asked for. Those asked for last are remembered."""
-        state, last = self.situation.state, self._legal
-        if last is None or (last.state, last.robot_action) != (state, robot_action):
-            thinking, candidates = self.rules.exogenous_while_thinking, self.adversary_actions
-            last = LegalEvents(self.execution, thinking, candidates, state, robot_action)
-            self._legal = last
-        return last
+        return self._legality.events(self.situation, robot_action)
 
     def legal(self, robot_action: Action | None, event: Action) -> bool:
         """Whether `event` is among `events(robot_action)`."""
@@ -159,7 +183,7 @@ class Core:
             effective=effective,
             event=None if event == NONE else event,
             after=state,
-            possible=self.legal_events(robot_action).allows,
+            possible=self.legal_events(robot_action).possible,
         )
         sensed = execution.sensed(robot_action, state, self._random) if happened else ()
         news = (*now.pending, *played.reports())
@@ -176,7 +200,16 @@ class Core:
             pending=tuple((due, report) for due, report in news if due > now.step + 1),
             goal_holds=False if self._answers(robot_action) else None,
             ending=self._ending(robot_action),
+            start=now.start,
+            before=now.state,
+            played=now.played if event == NONE else (*now.played, (now.step, event)),
+            units=now.units + self._payoff.costs.get(robot_action, 0),
+            in_reach=now.in_reach and self._stays_in_reach(state, now.goal),
         )
+
+    def _stays_in_reach(self, state: int, goal: tuple[Literal, ...]) -> bool:
+        """Whether the goal is within reach, as far as the rewards ask."""
+        return self.rules.rewards.adversary != "fail" or bool(self._reach(state, goal))
 
     def _draw(self, states: Sequence[int]) -> int:
         return states[int(self._random.integers(len(states)))] if len(states) > 1 else states[0]

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from typing import Literal as Choice
 
@@ -12,6 +13,7 @@ from asp.refinement import Refinement, sensing_of
 from testbed.environment.core import Core, DrawGoal
 from testbed.environment.execution import Execution, Statistics
 from testbed.environment.rules import Rules
+from testbed.search import coarse_problem
 from testbed.world import World, world_of
 
 Pace = Choice["concrete", "abstract"]
@@ -39,7 +41,8 @@ def fine_core(
     coarse = refinement.coarse_signature.symbols if pace == "abstract" else None
     execution = Execution(world, robot, sensing_of(refinement), statistics or {}, coarse)
     starts = RandomStart(world, robot, holding) if initial is None else initial
-    return Core(world, rules, starts, execution, draw_goal)
+    pose = partial(coarse_problem, refinement)
+    return Core(world, rules, starts, execution, draw_goal, pose)
 
 
 @dataclass(eq=False)

@@ -1,23 +1,62 @@
 """Legal exogenous actions beside the robot's action, asked for one event or for all."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from asp.language import Action, Literal
+from testbed.environment.allowance import Allowance
 from testbed.environment.execution import Execution
+from testbed.environment.rules import EventRules, Rules, Situation
 from testbed.protocol import FINISH, NONE, WAIT
+from testbed.search import Reach
+
+
+class Legality:
+    """Says what is legal in a situation. What was asked last is remembered."""
+
+    def __init__(
+        self,
+        execution: Execution,
+        rules: Rules,
+        candidates: Sequence[Action],
+        allowance: Allowance,
+        reach: Reach,
+    ) -> None:
+        self._execution, self._rules, self._candidates = execution, rules, candidates
+        self._allowance, self._reach = allowance, reach
+        self._restricted = rules.adversary != EventRules()
+        self._last: tuple[tuple[Any, ...], LegalEvents] | None = None
+
+    def events(self, now: Situation, robot_action: Action | None) -> "LegalEvents":
+        """The legal events beside the robot's action, which need not be known."""
+        left = self._allowance.left(now)
+        question = now.state, robot_action, now.goal, left
+        if self._last is None or self._last[0] != question:
+            refusal = partial(self._allowance.why_not, left=left, step=now.step)
+            found = LegalEvents(
+                self._execution,
+                self._rules.exogenous_while_thinking,
+                self._candidates,
+                now.state,
+                robot_action,
+                refusal if self._restricted else None,
+                partial(self._reach, goal=now.goal) if self._rules.adversary.fair else None,
+            )
+            self._last = question, found
+        return self._last[1]
 
 
 @dataclass(eq=False)
 class LegalEvents(Sequence[Action]):
     """The adversary's actions that are legal beside the robot's in a state, in their order.
 
-    An event is legal where it is possible however the robot's action comes out; doing nothing
-    always is. The robot's action may not be known (None). `while_thinking`: waiting lets others
-    act. `in` tests one event, iterating tests on. The number of them tests each, and is not asked
-    for a second time by who then iterates.
+    An event is legal where it is possible however the robot's action comes out, the rules do not
+    refuse it (`refusal` says why they do), and the goal is within reach of each state that it may
+    lead to (`in_reach`; None: no matter); doing nothing always is. The robot's action may not be
+    known (None). `while_thinking`: waiting lets others act. `in` tests one event, iterating tests
+    on. The number of them tests each, and is not asked for a second time by who then iterates.
     """
 
     execution: Execution
@@ -25,11 +64,17 @@ class LegalEvents(Sequence[Action]):
     candidates: Sequence[Action]
     state: int
     robot_action: Action | None
+    refusal: Callable[[Action], str | None] | None = None
+    in_reach: Callable[[int], bool | None] | None = None
 
     def allows(self, event: Action) -> bool:
         """Whether one of the candidates is legal."""
         if event == NONE:
             return True
+        return not self._refused(event) and self.possible(event) and not self._unfair(event)
+
+    def possible(self, event: Action) -> bool:
+        """Whether an event could happen, whatever the rules leave to the adversary."""
         executable = self.execution.world.executable
         return self._closed is None and all(executable(self.state, (*w, event)) for w in self._ways)
 
@@ -37,9 +82,32 @@ class LegalEvents(Sequence[Action]):
         """One line that says why the event is not legal; None if it is."""
         if event == NONE:
             return None
+        return self._refused(event) or self._impossible(event) or self._unfair(event)
+
+    def _impossible(self, event: Action) -> str | None:
         why_not = self.execution.world.why_not
         reasons = (why_not(self.state, (*way, event)) for way in self._ways)
         return self._closed or next(filter(None, reasons), None)
+
+    def _refused(self, event: Action) -> str | None:
+        return None if self.refusal is None else self.refusal(event)
+
+    def _unfair(self, event: Action) -> str | None:
+        """Why an event that is possible is not fair: a state that it may lead to."""
+        if self.in_reach is None:
+            return None
+        successors = self.execution.world.successors
+        states = (after for way in self._ways for after in successors(self.state, (*way, event)))
+        answers = map(self.in_reach, states) if self._is_searchable else iter([None])
+        worst = next((known for known in answers if not known), True)
+        if worst is None:
+            return "whether the goal can be achieved after it is not known (limits.judge_states)"
+        return None if worst else "after it the goal can not be achieved (adversary.fair)"
+
+    @cached_property
+    def _is_searchable(self) -> bool:
+        """Whether the search's bound suffices for the state itself: else it is not tried on."""
+        return self.in_reach is not None and self.in_reach(self.state) is not None
 
     @cached_property
     def _closed(self) -> str | None:

@@ -13,7 +13,7 @@ from testbed.environment.rendering import MODES, Image, html_of, render
 from testbed.environment.rules import ADVERSARY, ROBOT, UnknownOptionError, known_agent
 from testbed.protocol import NONE, WAIT
 
-Vector: TypeAlias = NDArray[np.int8]
+Vector: TypeAlias = NDArray[np.int8 | np.int32]
 Observation: TypeAlias = dict[str, Vector]
 """`observation` and `action_mask`, as the spaces say."""
 OPTIONS = ("initial", "trial")
@@ -33,6 +33,9 @@ def observe(core: Core, agent: str, robot_action: Action | None) -> Observation:
     else:
         state = _vector(world.fluents, world.literals(core.situation.state))
         seen = np.concatenate([state, _mask(core.robot_actions, (robot_action,))])
+        if core.allowance.highest:
+            left = np.array(core.allowance.entries(core.left), _dtype(core))
+            seen = np.concatenate([seen, left], dtype=left.dtype)
         own, legal = core.adversary_actions, core.events(robot_action)
     if core.situation.ending is not None:
         # A mask without any action would be sampled as action 0 without a word.
@@ -59,16 +62,30 @@ def _vector(fluents: Sequence[Fluent], literals: Sequence[Literal]) -> Vector:
     return np.array([known.get(fluent, 0) for fluent in fluents], np.int8)
 
 
+def _dtype(core: Core) -> type[np.int8 | np.int32]:
+    """The type of the adversary's observation: the smaller one, where it holds what is left."""
+    return np.int8 if max(core.allowance.highest, default=0) <= np.iinfo(np.int8).max else np.int32
+
+
 def _mask(names: Sequence[str], chosen: Sequence[str | None]) -> Vector:
     return np.array([name in chosen for name in names], np.int8)
+
+
+def _box(size: int, left: Sequence[int], dtype: type[np.int8 | np.int32]) -> spaces.Box:
+    """The space of a state, an action, and of what is left, from 0 to these numbers."""
+    if not left:
+        return spaces.Box(-1, 1, (size,), np.int8)
+    low, high = [-1] * size + [0] * len(left), [1] * size + [*left]
+    return spaces.Box(np.array(low, dtype), np.array(high, dtype), dtype=dtype)
 
 
 class View:
     """A core as PettingZoo shows it. Raises ValueError for an unknown render mode.
 
     An observation has one entry per fluent: 1 true, 0 unknown, -1 false; then, for the adversary,
-    one entry per action of the robot: 1 for the chosen one. Beside it stands the mask over the
-    agent's own actions.
+    one entry per action of the robot: 1 for the chosen one, and what is left of its budget, its
+    cooldown, and each object's events, where the rules bound these. Beside it stands the mask over
+    the agent's own actions.
     """
 
     metadata: ClassVar[dict[str, Any]] = {
@@ -90,12 +107,13 @@ class View:
         self.observation_spaces: dict[str, spaces.Space[Any]] = {}
         self.action_spaces: dict[str, spaces.Space[Any]] = {}
         fluents, robot = len(core.world.fluents), len(core.robot_actions)
-        for agent, seen, actions in (
-            (ROBOT, fluents, robot),
-            (ADVERSARY, fluents + robot, len(core.adversary_actions)),
+        known, left = spaces.Box(-1, 1, (fluents,), np.int8), core.allowance.highest
+        for agent, vector, actions in (
+            (ROBOT, known, robot),
+            (ADVERSARY, _box(fluents + robot, left, _dtype(core)), len(core.adversary_actions)),
         ):
-            vector, mask = spaces.Box(-1, 1, (seen,), np.int8), spaces.MultiBinary(actions)
-            both = {"observation": vector, "action_mask": mask}
+            mask = spaces.MultiBinary(actions)
+            both: dict[str, spaces.Space[Any]] = {"observation": vector, "action_mask": mask}
             self.observation_spaces[agent] = spaces.Dict(both)
             self.action_spaces[agent] = spaces.Discrete(actions)
         self.state_space = spaces.Box(-1, 1, (fluents,), np.int8)

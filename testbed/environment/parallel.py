@@ -7,7 +7,7 @@ from pettingzoo import ParallelEnv
 
 from testbed.environment.core import Snapshot
 from testbed.environment.observation import Observation, View, infos, observe
-from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, name_of, rewards
+from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, name_of
 from testbed.protocol import NONE
 
 Shown: TypeAlias = tuple[dict[str, Observation], dict[str, dict[str, Any]]]
@@ -19,7 +19,7 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
     """A view of a core: one call per step.
 
     The adversary does not know the robot's answer: its mask holds what is possible by itself, and
-    an exogenous action that is impossible beside the robot's is dropped, which
+    an exogenous action that is not legal beside the robot's is dropped, which
     `infos["adversary_0"]["dropped"]` says. An answer that is no action at all, or none for an
     agent, raises IllegalActionError and changes nothing. Options of `reset` as for the AEC view.
     """
@@ -38,11 +38,10 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         event = name_of(ADVERSARY, actions.get(ADVERSARY), self.core.adversary_actions)
         dropped = None if self.core.legal(robot_action, event) else event
         self.core.advance(robot_action, NONE if dropped else event)
-        ending = self.core.situation.ending
-        if ending is not None:
+        if self.core.situation.ending is not None:
             self.agents = []
         observations, information = self._shown(dropped)
-        return observations, rewards(ending), *self._ends(), information
+        return observations, self.core.rewards, *self._ends(), information
 
     def _shown(self, dropped: str | None) -> Shown:
         information = infos(self.core, None)

@@ -12,6 +12,8 @@ from testbed.protocol import Event
 
 ROBOT, ADVERSARY = "robot_0", "adversary_0"
 Mode = Choice["never", "colocated", "always"]
+RobotReward = Choice["goal"]
+AdversaryReward = Choice["zero_sum", "fail", "waste", "regret"]
 
 
 class IllegalActionError(ValueError):
@@ -49,12 +51,50 @@ class Observability:
 
 
 @dataclass(frozen=True)
+class EventRules:
+    """What the adversary may do of what is possible, and what it pays for it.
+
+    `budget`: events per game; `per_object`: by sort, events per game that name one object of it;
+    `cooldown`: steps that have to pass after an event; `cost`: what an event takes from the
+    adversary's reward; `events`: names of exogenous actions, and ground ones, that it may use;
+    `fair`: only events after which the robot can still achieve its goal. None: no bound.
+    """
+
+    budget: int | None = None
+    per_object: Mapping[str, int] = field(default_factory=dict)
+    cooldown: int = 0
+    cost: float = 0.0
+    events: tuple[str, ...] | None = None
+    fair: bool = False
+
+    def permits(self, event: Action) -> bool:
+        """Whether the event is one of those that the adversary may use at all."""
+        return self.events is None or event in self.events or event.name in self.events
+
+
+@dataclass(frozen=True)
+class Rewards:
+    """What a game is worth to both agents: docs/game.md has the equations.
+
+    `step`: what a step costs the robot; `shaping`: the factor of the potential-based reward, and
+    `discount` that of the learner, which is used there.
+    """
+
+    robot: RobotReward = "goal"
+    adversary: AdversaryReward = "zero_sum"
+    step: float = 0.0
+    shaping: float = 0.0
+    discount: float = 1.0
+
+
+@dataclass(frozen=True)
 class Rules:
     """`steps` is the number of the last step at which the robot may answer, the first being 1.
 
     `observability` is by the name of the exogenous action; one left out is never observed. With
     `goal_feedback` the first of two consecutive wrong `finish` is answered instead of ending the
-    game. Unless `exogenous_while_thinking`, nothing exogenous happens while the robot waits.
+    game. Unless `exogenous_while_thinking`, nothing exogenous happens while the robot waits. A
+    search that the rules ask for looks at `search_states` states at most.
     """
 
     goal: tuple[Literal, ...]
@@ -62,6 +102,9 @@ class Rules:
     observability: Mapping[str, Observability] = field(default_factory=dict)
     goal_feedback: bool = True
     exogenous_while_thinking: bool = False
+    adversary: EventRules = EventRules()
+    rewards: Rewards = Rewards()
+    search_states: int = 5_000
 
 
 class Ending(StrEnum):
@@ -84,7 +127,10 @@ class Situation:
     `answer` and `event` are what both agents did at the step before (None at step 1), `happened`
     whether the robot's action took effect (None if it waited or finished), `sensed` the literals
     that it showed; `told` is the news that reaches the robot now, `pending` news with the step at
-    which it will; `goal_holds` is False after a `finish` that was answered, else None.
+    which it will; `goal_holds` is False after a `finish` that was answered, else None. `start` is
+    the state at step 1, `before` that before the last step, `played` the events with their steps,
+    `units` the execution units of what the robot attempted, `in_reach` whether the goal has been
+    within reach at every step, True where the rewards do not ask.
     """
 
     trial: str
@@ -99,6 +145,11 @@ class Situation:
     pending: tuple[tuple[int, Event], ...] = ()
     goal_holds: bool | None = None
     ending: Ending | None = None
+    start: int = 0
+    before: int | None = None
+    played: tuple[tuple[int, Action], ...] = ()
+    units: int = 0
+    in_reach: bool = True
 
 
 def name_of(agent: str, answer: Any, actions: Sequence[Action]) -> Action:
@@ -129,7 +180,7 @@ def listed(actions: Sequence[Action], legal: Sequence[Action] | None = None) -> 
 
 
 def rewards(ending: Ending | None) -> dict[str, float]:
-    """What an ending is worth, in a zero-sum game.
+    """What an ending is worth, in the zero-sum game that is played unless others are configured.
 
     The robot gets 1 for the goal achieved, -1 for any other end, 0 while the game goes on.
     """

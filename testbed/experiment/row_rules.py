@@ -1,12 +1,14 @@
 """Rows of trials are held to the rules of configurations, since their conditions may be edited."""
 
 from collections.abc import Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
 from testbed.config import ConfigError, Key, Places, dotted, validated
+from testbed.environment import EventRules
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.specs import BUDGETS, FineSetting, Setting
@@ -88,6 +90,8 @@ def _keys(setting: Setting) -> dict[str, Any]:
             "strategy": setting.strategy,
             "options": setting.options or {},
             "rate": setting.rate,
+            **{field.name: own[field.name] for field in fields(EventRules)},
+            "per_object": setting.per_object or {},
         }
         | ({} if fine is None else {"pace": fine.pace}),
         "limits": {

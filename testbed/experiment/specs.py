@@ -5,6 +5,7 @@ the time allowed for an answer are not (one trial is the same trial wherever its
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ import msgspec
 from asp.domains import LevelSize
 from asp.language import Action, Literal
 from testbed.config import TRIGGERS, ExperimentConfig, Limits, ScriptEntry
-from testbed.environment import Observability, Pace
+from testbed.environment import EventRules, Observability, Pace
 from testbed.experiment.seeds import playing_order, short_hash, trial_seed
 from testbed.protocol import Knowledge, Plans, Relevance
 
@@ -41,7 +42,8 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True):
     `script` is `((step, action), ...)`, or None for the `strategy` of an adversary, None being the
     scenario's triggers, at levels random events; `script_at_actions` has numbers of the
     robot's physical actions in place of steps. `observability` is by the name of the exogenous
-    action.
+    action. `budget`, `per_object`, `cooldown`, `cost`, `events` and `fair` are the rules for the
+    adversary.
     """
 
     domain: str
@@ -67,6 +69,12 @@ class Setting(msgspec.Struct, frozen=True, kw_only=True):
     script_skips: bool = False
     plans: Plans = "optimistic"
     ties: int | None = None
+    budget: int | None = None
+    per_object: dict[str, int] | None = None
+    cooldown: int = 0
+    cost: float = 0.0
+    events: tuple[str, ...] | None = None
+    fair: bool = False
 
 
 class TrialSpec(msgspec.Struct, frozen=True, kw_only=True):
@@ -113,7 +121,14 @@ def setting_of(config: ExperimentConfig, scenario: str) -> Setting:
         relevance=config.relevance,
         plans=config.plans,
         ties=config.ties,
+        **adversary.bounds() | {"per_object": adversary.per_object or None},
     )
+
+
+def event_rules(setting: Setting) -> EventRules:
+    """The rules for the adversary, as the environment has them."""
+    given = {field.name: getattr(setting, field.name) for field in fields(EventRules)}
+    return EventRules(**given | {"per_object": setting.per_object or {}})
 
 
 def default_strategy(fine: bool) -> str:

@@ -18,7 +18,7 @@ from testbed.experiment.origin import load, sha256
 from testbed.experiment.record import Occurrence, Rejected
 from testbed.experiment.recorder import Recorder, Result
 from testbed.experiment.seeds import seeds_within
-from testbed.experiment.specs import BUDGETS, Setting, TrialSpec
+from testbed.experiment.specs import BUDGETS, Setting, TrialSpec, event_rules
 from testbed.experiment.store import check
 from testbed.experiment.storyteller import Moment, Storyteller, Watch
 from testbed.protocol import (
@@ -32,7 +32,7 @@ from testbed.protocol import (
     in_one_line,
     shortened,
 )
-from testbed.search import Narrowing
+from testbed.search import as_it_is, coarse_problem
 from testbed.text import listed
 from testbed.world import World, load_world, world_of
 
@@ -130,6 +130,7 @@ def _view(core: Core, robot_action: Action, sees: Sequence[Sight]) -> AdversaryV
         robot_action=robot_action if sees_action else None,
         legal=core.legal_events(robot_action),
         physical=sees_action and core.is_physical(robot_action),
+        left=core.left,
     )
 
 
@@ -142,7 +143,7 @@ class TrialSetup:
 
     def __init__(self, world: World) -> None:
         self.costs = world.description.costs
-        self.judge = Judge(lambda state, goal: (world, state, goal), self.costs)
+        self.judge = Judge(partial(as_it_is, world), self.costs)
         self._world, self._source = world, world.description.source
         self.hashes: tuple[str, str | None] = sha256(self._source), None
         self._exogenous = world.exogenous_actions
@@ -157,11 +158,13 @@ class TrialSetup:
 
     def adversary(self, spec: TrialSpec) -> Adversary:
         """The script, or the strategy that the setting has."""
+        rules = event_rules(spec.setting)
         game = Game(
             scenario=spec.scenario,
             goal=spec.setting.goal,
-            exogenous_actions=self._exogenous,
+            exogenous_actions=tuple(filter(rules.permits, self._exogenous)),
             description=self._world.description,
+            rules=rules,
         )
         return make_adversary(spec.setting, game)
 
@@ -196,10 +199,7 @@ class FineTrialSetup(TrialSetup):
         self.hashes = sha256(coarse.text), sha256(refinement.text)
         self._fine = world_of(refinement)
         self._exogenous = self._fine.exogenous_actions
-        narrowing = Narrowing(coarse, refinement.coarse_signature, description.name)
-        self.judge = Judge(
-            lambda state, goal: narrowing.problem(self._coarse_atoms(state), goal), self.costs
-        )
+        self.judge = Judge(partial(coarse_problem, refinement), self.costs)
         inertial, robot = self._fine.description.inertial, description.robots[0]
         self._about_robot = [fluent for fluent in inertial if robot in fluent.arguments]
 
@@ -244,6 +244,8 @@ def _rules(setting: Setting) -> Rules:
         observability=setting.observability,
         goal_feedback=setting.goal_feedback,
         exogenous_while_thinking=setting.exogenous_while_thinking,
+        adversary=event_rules(setting),
+        search_states=setting.judge_states,
     )
 
 

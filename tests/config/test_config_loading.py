@@ -12,6 +12,7 @@ from testbed.config import (
     ExperimentConfig,
     Limits,
     Observability,
+    RewardSettings,
     find_config,
     load_config,
 )
@@ -119,5 +120,6 @@ def test_the_office_lists_every_key_of_the_coarse_resolution() -> None:
     assert everything - text.keys() == {"refinement", "levels", "level_sizes", "draw", "statistics"}
     assert AdversarySettings.model_fields.keys() - text["adversary"].keys() == {"pace"}
     assert Limits.model_fields.keys() == text["limits"].keys()
+    assert RewardSettings.model_fields.keys() == text["rewards"].keys()
     for entry in text["observability"].values():
         assert Observability.model_fields.keys() == entry.keys()

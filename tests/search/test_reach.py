@@ -104,6 +104,13 @@ def test_who_knows_the_future_makes_use_of_it(step: int, event: str, least: int 
     assert least_knowing(problem, events, world.description.costs, 5_000) == least
 
 
+def test_who_knows_the_future_waits_beside_what_is_impossible() -> None:
+    world = world_of(parse_description(DOMAINS["harbour"].text))
+    problem = world, world.state(parsed(DOMAINS["harbour"].initial)), parsed(["lies(silk,west)"])
+    events = [*enumerate(parsed(["drift(silk,east)", "drift(silk,west)"]), start=1)]
+    assert least_knowing(problem, events, world.description.costs, 5_000) == 0
+
+
 def test_where_the_bound_strikes_nothing_is_known() -> None:
     own = DOMAINS["lanterns"]
     world, goal = world_of(parse_description(own.text)), parsed(["glows(red)", "-glows(red)"])
