@@ -1,7 +1,8 @@
 """Activities (D 1.3), and histories with them."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 from clingo import Symbol
 
@@ -34,6 +35,9 @@ class History(diagnosis.History):
     """What was observed and attempted at each step, and every activity so far."""
 
     activities: list[Activity] = field(default_factory=list)
+
+    def copy(self) -> Self:
+        return replace(super().copy(), activities=[*self.activities])
 
     def activity_facts(self) -> Iterator[Symbol]:
         """What the theory knows of each activity: its goal, its components, its length."""

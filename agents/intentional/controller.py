@@ -21,7 +21,10 @@ class IntentionalRobot(ReasoningRobot[History]):
 
     # At step 1 it starts an activity, or finishes.
     capabilities: ClassVar = Capabilities(
-        knowledge=("complete", "seen"), plans=("optimistic", "conformant"), first_action_step=2
+        knowledge=("complete", "seen"),
+        plans=("optimistic", "conformant"),
+        first_action_step=2,
+        snapshots=True,
     )
     _reasons_type = IntentionalReasons
     _reasons: IntentionalReasons

@@ -7,7 +7,7 @@ answers on multi-shot sessions.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain, repeat
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from clingo import Symbol
 
@@ -166,6 +166,11 @@ class IncrementalReasoner(IncrementalDiagnoser[History]):
         self._active: int | None = None
         self._executed: list[tuple[int, Action]] = []
         self._followed = 0
+
+    def copy(self) -> Self:
+        other = super().copy()
+        other._executed = [*self._executed]
+        return other
 
     def diagnose(self, history: History, adopted: Explanation, /) -> Diagnosis:
         """Phase one. Raises InconsistentHistoryError."""

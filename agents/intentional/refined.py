@@ -1,7 +1,8 @@
 """A robot that decides at the coarse resolution and acts at the fine one (P 3.3)."""
 
+from copy import copy
 from dataclasses import replace
-from typing import ClassVar
+from typing import ClassVar, Self, TypeAlias
 
 from msgspec import structs
 
@@ -9,8 +10,7 @@ from agents.intentional.abstraction import AbstractTask
 from agents.intentional.controller import IntentionalRobot
 from agents.intentional.executor.belief import FineTracker
 from agents.intentional.executor.coarse import Reporter
-from agents.intentional.executor.execution import Execution
-from agents.intentional.executor.sensing import Asking
+from agents.intentional.executor.undertaking import Undertaking
 from agents.intentional.programs import Watcher
 from agents.shared import retold
 from asp.refinement import load
@@ -48,8 +48,7 @@ class RefinedRobot:
             self._fine.know(task.initial_fine, known)
             self._reporter = Reporter(self._fine, abstract)
             self._believed: State = frozenset(each for each in known if each.is_positive)
-            self._execution: Execution | None = None
-            self._running: Asking[None] | None = None
+            self._undertaking: Undertaking | None = None
             spent = reasoning_clock().since(began)
             self._fine.trace.spend("planning", spent)
             self._prepared = spent.preparation_cpu
@@ -69,15 +68,24 @@ class RefinedRobot:
         )
         return structs.replace(decision, trace=trace)
 
+    def snapshot(self) -> Self:
+        """A twin that stays as this robot is now; `coarse` is an intentional robot."""
+        assert isinstance(self._coarse, IntentionalRobot)
+        twin = copy(self)
+        twin._coarse = self._coarse.snapshot()
+        fine = twin._fine = self._fine.copy()
+        twin._reporter = self._reporter.copy(fine)
+        twin._undertaking = self._undertaking and self._undertaking.copy(fine)
+        return twin
+
     def _next(self, percept: Percept) -> Decision:
         """A decision in the middle of an abstract action; where none is carried out, of one."""
-        if self._running is None:
+        own = self._undertaking
+        if own is None or own.is_over:
             self._fine.hear(percept)
             return self._decide(percept)
-        try:
-            action = self._running.send(percept)
-        except StopIteration:
-            self._running = None
+        action = own.next(percept)
+        if action is None:
             return self._decide(percept)
         return Decision(
             trial=percept.trial,
@@ -92,7 +100,8 @@ class RefinedRobot:
 
         An abstract action is begun; where nothing needs to be done for it the robot waits a step.
         """
-        over, self._execution = self._execution, None
+        over = None if self._undertaking is None else self._undertaking.execution
+        self._undertaking = None
         told, expected = self._reporter.percept(percept, self._believed, over)
         if over is not None:
             effects = filter(self._fine.is_magnified, self._fine.holding(over.effects))
@@ -105,13 +114,10 @@ class RefinedRobot:
         self._believed = frozenset(belief) if belief else expected
         self._fine.agree(expected, self._believed, self._abstract.fluents)
         if action not in (WAIT, FINISH):
-            self._execution = Execution(
+            self._undertaking = Undertaking(
                 self._fine, self._abstract, action, self._believed, percept.step
             )
-            self._running = self._execution.run()
-            first = next(self._running, None)
-            self._running = None if first is None else self._running
-            action = first or WAIT
+            action = self._undertaking.first() or WAIT
         trace = retold(decision.trace, step=self._reporter.own)
         return structs.replace(decision, step=percept.step, trace=trace, action=action)
 
@@ -133,6 +139,9 @@ class RefinedRobot:
         return self._abstract.decision(self._coarse.act(self._abstract.percept(told)))
 
 
+Snapshot: TypeAlias = RefinedRobot | IntentionalRobot
+
+
 class EitherRobot:
     """Acts at the fine resolution if its task has one, else as `IntentionalRobot` does."""
 
@@ -141,6 +150,7 @@ class EitherRobot:
         knowledge=("complete", "seen"),
         plans=("optimistic", "conformant"),
         first_action_step=2,
+        snapshots=True,
     )
     watcher: Watcher | None = None
     """As of `IntentionalRobot`; at the fine resolution it is told coarse decisions."""
@@ -150,12 +160,20 @@ class EitherRobot:
         """Takes the task on. Raises SourceError for its texts."""
         coarse = IntentionalRobot()
         coarse.watcher = self.watcher
-        self._robot: Robot = RefinedRobot(coarse, self._zooms) if task.refinement else coarse
+        self._robot: Snapshot = RefinedRobot(coarse, self._zooms) if task.refinement else coarse
         self._robot.begin(task)
 
     def act(self, percept: Percept) -> Decision:
         """The robot's decision. Raises RobotStops."""
         return self._robot.act(percept)
+
+    def snapshot(self) -> Snapshot:
+        """The robot as it is now, at the resolution of its task."""
+        return self._robot.snapshot()
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Becomes as the robot was whose snapshot this is, which may be used again."""
+        self._robot = snapshot.snapshot()
 
 
 class WithoutZooming(EitherRobot):

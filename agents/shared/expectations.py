@@ -1,6 +1,7 @@
 """What a robot expects of each step, where actions may have several outcomes."""
 
 from collections.abc import Iterator
+from copy import copy
 
 from agents.shared.reasoning import sessions_of
 from asp.reasoning import Goal, Knowledge, satisfied
@@ -29,6 +30,12 @@ class Expectations:
         self._ahead: Plan = ()
         self.states: dict[int, State] = {}
         """By step; empty before the first decision."""
+
+    def copy(self) -> "Expectations":
+        """The same, of a history that may go on otherwise."""
+        other = copy(self)
+        other.states = self.states.copy()
+        return other
 
     def believe(self, step: int, state: State, ahead: Plan) -> None:
         """The robot believes in a state and has this plan ahead."""

@@ -2,7 +2,8 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
-from typing import ClassVar, Generic
+from copy import copy
+from typing import ClassVar, Generic, Self
 
 from msgspec import structs
 
@@ -26,12 +27,15 @@ from testbed.protocol import WAIT, Decision, Percept, Plans, RobotStops, Task, T
 
 MakeReasoner = Callable[[Knowledge, tuple[Literal, ...], int, Plans], Reasoner[H_contra]]
 """Makes a reasoner of a domain, a goal, the greatest length of a plan, and which plans will do."""
+_GROWING = ("_history", "_reasoner", "_expectations")
+"""The attributes of a robot whose values change in a trial; others get new values."""
 
 
 class ReasoningRobot(ABC, Generic[H_contra]):
     """A robot that keeps a history of a trial and reasons about it in two phases.
 
-    `reasoner` makes what it reasons with, in place of the reasoner of its class.
+    `reasoner` makes what it reasons with, in place of the reasoner of its class. For snapshots this
+    has a method `copy`: a reasoner that has come as far in its history, which may go on otherwise.
     """
 
     _reasons_type: ClassVar[type[Reasons]] = Reasons
@@ -86,6 +90,18 @@ class ReasoningRobot(ABC, Generic[H_contra]):
             believes_goal=intention is not None and GOAL in intention.believed,
             trace=structs.replace(trace, minimal=thought.minimal, deadline=decision.late),
         )
+
+    def snapshot(self) -> Self:
+        """A twin that stays as this robot is now: what is shared with it never changes."""
+        twin = copy(self)
+        for name in _GROWING:
+            value = getattr(self, name, None)
+            setattr(twin, name, None if value is None else value.copy())
+        return twin
+
+    def restore(self, snapshot: Self) -> None:
+        """Becomes as the robot was whose snapshot this is, which may be used again."""
+        self.__dict__ = vars(snapshot.snapshot())
 
     @abstractmethod
     def _begin(self, task: Task) -> None:

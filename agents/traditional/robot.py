@@ -18,7 +18,7 @@ class TraditionalRobot(ReasoningRobot[History]):
     """
 
     capabilities: ClassVar = Capabilities(
-        knowledge=("complete", "seen"), plans=("optimistic", "conformant")
+        knowledge=("complete", "seen"), plans=("optimistic", "conformant"), snapshots=True
     )
     _make_reasoner: MakeReasoner[History] = IncrementalReasoner
 

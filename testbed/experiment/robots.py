@@ -19,7 +19,8 @@ def _fault(found: Any) -> str | None:
     declared = getattr(found, "capabilities", None)
     if isinstance(found, type) and not isinstance(declared, Capabilities):
         return "declares no capabilities; for example: capabilities = Capabilities()"
-    return class_fault(found, "begin", "act")
+    snapshots = ("snapshot", "restore") if declared and declared.snapshots else ()
+    return class_fault(found, "begin", "act", *snapshots)
 
 
 ROBOTS: Registry[RobotClass] = Registry(

@@ -27,6 +27,7 @@ from testbed.protocol.parts import Event as Event
 from testbed.protocol.parts import is_mental as is_mental
 from testbed.protocol.robot import Capabilities as Capabilities
 from testbed.protocol.robot import Knowledge as Knowledge
+from testbed.protocol.robot import Restorable as Restorable
 from testbed.protocol.robot import Robot as Robot
 from testbed.protocol.robot import RobotClient as RobotClient
 from testbed.protocol.robot import RobotFactory as RobotFactory

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, Protocol, TypeAlias, get_args
+from typing import Any, Literal, Protocol, TypeAlias, get_args, runtime_checkable
 
 from testbed.protocol.messages import Decision, Percept, Plans, Task
 
@@ -20,7 +20,8 @@ class Capabilities:
     ``needs_goal_feedback``: it relies on being told, by ``Percept.goal_holds``, that it finished
     without its goal. ``plans`` are the kinds of plans that it can be asked for (``Task.plans``).
     ``first_action_step`` is the first step at which it may attempt a physical
-    action; a robot that starts an activity by a mental action has 2.
+    action; a robot that starts an activity by a mental action has 2. ``snapshots``: it is a
+    :class:`Restorable`.
 
     Raises ValueError for a resolution, or a kind of knowledge or plans, that there is not.
     """
@@ -30,6 +31,7 @@ class Capabilities:
     needs_goal_feedback: bool = False
     plans: tuple[Plans, ...] = ("optimistic",)
     first_action_step: int = 1
+    snapshots: bool = False
 
     def __post_init__(self) -> None:
         known = {
@@ -51,6 +53,23 @@ class Robot(Protocol):
 
     def act(self, percept: Percept) -> Decision:
         """Decide what to attempt at ``percept.step``; the decision repeats its trial and step."""
+
+
+@runtime_checkable
+class Restorable(Robot, Protocol):
+    """A robot that can go back to where it was, so that a search need not begin again.
+
+    From there on it decides as it would have done, whatever was done with it in between.
+    """
+
+    def snapshot(self) -> Any:
+        """All that its decisions depend on from now on; nothing changes it. After `begin`."""
+
+    def restore(self, snapshot: Any) -> None:
+        """Goes back to a snapshot, its own or of another robot of its class in this process.
+
+        The snapshot may be used again.
+        """
 
 
 RobotFactory: TypeAlias = Callable[[str], Robot]

@@ -1,6 +1,9 @@
 """The belief tracker of both resolutions in the course of a trial."""
 
+from __future__ import annotations
+
 from collections.abc import Collection, Iterable, Iterator
+from copy import copy
 
 from agents.intentional.executor.model import FineBelief, fine_model
 from agents.intentional.executor.trace import FineTraceBuilder
@@ -37,6 +40,17 @@ class FineTracker:
         self.noticed: set[Literal] = set()
         self.pending: tuple[Literal, ...] = ()
         self.news: list[tuple[int, Action]] = []
+
+    def copy(self) -> FineTracker:
+        """The same, of a trial that may go on otherwise."""
+        other = copy(self)
+        other.trace, other.belief = copy(self.trace), copy(self.belief)
+        other.noticed, other.news = self.noticed.copy(), [*self.news]
+        return other
+
+    def become(self, other: FineTracker) -> None:
+        """As another one is now, which stays apart from this one."""
+        self.__dict__ = vars(other.copy())
 
     def know(self, literals: Iterable[Literal], coarse: Collection[Literal]) -> None:
         """Begins with what is known of both resolutions.

@@ -1,6 +1,9 @@
 """Percepts of the coarse robot from the fine resolution, each at its coarse step."""
 
+from __future__ import annotations
+
 from bisect import bisect_right
+from copy import copy
 
 from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import FineTracker
@@ -22,6 +25,12 @@ class Reporter:
         self._coarse = coarse
         self._began = [0]
         self._later: list[Literal] = []
+
+    def copy(self, fine: FineTracker) -> Reporter:
+        """The same, of a trial that may go on otherwise, with a copy of the tracker."""
+        other = copy(self)
+        other._fine, other._began, other._later = fine, [*self._began], [*self._later]
+        return other
 
     def begin(self, step: int) -> None:
         """The next coarse step begins at this step of the environment."""

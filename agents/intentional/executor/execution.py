@@ -1,6 +1,9 @@
 """One abstract action carried out: zoom, plan, act, test each outcome, search, plan again."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
+from copy import copy
 
 from agents.intentional.abstraction import AbstractTask
 from agents.intentional.executor.belief import FineTracker
@@ -30,18 +33,26 @@ class Execution:
         self.action = action
         after = coarse.after(before, action, ())
         assert after is not None, "a robot attempts what it believes to be possible"
-        transition = Transition(before, action, after)
+        transition = self._transition = Transition(before, action, after)
         self._planner = ZoomedPlanner(fine, transition, coarse.inertial)
         self.effects = self._planner.effects
         self.happened = False
         with fine.trace.timing("planning"):
             self._direct = fine.model.direct_effects[action]
-            things = fine.looked_for(self._planner.relevant)
-        self._sensing = Sensing(fine, transition, things)
+            self._things = fine.looked_for(self._planner.relevant)
+        self._sensing = Sensing(fine, transition, self._things)
         every = fine.refinement.coarse_signature.constants
         zoomed = self._planner.relevant if fine.zooms else every
         fine.trace.note(abstract=action, begun=step, zoomed=sorted(zoomed))
         self._failures = self._in_vain = 0
+
+    def anew(self, fine: FineTracker) -> Execution:
+        """The same from its beginning, with a tracker; plans that were found are known."""
+        other = copy(self)
+        other._fine, other._planner = fine, self._planner.anew(fine)
+        other._sensing = Sensing(fine, self._transition, self._things)
+        other.happened, other._failures, other._in_vain = False, 0, 0
+        return other
 
     def run(self) -> Asking[None]:
         """Carries the action out, as far as that can be done."""

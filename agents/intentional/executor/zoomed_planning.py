@@ -1,14 +1,21 @@
 """Zoomed planning: concrete actions for an abstract one, in the part of D_f that is relevant."""
 
+from __future__ import annotations
+
+from collections import deque
 from collections.abc import Collection, Sequence
+from copy import copy
 
 from agents.intentional.executor.belief import FineTracker
 from asp.language import Action, Fluent, Literal
 from asp.reasoning.fine_planning import FineStart, NoPlan
 from asp.refinement import Transition, fine_constants, fine_goal, relevant
+from asp.solving import LimitError
 
 Groups = tuple[tuple[Literal, ...], ...]
 """Groups of fluents one of each of which is true."""
+Found = tuple[Action, ...] | LimitError | None
+"""A plan, the limit that was reached before there was one, or None: there is none."""
 
 
 class ZoomedPlanner:
@@ -24,16 +31,38 @@ class ZoomedPlanner:
         self._fine = fine
         self._action = transition.action
         self._inertial = transition.before.intersection(inertial)
+        self._found: list[Found] = []
+        self._known: deque[Found] = deque()
         with fine.trace.timing("planning"):
             self.relevant = relevant(fine.refinement, transition, fine.goal)
             self.effects, self._lasting = fine_goal(fine.refinement, transition, self.relevant)
+
+    def anew(self, fine: FineTracker) -> ZoomedPlanner:
+        """One that first gives the plans that this one gave, and then goes on with a tracker."""
+        other = copy(self)
+        other._fine, other._found = fine, []
+        other._known = deque((*self._found, *self._known))
+        return other
 
     def plan(self) -> tuple[Action, ...] | None:
         """A shortest plan for the effects; None if nothing in the zoomed domain leads to them.
 
         What else is so, and is not to change, is part of the goal where the plan would change it;
-        unless there is no other.
+        unless there is no other. Raises LimitError.
         """
+        found = self._known.popleft() if self._known else self._limited()
+        self._found.append(found)
+        if isinstance(found, LimitError):
+            raise found
+        return found
+
+    def _limited(self) -> Found:
+        try:
+            return self._plan()
+        except LimitError as limit:
+            return limit
+
+    def _plan(self) -> tuple[Action, ...] | None:
         with self._fine.trace.timing("planning"):
             candidates = self._candidates()
             if not all(candidates):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple, Self
 
 from clingo import Symbol
 
@@ -45,6 +45,12 @@ class Moment:
         """What was observed and is not taken for wrong."""
         return {f: truth for f, truth in self.observed.items() if f not in self.misread}
 
+    def copy(self) -> Moment:
+        """The same, to which something else may be added."""
+        attempted, failing = [*self.attempted], [*self.failing]
+        observed, happened = self.observed.copy(), self.happened.copy()
+        return Moment(observed, attempted, happened, failing, self.doubtful, self.misread)
+
 
 @dataclass
 class History:
@@ -56,6 +62,11 @@ class History:
     step: int = 0
     moments: dict[int, Moment] = field(default_factory=dict)
     late_news: list[int] = field(default_factory=list)
+
+    def copy(self) -> Self:
+        """The same, which may go on otherwise."""
+        moments = {step: moment.copy() for step, moment in self.moments.items()}
+        return replace(self, moments=moments, late_news=[*self.late_news])
 
     def at(self, step: int) -> Moment:
         """What is recorded of a step; made when it is first asked for."""

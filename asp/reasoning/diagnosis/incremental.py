@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from contextlib import suppress
+from copy import copy
 from dataclasses import replace
 from functools import partial
-from typing import Generic
+from typing import Generic, Self
 
 from asp.language import Fluent
 from asp.reasoning.diagnosis.belief import Belief, Beliefs, BeliefTracker
@@ -94,6 +95,13 @@ class IncrementalDiagnoser(Generic[H_contra]):
     def frontier(self) -> Frontier | None:
         """What the history is compressed to; None where it is too short."""
         return self._frontier
+
+    def copy(self) -> Self:
+        """One that has come as far in its history, which may go on otherwise."""
+        other = copy(self)
+        other._beliefs = [*self._beliefs]
+        other._frontier = None if self._frontier is None else self._frontier.copy()
+        return other
 
     def holds(self, state: State) -> bool:
         """Whether the goal does."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from math import inf
-from typing import ClassVar, Generic
+from typing import ClassVar, Generic, Self
 
 import clingo
 from clingo import Symbol
@@ -57,6 +57,10 @@ class ReferenceDiagnoser(Generic[H_contra]):
         one found, which is not `proved`. Raises InconsistentHistoryError and LimitError.
         """
         return self._diagnose(history, adopted, keeps=True)
+
+    def copy(self) -> Self:
+        """Itself: nothing is kept of a history."""
+        return self
 
     def _facts(self, history: H_contra) -> Iterator[Symbol]:
         """What is given of a history."""

@@ -10,6 +10,7 @@ of the steps before it.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 from asp.reasoning.diagnosis.belief import BeliefTracker
@@ -96,6 +97,12 @@ class Frontier:
     def step(self) -> int:
         """The step of the last layer; -1 where there is none."""
         return self._first_step + len(self._layers) - 1
+
+    def copy(self) -> Frontier:
+        """The layers so far of a history that may go on otherwise."""
+        other = copy(self)
+        other._steps, other._layers = self._steps.copy(), [*self._layers]
+        return other
 
     def forget(self, since: int) -> None:
         """Takes back the layers from a step on."""

@@ -1,6 +1,7 @@
 """The steps of one history: which arcs its states have, and which states were not observed away."""
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from dataclasses import replace
 
 from asp.reasoning.diagnosis.belief import BeliefTracker
@@ -27,6 +28,12 @@ class Steps:
         self._most = most
         self._seen: set[object] = set()
         self._crowded = False
+
+    def copy(self) -> "Steps":
+        """The steps so far of a history that may go on otherwise."""
+        other = copy(self)
+        other._seen = self._seen.copy()
+        return other
 
     def record(self, history: History, step: int) -> Record:
         """What the history says of a step."""
