@@ -5,6 +5,7 @@ from pathlib import Path
 
 from benchmarks import (
     ablation,
+    branches,
     chaos,
     decisions,
     driver,
@@ -45,6 +46,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "rooms": rooms.main,
     "worlds": worlds.main,
     "ablation": ablation.main,
+    "branches": branches.main,
 }
 
 FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {
