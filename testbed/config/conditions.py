@@ -8,9 +8,11 @@ from typing import Any
 import msgspec
 from omegaconf import OmegaConf
 
+from asp.language import load_description
 from testbed.config.composing import REFUSALS, read_yaml
 from testbed.config.models import ExperimentConfig
 from testbed.config.places import ConfigError
+from testbed.config.scenarios import with_scenarios
 from testbed.config.sweep import RANGE
 
 PARTS = re.compile(r"""(?:"(?:\\.|[^"\\])*"|'[^']*'|\[[^\]]*\]|\{[^}]*\}|\([^)]*\)|[^,"'\[{(])+""")
@@ -48,7 +50,11 @@ class _Given:
 def _of_sweep(given: _Given) -> Mapping[str, ExperimentConfig]:
     config = given.config
     cells = config.sweep.cells.items()
-    return {name: ExperimentConfig.model_validate(varied(config, own)) for name, own in cells}
+    found = {name: ExperimentConfig.model_validate(varied(config, own)) for name, own in cells}
+    if config.is_fine:
+        return found
+    known = load_description(config.domain).scenarios
+    return {name: with_scenarios(own, known) for name, own in found.items()}
 
 
 def varied(config: ExperimentConfig, keys: Mapping[str, Any]) -> dict[str, Any]:

@@ -29,10 +29,13 @@ def scenarios_of(config: ExperimentConfig, known: tuple[str, ...]) -> tuple[str,
 
 
 def with_scenarios(config: ExperimentConfig, known: tuple[str, ...]) -> ExperimentConfig:
-    """The configuration with all scenarios that it plays, `none` with a script without entries."""
+    """The configuration with all scenarios that it plays, `none` with a script without entries.
+
+    A sweep leaves the script to its conditions, which may have an adversary that needs none.
+    """
     scenarios = scenarios_of(config, known)
     found: dict[str, object] = {"scenarios": scenarios}
-    if NONE in scenarios and not _is_played(NONE, config, known):
+    if not config.is_sweep and NONE in scenarios and not _is_played(NONE, config, known):
         own = config.scenario_settings.get(NONE, ScenarioSettings())
         nothing = own.model_copy(update={"script": ()})
         found["scenario_settings"] = {**config.scenario_settings, NONE: nothing}
