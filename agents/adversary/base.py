@@ -1,15 +1,23 @@
 """The interface of an adversary, its view of a game, and its observation at a step."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal as Choice
 from typing import Protocol
 
 from asp.language import Action, Description, Fluent, Literal
 from testbed.environment import EventRules, Left
+from testbed.protocol import Trace
+from testbed.world import World
 
-Sight = Choice["state", "robot_action"]
+Sight = Choice["state", "robot_action", "trace"]
 """What a class of adversaries may declare to see, as its attribute `sees`."""
+Measure = Choice["actions", "units"]
+Remaining = Callable[[int, Measure], float | None]
+"""The least that achieves the goal from a state of the world, in actions or execution units.
+
+Infinite where no plan achieves it, None where the search for it was given up.
+"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,7 +26,8 @@ class Game:
 
     `goal` are the robot's literals, `exogenous_actions` the ground actions that the adversary has
     and may use, `description` the domain, at the coarse resolution, `rules` what bounds the
-    adversary, and what an event costs it.
+    adversary, and what an event costs it. `world` is the world that is played in, and `remaining`
+    what its states are away from the goal: None where the adversary is not told.
     """
 
     scenario: str
@@ -26,6 +35,8 @@ class Game:
     exogenous_actions: Sequence[Action]
     description: Description
     rules: EventRules = field(default_factory=EventRules)
+    world: World | None = None
+    remaining: Remaining | None = None
 
 
 @dataclass(frozen=True)
@@ -38,6 +49,8 @@ class AdversaryView:
     are many, asking whether one is legal is quick, and listing all is not. `physical`: whether the
     robot's action is one that is to change the world, and not a mental action or a test; False
     without the sight of `robot_action`. `left`: what is left of the budget and of the cooldown.
+    `trace` is the mind behind that action: None without the sight of it, and where the robot tells
+    nothing of its mind.
     """
 
     step: int
@@ -46,6 +59,7 @@ class AdversaryView:
     legal: Sequence[Action]
     physical: bool = True
     left: Left = field(default_factory=Left)
+    trace: Trace | None = None
 
 
 class Adversary(Protocol):

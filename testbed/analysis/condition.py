@@ -5,13 +5,20 @@ from collections.abc import Callable, Collection, Mapping
 
 from agents.adversary import RANDOM_RATE
 from asp.language import read_domain
-from testbed.config import ExperimentConfig, Observability, ScenarioSettings, conditions_of
+from testbed.config import (
+    NO_EVENTS,
+    ExperimentConfig,
+    Observability,
+    ScenarioSettings,
+    conditions_of,
+)
 from testbed.experiment.timeline import in_words
 from testbed.text import listed
 
 NO_RESULT = {"answer_s"}
 """Limits on which no logical result depends."""
 UNSEEN = Observability()
+NO_ACTIONS = "no exogenous actions"
 _KNOWN = {
     "complete": "complete knowledge of the initial state",
     "seen": "of the initial state only what is seen is known",
@@ -124,15 +131,17 @@ def _bounds(config: ExperimentConfig) -> str:
 def _strategy(config: ExperimentConfig, own: ScenarioSettings) -> str:
     rate = config.adversary.rate
     if own.script is not None:
-        return "exogenous actions by script" if own.script else "no exogenous actions"
+        return "exogenous actions by script" if own.script else NO_ACTIONS
+    options = "".join(f", {name} {value}" for name, value in config.adversary.options.items())
     at_rate = "" if rate is None else f" at rate {rate}"
     if config.plays_triggers:
         return f"exogenous actions by triggers{at_rate}"
     if config.adversary.strategy in (None, "random"):
         by_default = 0.0 if config.is_fine else RANDOM_RATE
         drawn = by_default if rate is None else rate
-        return f"random exogenous actions at rate {drawn}" if drawn else "no exogenous actions"
-    options = "".join(f", {name} {value}" for name, value in config.adversary.options.items())
+        return f"random exogenous actions at rate {drawn}{options}" if drawn else NO_ACTIONS
+    if config.adversary.strategy == NO_EVENTS:
+        return NO_ACTIONS
     return f"exogenous actions by {config.adversary.strategy}{at_rate}{options}"
 
 

@@ -13,6 +13,7 @@ from testbed.config.loading import find_config as find_config
 from testbed.config.loading import lists_keys as lists_keys
 from testbed.config.loading import load_config as load_config
 from testbed.config.loading import validated as validated
+from testbed.config.models import NO_EVENTS as NO_EVENTS
 from testbed.config.models import TRIGGERS as TRIGGERS
 from testbed.config.models import ExperimentConfig as ExperimentConfig
 from testbed.config.places import ConfigError as ConfigError

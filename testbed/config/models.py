@@ -41,6 +41,8 @@ FINE_STEPS = 5000
 """Environment steps of a trial at the fine resolution, unless given."""
 TRIGGERS = "triggers"
 """The strategy of an adversary that plays the domain's triggers."""
+NO_EVENTS = "none"
+"""The strategy of an adversary that never does anything."""
 TREATMENT, BASELINE = "intentional", "traditional"
 """The robots that are compared unless others are named: those of the published study."""
 GOAL = 'goal: ["f(a,b)", "-g(a)"]'

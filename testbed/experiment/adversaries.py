@@ -1,7 +1,7 @@
 """The adversaries that can be asked for, their options, and the one that plays a trial."""
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any, Protocol, get_args
@@ -10,10 +10,11 @@ import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
 from asp.language import Action, Literal, suggestion
-from testbed.config import ExperimentConfig, Finding
+from testbed.config import NO_EVENTS, ExperimentConfig, Finding, refinements
 from testbed.experiment.specs import Setting, default_strategy
 from testbed.protocol import in_one_line, shortened
 from testbed.registry import Registry, RegistryError, class_fault
+from testbed.world import load_world, world_of
 
 SIGHTS = get_args(Sight)
 RATE = "rate"
@@ -51,7 +52,14 @@ class _NoOptions:
 ADVERSARIES: Registry[AdversaryClass] = Registry(
     "adversary",
     "intention_testbed.adversaries",
-    {"triggers": "agents.adversary.scripted:Triggered", "random": "agents.adversary.random:Random"},
+    {
+        "triggers": "agents.adversary.scripted:Triggered",
+        NO_EVENTS: "agents.adversary.none:Nothing",
+        "random": "agents.adversary.random:Random",
+        "meddler": "agents.adversary.meddler:Meddler",
+        "belief": "agents.adversary.belief:Belief",
+        "greedy": "agents.adversary.greedy:Greedy",
+    },
     _fault,
 )
 
@@ -140,9 +148,26 @@ def adversary_findings(config: ExperimentConfig) -> Iterator[Finding]:
     elif own.rate is not None:
         given[RATE] = own.rate
     try:
-        options_of(ADVERSARIES.find(strategy), given)
+        options = options_of(ADVERSARIES.find(strategy), given)
+        for option, names in getattr(options, "named_events", {}).items():
+            for why in _unknown(names, config):
+                raise OptionError(option, why)
     except RegistryError as error:
         yield ("adversary", "strategy"), str(error)
     except OptionError as error:
         where = (RATE,) if error.name == RATE else ("options", *filter(None, [error.name]))
         yield ("adversary", *where), f"{error} (of {strategy})"
+
+
+def _unknown(names: Collection[str], config: ExperimentConfig) -> Iterator[str]:
+    """What is wrong with the names that no exogenous action has."""
+    if not names:
+        return
+    if config.is_fine:
+        worlds = [world_of(refinement) for _, refinement in refinements(config)]
+    else:
+        worlds = [load_world(config.domain)]
+    known = {event.name for world in worlds for event in world.exogenous_actions}
+    for name in names:
+        if name not in known:
+            yield f"'{name}' is no exogenous action; {suggestion(name, sorted(known))}"

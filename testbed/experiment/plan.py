@@ -11,7 +11,14 @@ import msgspec
 from asp.language import Description, Literal, Trigger
 from asp.reasoning.determinism import deterministic_by_form
 from asp.refinement import Refinement
-from testbed.config import ExperimentConfig, Finding, conditions_of, level_size, refinements
+from testbed.config import (
+    NO_EVENTS,
+    ExperimentConfig,
+    Finding,
+    conditions_of,
+    level_size,
+    refinements,
+)
 from testbed.environment import RandomGoal, RandomStart
 from testbed.experiment.record import COARSE
 from testbed.experiment.seeds import drawn_part, generator_of
@@ -126,7 +133,7 @@ def _is_drawn(config: ExperimentConfig, scenario: str, description: Description)
 def _events_are_drawn(config: ExperimentConfig, triggers: Sequence[Trigger]) -> bool:
     rate = config.adversary.rate
     if not config.plays_triggers:
-        return rate != 0
+        return rate != 0 and config.adversary.strategy != NO_EVENTS
     return any(t.drawings or _open(t.probability if rate is None else rate) for t in triggers)
 
 

@@ -4,11 +4,12 @@ import time
 import traceback
 from collections.abc import Sequence
 from functools import lru_cache, partial
+from math import inf
 
 import msgspec
 
-from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
-from asp.language import Action, Fluent, Literal
+from agents.adversary import Adversary, AdversaryView, Game, Measure, Script, Sight
+from asp.language import Fluent, Literal
 from asp.refinement import Refinement
 from testbed.config import refinement_of_files, refinement_of_size
 from testbed.environment import Core, IllegalActionError, Rules, fine_core
@@ -24,11 +25,13 @@ from testbed.experiment.storyteller import Moment, Storyteller, Watch
 from testbed.protocol import (
     NONE,
     NOT_UNDERSTOOD,
+    Decision,
     RobotClient,
     RobotGone,
     RobotLost,
     RobotStopped,
     Task,
+    Trace,
     in_one_line,
     shortened,
 )
@@ -38,6 +41,8 @@ from testbed.world import World, load_world, world_of
 
 MOST_DETAILS = 100_000
 """Characters of what is known of a failure; of more the end is kept."""
+NO_MIND = Trace()
+"""The trace of a robot that tells nothing of its mind."""
 
 
 def play_trial(spec: TrialSpec, client: RobotClient, watch: Watch = lambda _: None) -> Result:
@@ -106,7 +111,7 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     decision = client.ask(percept)
     if decision.action not in core.robot_actions:
         raise RobotLost(f"answered '{decision.action}', which is not an action")
-    event = adversary.act(_view(core, decision.action, adversary.sees))
+    event = adversary.act(_view(core, decision, adversary.sees))
     skipped = adversary.skipped if isinstance(adversary, Script) else ()
     for impossible in skipped:
         why = core.why_not(decision.action, impossible) or f"beside {event}"
@@ -122,8 +127,9 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state, skipped)
 
 
-def _view(core: Core, robot_action: Action, sees: Sequence[Sight]) -> AdversaryView:
-    now, sees_action = core.situation, "robot_action" in sees
+def _view(core: Core, decision: Decision, sees: Sequence[Sight]) -> AdversaryView:
+    now, sees_action, robot_action = core.situation, "robot_action" in sees, decision.action
+    is_told = "trace" in sees and decision.trace != NO_MIND
     return AdversaryView(
         step=now.step,
         state=frozenset(core.world.true_atoms(now.state) if "state" in sees else ()),
@@ -131,6 +137,7 @@ def _view(core: Core, robot_action: Action, sees: Sequence[Sight]) -> AdversaryV
         legal=core.legal_events(robot_action),
         physical=sees_action and core.is_physical(robot_action),
         left=core.left,
+        trace=decision.trace if is_told else None,
     )
 
 
@@ -146,7 +153,7 @@ class TrialSetup:
         self.judge = Judge(partial(as_it_is, world), self.costs)
         self._world, self._source = world, world.description.source
         self.hashes: tuple[str, str | None] = sha256(self._source), None
-        self._exogenous = world.exogenous_actions
+        self._played, self._exogenous = world, world.exogenous_actions
 
     def core(self, setting: Setting) -> Core:
         """A new game."""
@@ -165,8 +172,17 @@ class TrialSetup:
             exogenous_actions=tuple(filter(rules.permits, self._exogenous)),
             description=self._world.description,
             rules=rules,
+            world=self._played,
+            remaining=partial(self._remaining, spec.setting),
         )
         return make_adversary(spec.setting, game)
+
+    def _remaining(self, setting: Setting, state: int, measure: Measure) -> float | None:
+        """What a state is away from the goal; see `agents.adversary.Remaining`."""
+        least = self.judge.minimal(state, setting.goal, setting.judge_states)
+        if least.reason == "no plan":
+            return inf
+        return least.actions if measure == "actions" else least.units
 
     def task(self, spec: TrialSpec, state: int, seed: int) -> Task:
         """What the robot is told of a trial that begins in `state`."""
@@ -197,7 +213,7 @@ class FineTrialSetup(TrialSetup):
         super().__init__(world_of(description))
         self._refinement, self._source = refinement, coarse.text
         self.hashes = sha256(coarse.text), sha256(refinement.text)
-        self._fine = world_of(refinement)
+        self._fine = self._played = world_of(refinement)
         self._exogenous = self._fine.exogenous_actions
         self.judge = Judge(partial(coarse_problem, refinement), self.costs)
         inertial, robot = self._fine.description.inertial, description.robots[0]

@@ -2,7 +2,11 @@
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
+from itertools import groupby
+from typing import Any
 
+import numpy as np
 import pytest
 
 from agents.adversary import AdversaryView, Game, Random
@@ -20,9 +24,9 @@ EVENTS = parsed([f"take({thing},{place})" for thing in "abc" for place in "wxyz"
 NOWHERE = parse_description(GREENHOUSE, "pots.al")
 
 
-def at_rate(rate: float, events: Sequence[str] = EVENTS) -> Random:
+def at_rate(rate: float, events: Sequence[str] = EVENTS, **options: Any) -> Random:
     game = Game(scenario="", goal=(), exogenous_actions=events, description=NOWHERE)
-    return Random(game, Random.Options(rate))
+    return Random(game, Random.Options(rate, **options))
 
 
 def view(legal: Sequence[str]) -> AdversaryView:
@@ -46,6 +50,61 @@ def test_it_draws_a_thing_first_and_then_what_is_done_to_it() -> None:
     assert drawn["take(a,w)"] == pytest.approx(1500, abs=140)
     for event in parsed(["take(c,w)", "take(c,x)", "take(c,y)"]):
         assert drawn[event] == pytest.approx(500, abs=110)
+
+
+@pytest.mark.parametrize("rate", [0.05, 0.3, 1.0])
+@pytest.mark.parametrize("burst", [1.0, 4.0])
+def test_a_burst_is_as_long_on_average_as_it_is_to_be_at_the_same_rate(
+    burst: float, rate: float
+) -> None:
+    adversary = at_rate(rate, burst=burst)
+    steps = [adversary.act(view([NONE, *EVENTS])) != NONE for _ in range(30_000)]
+    assert np.mean(steps) == pytest.approx(rate, abs=0.02)
+    if rate == 1:
+        return
+    # A burst that is over may be followed by another one at once: with the probability that one
+    # begins, which lengthens what is seen as one.
+    begins = rate / (rate + burst * (1 - rate))
+    lengths = [len(list(own)) for acts, own in groupby(steps) if acts]
+    assert np.mean(lengths) == pytest.approx(burst / (1 - begins), rel=0.1)
+
+
+def test_by_default_what_is_drawn_is_what_was_always_drawn() -> None:
+    """As the strategy was before it had more options: a coin, then a thing, then an event."""
+    for seed in range(5):
+        one, random = at_rate(0.4), np.random.default_rng(seed)
+        one.reset(seed)
+        things = {event.arguments[0]: [] for event in EVENTS}
+        for event in EVENTS:
+            things[event.arguments[0]].append(event)
+        groups, legal = list(things.values()), [NONE, *EVENTS[::3]]
+        for _ in range(60):
+            expected = NONE
+            if random.random() < 0.4:
+                drawn = (
+                    groups[thing][place]
+                    for thing in random.permutation(len(groups))
+                    for place in random.permutation(len(groups[thing]))
+                )
+                expected = next(event for event in drawn if event in legal)
+            assert one.act(view(legal)) == expected
+
+
+def test_nothing_happens_before_the_delay_is_over() -> None:
+    adversary = at_rate(1.0, delay=5)
+    acts = [adversary.act(replace(view([NONE, *EVENTS]), step=step)) for step in range(1, 9)]
+    assert [event != NONE for event in acts] == [False] * 4 + [True] * 4
+
+
+def test_a_mix_says_how_often_events_of_each_name_happen() -> None:
+    events = parsed(["take(a,w)", "take(b,x)", "drop(a)", "turn(b)"])
+    adversary = at_rate(1.0, events, mix={"take": 3, "drop": 1, "turn": 0})
+    drawn = Counter(adversary.act(view([NONE, *events])) for _ in range(4000))
+    assert drawn.keys() == set(parsed(["take(a,w)", "take(b,x)", "drop(a)"]))
+    # At 1/4 of 4000 draws the standard deviation is 27.
+    assert drawn[events[2]] == pytest.approx(1000, abs=140)
+    # What is not possible leaves its place to the others.
+    assert {adversary.act(view([NONE, events[2]])) for _ in range(20)} == {events[2]}
 
 
 def test_where_nothing_is_possible_nothing_happens() -> None:
