@@ -12,7 +12,7 @@ from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import ROBOTS
 from testbed.experiment.snapshots import Replayed, restorable_robot
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import setup_of
+from testbed.experiment.trial_setup import setup_of
 from testbed.protocol import NONE, Restorable
 
 OFFICE = ("office", "scenarios=[none]", "limits.steps=40")

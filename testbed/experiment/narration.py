@@ -6,7 +6,7 @@ from asp.language import Action, Fluent
 from asp.refinement import Refinement
 from testbed.experiment.specs import Setting
 from testbed.experiment.stories import FineStep, StoryStep, applied, believed
-from testbed.experiment.trial import refinement_of
+from testbed.experiment.trial_setup import refinement_of
 from testbed.experiment.wording import Said, explained, noticed, reasons, refined, told
 from testbed.text import Say
 from testbed.world import world_of

@@ -15,7 +15,8 @@ from testbed.experiment.run_folder import read_config
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
 from testbed.experiment.timeline import in_words, of_place, place
-from testbed.experiment.trial import play_trial, setup_of
+from testbed.experiment.trial import play_trial
+from testbed.experiment.trial_setup import setup_of
 from testbed.link import InProcessRobot
 from testbed.text import Say, columns, counted
 from testbed.text.grid import Grid

@@ -20,7 +20,7 @@ from testbed.experiment.row_rules import check_row
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import sealed
 from testbed.experiment.texts import refuse_another
-from testbed.experiment.trial import setup_of
+from testbed.experiment.trial_setup import setup_of
 
 ENDINGS = {"domain": ".al", "refinement": ".fine"}
 """Of the files of texts, by what a text is."""

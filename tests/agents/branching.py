@@ -12,7 +12,7 @@ from testbed.config import load_config
 from testbed.environment import Core
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import setup_of
+from testbed.experiment.trial_setup import setup_of
 from testbed.protocol import FINISH, NONE, Decision, Percept, Robot, RobotStops, Task
 
 

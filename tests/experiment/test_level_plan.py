@@ -7,7 +7,7 @@ import pytest
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import refinement_of
+from testbed.experiment.trial_setup import refinement_of
 from testbed.world import world_of
 
 

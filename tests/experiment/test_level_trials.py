@@ -11,7 +11,8 @@ from testbed.experiment.narration import narrator_of
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import FineCounts, TrialRecord
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.trial import play_trial, refinement_of, setup_of
+from testbed.experiment.trial import play_trial
+from testbed.experiment.trial_setup import refinement_of, setup_of
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, FineTrace, Percept, Task, Trace
 from testbed.world import world_of
