@@ -238,6 +238,16 @@ def test_repeats_of_which_nothing_is_drawn_are_played_once(
     assert len(plan_trials(config)) == pairs * states * len(config.robots)
 
 
+@everywhere
+@pytest.mark.parametrize("strategy", ["random", "meddler", "belief", "greedy"])
+def test_a_strategy_keeps_within_the_rules(strategy: str, domain: str, tmp_path: Path) -> None:
+    given = (f"adversary.strategy={strategy}", "adversary.rate=1", "limits.steps=30")
+    rules = ("adversary.budget=2", "adversary.cooldown=2")
+    steps = [m.percept.step for m in played(tmp_path, domain, *given, *rules)[1] if m.event]
+    assert len(steps) in (1, 2)
+    assert steps[-1] - steps[0] not in (1, 2)
+
+
 def test_each_condition_of_a_sweep_has_its_own_strategy(tmp_path: Path) -> None:
     """Also in a domain without scenarios, in which nothing happens unless a strategy is given."""
     spec_in(tmp_path, "ferry")
