@@ -5,6 +5,7 @@ from pathlib import Path
 
 from benchmarks import (
     ablation,
+    batches,
     branches,
     chaos,
     decisions,
@@ -46,6 +47,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "rooms": rooms.main,
     "worlds": worlds.main,
     "ablation": ablation.main,
+    "batches": batches.main,
     "branches": branches.main,
 }
 

@@ -29,9 +29,9 @@ def observe(core: Core, agent: str, robot_action: Action | None) -> Observation:
     """
     world, own, legal = core.world, core.robot_actions, core.robot_actions
     if known_agent(agent) == ROBOT:
-        seen = _vector(world.fluents, core.visible)
+        seen = vector(world.fluents, core.visible)
     else:
-        state = _vector(world.fluents, world.literals(core.situation.state))
+        state = vector(world.fluents, world.literals(core.situation.state))
         seen = np.concatenate([state, _mask(core.robot_actions, (robot_action,))])
         if core.allowance.highest:
             left = np.array(core.allowance.entries(core.left), _dtype(core))
@@ -57,7 +57,8 @@ def infos(core: Core, robot_action: Action | None) -> dict[str, dict[str, Any]]:
     }
 
 
-def _vector(fluents: Sequence[Fluent], literals: Sequence[Literal]) -> Vector:
+def vector(fluents: Sequence[Fluent], literals: Sequence[Literal]) -> Vector:
+    """One entry per fluent: 1 true, -1 false, 0 where no literal is about it."""
     known = {seen.atom: 1 if seen.is_positive else -1 for seen in literals}
     return np.array([known.get(fluent, 0) for fluent in fluents], np.int8)
 
@@ -129,7 +130,7 @@ class View:
     def state(self) -> Vector:
         """The true state, one entry per fluent: 1 true, -1 false. Raises NotResetError."""
         world = self.core.world
-        return _vector(world.fluents, world.literals(self.core.situation.state))
+        return vector(world.fluents, world.literals(self.core.situation.state))
 
     def render(self) -> str | Image | None:
         """`ansi`: text; `rgb_array`: a picture (height, width, 3) of uint8; `human`: prints.

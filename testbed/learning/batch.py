@@ -1,0 +1,214 @@
+"""Many coarse games at once, played by tables: a call takes a step of each."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from gymnasium.vector import AutoresetMode
+from numpy.typing import ArrayLike, NDArray
+
+from testbed.environment import ADVERSARY, ROBOT, Ending, IllegalActionError, rewards
+from testbed.environment.rules import name_of
+from testbed.environment.tables import ENDINGS, Tables
+from testbed.office_v0 import Config, make_core
+
+Numbers = NDArray[np.int64]
+Bytes = NDArray[np.int8]
+Flags = NDArray[np.bool_]
+NOBODY = np.empty(0, np.int64)
+LATE = 4
+"""Added to the number of an ending where the limit of steps is reached."""
+
+
+class Sight(NamedTuple):
+    """What an agent sees of N games, as in the single environment.
+
+    `observation`, (N, F) of int8, for the adversary (N, F + R); `action_mask`, (N, A) of int8, for
+    F fluents, R actions of the robot, and A actions of the agent.
+    """
+
+    observation: Bytes
+    action_mask: Bytes
+
+
+class Moves(NamedTuple):
+    """What came of a step of N games.
+
+    `rewards`: by agent, (N,) of float32; `terminated` and `truncated`, (N,) of bool: whether the
+    robot's answer, or the limit of steps, ended a game. `ended` are the numbers of the games that
+    ended, in order, and `final`, by agent, the observations of their last moment.
+    """
+
+    rewards: dict[str, NDArray[np.float32]]
+    terminated: Flags
+    truncated: Flags
+    ended: Numbers
+    final: dict[str, Bytes]
+
+
+class Batch:
+    """N games under one configuration, of which a step is some operations of NumPy.
+
+    `config` and `options` are those of `office_v0.env`, `games` is N. `autoreset_mode` is
+    Gymnasium's: a game that ends begins anew in the same step (SAME_STEP); in the next one, which
+    it does not play, whatever its answers (NEXT_STEP); or when `begin` is asked for (DISABLED). An
+    answer is the number of an action in `robot_actions` or `adversary_actions`. All arrays that are
+    returned are new.
+
+    Raises:
+        ConfigError: for a bad configuration.
+        TableError: for a game at the fine resolution.
+    """
+
+    def __init__(
+        self,
+        config: Config = None,
+        games: int = 4096,
+        *,
+        seed: int | None = None,
+        autoreset_mode: AutoresetMode = AutoresetMode.SAME_STEP,
+        **options: Any,
+    ) -> None:
+        core = make_core(config, **options)
+        self.games, self.autoreset_mode = games, autoreset_mode
+        self.robot_actions, self.adversary_actions = core.robot_actions, core.adversary_actions
+        self.fluents = core.world.fluents
+        self.tables = Tables(core)
+        self._limit = core.rules.steps
+        self._rewards = {
+            agent: np.array([rewards(_ending(number))[agent] for number in range(8)], np.float32)
+            for agent in (ROBOT, ADVERSARY)
+        }
+        self._random = np.random.default_rng(seed)
+        self._position = np.zeros(games, np.int64)
+        self._step = np.ones(games, np.int64)
+        self._over = np.zeros(games, np.bool_)
+        self.begin()
+
+    @property
+    def states(self) -> list[int]:
+        """The state of each game, as the worlds of `testbed.world` have it."""
+        return [self.tables.states[number] for number in self._position >> 1]
+
+    def begin(self, which: ArrayLike | None = None, seed: int | None = None) -> None:
+        """Begin games anew: all, or those where `which`, (N,), is true.
+
+        With a seed, all draws from here on follow from it.
+        """
+        if seed is not None:
+            self._random = np.random.default_rng(seed)
+        self._begin(np.arange(self.games) if which is None else np.flatnonzero(which))
+
+    def robot_sight(self) -> Sight:
+        """What the robot sees before it answers."""
+        mask = np.ones((self.games, len(self.robot_actions)), np.int8)
+        if self._over.any():
+            mask[self._over, 1:] = 0
+        seen = self.tables.robot_sees.take(self._position >> 1, axis=0)
+        return Sight(seen[:, : len(self.fluents)], mask)
+
+    def adversary_sight(self, robot_answers: ArrayLike) -> Sight:
+        """What the adversary sees beside the robot's answers, (N,).
+
+        Raises IllegalActionError for an answer that is no action.
+        """
+        answers, tables = self._numbers(ROBOT, robot_answers), self._prepared()
+        beside = (self._position >> 1) * len(self.robot_actions) + answers
+        seen = _rows(tables.adversary_sees).take(beside, axis=0)
+        mask = _rows(tables.legal).take(beside, axis=0)
+        if self._over.any():
+            mask[self._over, 1:] = 0
+        entries = len(self.fluents) + len(self.robot_actions)
+        return Sight(seen[:, :entries], mask[:, : len(self.adversary_actions)])
+
+    def step(self, robot_answers: ArrayLike, events: ArrayLike) -> Moves:
+        """Play a step of each game by the answers of both agents, (N,) each.
+
+        Raises IllegalActionError, and plays nothing, for an answer that is no action, an event that
+        is illegal beside the robot's answer, and a game that is over and does not begin by itself.
+        """
+        robot, event = self._numbers(ROBOT, robot_answers), self._numbers(ADVERSARY, events)
+        anew = np.flatnonzero(self._over) if self._over.any() else NOBODY
+        if len(anew):
+            robot, event = self._without(anew, robot, event)
+        following, ending = self._played(robot, event)
+        ending[anew] = 0
+        self._position = following
+        self._step += 1
+        self._begin(anew)
+        ended = np.flatnonzero(ending)
+        moves = self._moves(ending, ended)
+        if self.autoreset_mode is AutoresetMode.SAME_STEP:
+            self._begin(ended)
+        else:
+            self._over = ending > 0
+        return moves
+
+    def _played(self, robot: Numbers, event: Numbers) -> tuple[Numbers, Bytes]:
+        """The positions that follow, and the numbers of the endings."""
+        tables = self._prepared()
+        beside = self._position * len(self.robot_actions) + robot
+        places = beside * len(self.adversary_actions) + event
+        following = tables.following.reshape(-1).take(places)
+        if following.min() < 0:
+            game = int(np.argmax(following < 0))
+            raise IllegalActionError(f"game {game}: {tables.why_not(int(places[game]))}")
+        tables.decide(places, following, self._random)
+        late = (self._step >= self._limit).view(np.int8)
+        return following, tables.ending.reshape(-1).take(beside) + LATE * late
+
+    def _moves(self, ending: Bytes, ended: Numbers) -> Moves:
+        earned = {agent: np.zeros(self.games, np.float32) for agent in self._rewards}
+        for agent, own in self._rewards.items():
+            earned[agent][ended] = own[ending[ended]]
+        late = ending == LATE
+        return Moves(earned, (ending > 0) & ~late, late, ended, self._final(ended))
+
+    def _begin(self, games: Numbers) -> None:
+        if len(games):
+            self._position[games] = self.tables.starts(self._random, len(games))
+            self._step[games] = 1
+            self._over[games] = False
+
+    def _without(self, games: Numbers, robot: Numbers, event: Numbers) -> tuple[Numbers, Numbers]:
+        """The answers, but of these games those that do nothing."""
+        if self.autoreset_mode is AutoresetMode.DISABLED:
+            raise IllegalActionError(f"game {games[0]} is over: begin it anew")
+        both = robot.copy(), event.copy()
+        for own in both:
+            own[games] = 0
+        return both
+
+    def _numbers(self, agent: str, answers: ArrayLike) -> Numbers:
+        given = np.asarray(answers)
+        actions = self.robot_actions if agent == ROBOT else self.adversary_actions
+        if given.shape != (self.games,) or given.dtype.kind not in "iu":
+            wanted = f"give {self.games} integers, one per game"
+            raise IllegalActionError(f"{agent}: {given.dtype} of shape {given.shape}; {wanted}")
+        answers = given.astype(np.int64, copy=False)
+        if answers.view(np.uint64).max() >= len(actions):  # a negative one is a large one here
+            game = int(np.argmax((answers < 0) | (answers >= len(actions))))
+            name_of(f"game {game}: {agent}", int(answers[game]), actions)
+        return answers
+
+    def _prepared(self) -> Tables:
+        """The tables, with what follows from the states of the games."""
+        if not self.tables.complete:
+            self.tables.make(np.unique(self._position >> 1).tolist())
+        return self.tables
+
+    def _final(self, games: Numbers) -> dict[str, Bytes]:
+        """What both see of games that have ended; the robot has no answer there any more."""
+        number, tables = self._position[games] >> 1, self.tables
+        end, robot = len(self.fluents), len(self.robot_actions)
+        everything = tables.adversary_sees[number, 0, : end + robot]
+        everything[:, end:] = 0
+        return {ROBOT: tables.robot_sees[number, :end], ADVERSARY: everything}
+
+
+def _rows(table: Bytes) -> Bytes:
+    """A table by state and robot's action, (S, R, n), with one row for both, (S R, n)."""
+    return table.reshape(-1, table.shape[-1])
+
+
+def _ending(number: int) -> Ending | None:
+    return Ending.STEP_LIMIT if number == LATE else ENDINGS.get(number % LATE)
