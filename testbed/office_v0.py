@@ -4,10 +4,11 @@
     env = office_v0.env(config="configs/office.yaml", render_mode="ansi")
 
 Of a configuration the environment uses domain, goal, initial, observability, goal_feedback,
-exogenous_while_thinking, rewards, limits.steps, limits.judge_states, and what bounds the adversary;
-scenarios and scripts are an adversary's business, and the adversary is an agent here. Any key can
-be overridden: `env(goal_feedback=False)`. Of a sweep it is given one condition. With `level="L3"`,
-or a configuration with a refinement, the robot acts at the fine resolution.
+exogenous_while_thinking, rewards, limits.steps, limits.judge_states, what bounds the adversary, and
+infos, illegal and padded; scenarios and scripts are an adversary's business, and the adversary is
+an agent here. Any key can be overridden: `env(goal_feedback=False)`. Of a sweep it is given one
+condition. With `level="L3"`, or a configuration with a refinement, the robot acts at the fine
+resolution.
 """
 
 import json
@@ -19,6 +20,7 @@ from asp.language import suggestion
 from testbed.config import ConfigError, ExperimentConfig, lists_keys, load_config, refinements
 from testbed.environment import Core, EventRules, RandomGoal, Rewards, Rules, fine_core
 from testbed.environment.aec import AECView, OrderedView
+from testbed.environment.conventions import Conventions
 from testbed.environment.parallel import ParallelView
 from testbed.world import world_of
 
@@ -41,7 +43,8 @@ def env(config: Config = None, render_mode: str | None = None, **options: Any) -
 @lists_keys
 def raw_env(config: Config = None, render_mode: str | None = None, **options: Any) -> AECView:
     """The AEC environment, unwrapped. Parameters, options and errors as for `env`."""
-    return AECView(make_core(config, **options), render_mode)
+    core, conventions = make_game(config, **options)
+    return AECView(core, render_mode, conventions)
 
 
 @lists_keys
@@ -49,14 +52,24 @@ def parallel_env(
     config: Config = None, render_mode: str | None = None, **options: Any
 ) -> ParallelView:
     """The parallel environment. Parameters, options and errors as for `env`."""
-    return ParallelView(make_core(config, **options), render_mode)
+    core, conventions = make_game(config, **options)
+    return ParallelView(core, render_mode, conventions)
 
 
-def make_core(
+def make_core(config: Config = None, **options: Any) -> Core:
+    """The game that a configuration describes. Options and errors as for `env`."""
+    return make_game(config, **options)[0]
+
+
+def make_game(
     config: Config = None, max_cycles: int | None = None, level: str | None = None, **overrides: Any
-) -> Core:
-    """The game that a configuration describes. Raises ConfigError."""
+) -> tuple[Core, Conventions]:
+    """The game, and how an environment is to show it. Raises ConfigError."""
     read = _read(config, level, overrides)
+    return _core(read, max_cycles), Conventions(read.infos, read.illegal, read.padded)
+
+
+def _core(read: ExperimentConfig, max_cycles: int | None) -> Core:
     if read.is_sweep:
         example = f'testbed.config.conditions_of(config)["{next(iter(read.sweep.cells))}"]'
         one = f"give one, as in {example}, or sweep={{}} for what they have in common"

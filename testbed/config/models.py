@@ -67,6 +67,8 @@ class ExperimentConfig(Section):
     this machine, or Dask: the workers of a `scheduler`, without one a cluster on this machine.
     `rewards` is what a game of the environment is worth; results of trials do not depend on it.
 
+    `infos`, `illegal` and `padded` are conventions of the environments of a configuration.
+
     With `levels`, or with the `refinement` of a domain of one's own, trials are played at the fine
     resolution. They are drawn: each has its initial state and its goal unless these are given.
     """
@@ -106,6 +108,9 @@ class ExperimentConfig(Section):
     rewards: RewardSettings = RewardSettings()
     limits: Limits = Limits()
     sweep: Sweep = Sweep()
+    infos: environment.Infos = "numeric"
+    illegal: environment.Illegal = "error"
+    padded: Flag = False
 
     @model_validator(mode="before")
     @classmethod

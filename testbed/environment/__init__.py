@@ -5,6 +5,8 @@ to import than all the rest.
 """
 
 from testbed.environment.allowance import Left as Left
+from testbed.environment.conventions import Illegal as Illegal
+from testbed.environment.conventions import Infos as Infos
 from testbed.environment.core import Core as Core
 from testbed.environment.execution import Execution as Execution
 from testbed.environment.fine import Pace as Pace

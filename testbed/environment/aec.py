@@ -7,13 +7,15 @@ from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from asp.language import Action
+from testbed.environment.conventions import ILLEGAL_REWARD
 from testbed.environment.core import Snapshot
-from testbed.environment.observation import Observation, View, infos, observe
-from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, listed, name_of
+from testbed.environment.observation import Observation
+from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, known_agent, listed
+from testbed.environment.view import View
 
 _TOLD = ("rewards", "_cumulative_rewards", "terminations", "truncations", "infos")
 """The attributes in which PettingZoo tells the agents of a step."""
-_TURN = ("agents", "agent_selection", "_chosen", *_TOLD)
+_TURN = ("agents", "agent_selection", "_chosen", "_illegal", *_TOLD)
 """With these, the attributes that belong to the turn."""
 
 
@@ -24,7 +26,8 @@ AECSnapshot: TypeAlias = tuple[Snapshot, dict[str, Any]]
 class AECView(View, AECEnv[str, Observation, int | None]):
     """A view of a core: two answers a step, the second of which plays it.
 
-    An answer outside the mask raises IllegalActionError and changes nothing. `reset` takes the
+    An answer outside the mask raises IllegalActionError and changes nothing, unless conventions say
+    otherwise. `reset` takes the
     options `initial` (literals: begin there, raises StateError) and `trial` (an id for percepts),
     and raises UnknownOptionError for others. Before it, what needs a game raises NotResetError.
     """
@@ -48,17 +51,38 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         agent = self.agent_selection
         if self.terminations[agent] or self.truncations[agent]:
             self._was_dead_step(action)
-        elif agent == ROBOT:
-            self._robot_answers(name_of(agent, action, self.core.robot_actions))
-        else:
-            self._adversary_answers(name_of(agent, action, self.core.adversary_actions))
+            return
+        try:
+            self._answer(agent, action)
+        except IllegalActionError:
+            if not self._tolerates(agent, action):
+                raise
+            self._answer_illegally(agent)
+
+    def _answer(self, agent: str, action: int | None) -> None:
+        answer = self._named(agent, action)
+        (self._robot_answers if agent == ROBOT else self._adversary_answers)(answer)
+
+    def _answer_illegally(self, agent: str) -> None:
+        """Let the agent do nothing, or end the game, as PettingZoo's TerminateIllegalWrapper."""
+        if self.conventions.illegal == "noop":
+            self._answer(agent, 0)
+            self.infos[agent]["illegal"] = 1
+            return
+        self._illegal = agent
+        self._cumulative_rewards[agent] = 0.0
+        self.terminations = dict.fromkeys(self.agents, True)
+        self.truncations = dict.fromkeys(self.agents, True)
+        self.rewards = {**dict.fromkeys(self.agents, 0.0), agent: ILLEGAL_REWARD}
+        self._accumulate_rewards()
+        self._deads_step_first()
 
     def _robot_answers(self, action: Action) -> None:
         self._cumulative_rewards[ROBOT] = 0.0
         self._clear_rewards()
         self._chosen = action
         self.agent_selection = ADVERSARY
-        self.infos = infos(self.core, action)
+        self.infos = self._infos(action)
 
     def _adversary_answers(self, event: Action) -> None:
         assert self._chosen is not None
@@ -81,10 +105,10 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         self.agent_selection = ROBOT
         self.terminations, self.truncations = self._ends()
         self.rewards = self.core.rewards
-        self.infos = infos(self.core, None)
+        self.infos = self._infos(None)
 
     def observe(self, agent: str) -> Observation:
-        return observe(self.core, agent, self._chosen)
+        return self._observed(known_agent(agent), self._chosen)
 
     def snapshot(self) -> AECSnapshot:
         """A copy of all that the rest of the episode depends on."""

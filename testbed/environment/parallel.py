@@ -1,18 +1,25 @@
 """The game as a PettingZoo parallel environment: robot and adversary answer at once."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 from pettingzoo import ParallelEnv
 
+from asp.language import Action
+from testbed.environment.conventions import ILLEGAL_REWARD
 from testbed.environment.core import Snapshot
-from testbed.environment.observation import Observation, View, infos, observe
-from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, name_of
+from testbed.environment.observation import Observation
+from testbed.environment.rules import ADVERSARY, IllegalActionError
+from testbed.environment.view import View
 from testbed.protocol import NONE
 
 Shown: TypeAlias = tuple[dict[str, Observation], dict[str, dict[str, Any]]]
 """Observations and infos, by agent."""
 Flags: TypeAlias = dict[str, bool]
+Stepped: TypeAlias = tuple[
+    dict[str, Observation], dict[str, float], Flags, Flags, dict[str, dict[str, Any]]
+]
+"""What `step` returns: observations, rewards, terminations, truncations, infos, by agent."""
 
 
 class ParallelView(View, ParallelEnv[str, Observation, int]):
@@ -21,32 +28,57 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
     The adversary does not know the robot's answer: its mask holds what is possible by itself, and
     an exogenous action that is not legal beside the robot's is dropped, which
     `infos["adversary_0"]["dropped"]` says. An answer that is no action at all, or none for an
-    agent, raises IllegalActionError and changes nothing. Options of `reset` as for the AEC view.
+    agent, raises IllegalActionError and changes nothing. By conventions other than `error` an
+    answer outside the agent's mask is illegal. Options of `reset` as for the AEC view.
     """
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> Shown:
         self._begin(seed, options)
         return self._shown(None)
 
-    def step(
-        self, actions: Mapping[str, int]
-    ) -> tuple[dict[str, Observation], dict[str, float], Flags, Flags, dict[str, dict[str, Any]]]:
+    def step(self, actions: Mapping[str, int]) -> Stepped:
         self._check_begun()
         if not self.agents:
             raise IllegalActionError("the game is over: reset the environment")
-        robot_action = name_of(ROBOT, actions.get(ROBOT), self.core.robot_actions)
-        event = name_of(ADVERSARY, actions.get(ADVERSARY), self.core.adversary_actions)
+        illegal = [agent for agent in self.agents if self._is_illegal(agent, actions.get(agent))]
+        if illegal and self.conventions.illegal == "terminate":
+            return self._ended_by(illegal)
+        robot_action, event = (
+            own[0] if agent in illegal else self._named(agent, actions.get(agent))
+            for agent, own in self._actions.items()
+        )
         dropped = None if self.core.legal(robot_action, event) else event
         self.core.advance(robot_action, NONE if dropped else event)
         if self.core.situation.ending is not None:
             self.agents = []
         observations, information = self._shown(dropped)
+        for agent in illegal:
+            information[agent]["illegal"] = 1
         return observations, self.core.rewards, *self._ends(), information
 
-    def _shown(self, dropped: str | None) -> Shown:
-        information = infos(self.core, None)
-        information[ADVERSARY]["dropped"] = dropped
-        return {agent: observe(self.core, agent, None) for agent in (ROBOT, ADVERSARY)}, information
+    def _is_illegal(self, agent: str, answer: Any) -> bool:
+        """Whether an answer lies outside the mask, which conventions have to tolerate."""
+        if not self._tolerates(agent, answer):
+            return False
+        own = self._actions[agent]
+        outside = int(answer) >= len(own)
+        return outside or (agent == ADVERSARY and not self.core.legal(None, own[int(answer)]))
+
+    def _ended_by(self, illegal: Sequence[str]) -> Stepped:
+        """The game is over: the first of these agents gets `ILLEGAL_REWARD`."""
+        self._illegal = illegal[0]
+        both, self.agents = list(self.agents), []
+        earned = {agent: ILLEGAL_REWARD if agent == illegal[0] else 0.0 for agent in both}
+        observations, information = self._shown(None)
+        ended = dict.fromkeys(both, True)
+        return observations, earned, ended, dict(ended), information
+
+    def _shown(self, dropped: Action | None) -> Shown:
+        information = self._infos(None)
+        number = -1 if dropped is None else self.core.adversary_actions.index(dropped)
+        text = self.conventions.infos == "text"
+        information[ADVERSARY]["dropped"] = dropped if text else number
+        return {agent: self._observed(agent, None) for agent in self.possible_agents}, information
 
     def snapshot(self) -> Snapshot:
         """All that the rest of the episode depends on."""

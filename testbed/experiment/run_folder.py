@@ -15,7 +15,10 @@ TRIALS, CONFIG, PROVENANCE = "trials.jsonl", "config.yaml", "provenance.json"
 STORIES = "stories.jsonl"
 SUMMARY, REPORT, ERRORS = "summary.json", "report.html", "errors"
 # Keys on which no logical result depends.
-ANY_RESULT = ("link", "limits.answer_s", "runner", "scheduler", "tls.ca", "tls.cert", "tls.key")
+ANY_RESULT = (
+    *("link", "limits.answer_s", "runner", "scheduler", "tls.ca", "tls.cert", "tls.key"),
+    *("infos", "illegal", "padded"),  # of environments, in which no trial is played
+)
 MOST_CHANGES = 8
 OWN_FILES = ("domain", "refinement")
 """Keys that may lead to a file which is not packaged."""

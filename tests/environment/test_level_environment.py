@@ -60,7 +60,7 @@ def test_the_mask_is_what_the_world_allows() -> None:
 
 
 def test_the_robot_observes_what_a_test_shows_and_nothing_else() -> None:
-    env = office_v0.raw_env(level="L1", statistics={}, initial=None)
+    env = office_v0.raw_env(level="L1", statistics={}, initial=None, infos="text")
     start = ["fine_loc(rob1,room1_1)", "fine_loc(object1_1,room1_1)"]
     env.reset(seed=0, options={"initial": start})
     fluents, actions = env.core.world.fluents, env.core.robot_actions
@@ -77,7 +77,7 @@ def test_the_robot_observes_what_a_test_shows_and_nothing_else() -> None:
 
 
 def test_each_game_has_a_goal_of_its_own_that_does_not_hold_yet() -> None:
-    env = office_v0.raw_env(level="L2")
+    env = office_v0.raw_env(level="L2", infos="text")
     goals = []
     for seed in range(12):
         env.reset(seed=seed)
@@ -87,13 +87,13 @@ def test_each_game_has_a_goal_of_its_own_that_does_not_hold_yet() -> None:
         env.step(0)
         assert env.infos[ROBOT]["goal"] == goals[-1] == list(env.core.situation.goal)
     assert len({tuple(goal) for goal in goals}) > 3
-    given = office_v0.raw_env(level="L2", goal=["loc(object1,room3)"])
+    given = office_v0.raw_env(level="L2", goal=["loc(object1,room3)"], infos="text")
     given.reset(seed=1)
     assert given.infos[ADVERSARY]["goal"] == ["loc(object1,room3)"]
 
 
 def test_a_goal_belongs_to_its_moment() -> None:
-    env = office_v0.raw_env(level="L1")
+    env = office_v0.raw_env(level="L1", infos="text")
     env.reset(seed=1)
     moment, goal = env.snapshot(), env.infos[ROBOT]["goal"]
     others = []

@@ -1,6 +1,5 @@
 """The environment against PettingZoo's own tests, and what those do not look at."""
 
-import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -23,20 +22,6 @@ IN_KITCHEN = ["loc(rob1,kitchen)", "in_hand(rob1,book1)", "loc(book2,kitchen)"]
 WAIT, FINISH = 0, 1
 
 Episode = list[tuple[Any, ...]]
-
-
-@pytest.fixture
-def strict() -> Iterator[None]:
-    """What PettingZoo warns of is an error, but for what is meant."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        # 1.27 takes a Dict observation for a mistake, though it then looks at its parts.
-        warnings.filterwarnings("ignore", "Observation is not a NumPy array")
-        warnings.filterwarnings("ignore", "Observation space for each agent probably should be")
-        # The agents have different actions, hence masks, and the adversary sees the robot's.
-        warnings.filterwarnings("ignore", "Agents have different observation space sizes")
-        warnings.filterwarnings("ignore", "Observations are different shapes")
-        yield
 
 
 @pytest.mark.usefixtures("strict")
@@ -118,7 +103,8 @@ def test_other_seeds_give_other_episodes() -> None:
 
 
 def test_both_views_play_the_same_game() -> None:
-    aec, parallel = office_v0.env(**LOUD), office_v0.parallel_env(**LOUD)
+    told = {**LOUD, "infos": "text"}
+    aec, parallel = office_v0.env(**told), office_v0.parallel_env(**told)
     for seed in range(20):
         aec.reset(seed=seed)
         parallel.reset(seed=seed)
@@ -136,7 +122,7 @@ def test_both_views_play_the_same_game() -> None:
 
 
 def started(make: Callable[..., Any] = office_v0.env, **settings: Any) -> Any:
-    env = make(**settings)
+    env = make(infos="text", **settings)
     env.reset(seed=0, options={"initial": IN_KITCHEN, "trial": "t1"})
     return env
 
