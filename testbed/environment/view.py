@@ -10,7 +10,7 @@ from asp.language import Action, suggestion
 from testbed.environment.conventions import Conventions, infos, padded
 from testbed.environment.core import Core
 from testbed.environment.observation import Observation, Vector, dtype_of, observe, vector
-from testbed.environment.rendering import MODES, Image, html_of, render
+from testbed.environment.rendering import MODES, Image, Window, html_of, render
 from testbed.environment.rules import ADVERSARY, ROBOT, UnknownOptionError, known_agent, name_of
 
 DEFAULT = Conventions()
@@ -49,6 +49,7 @@ class View:
         self.core = core
         self.render_mode = render_mode
         self.conventions = conventions
+        self._window = Window(self.metadata["name"])
         self.possible_agents = [ROBOT, ADVERSARY]
         self.agents: list[str] = []
         self.observation_spaces: dict[str, spaces.Space[Any]] = {}
@@ -85,19 +86,24 @@ class View:
         return vector(world.fluents, world.literals(self.core.situation.state))
 
     def render(self) -> str | Image | None:
-        """`ansi`: text; `rgb_array`: a picture (height, width, 3) of uint8; `human`: prints.
+        """`ansi`: text; `rgb_array`: a picture (height, width, 3) of uint8; `human`: a window.
 
-        Raises NotResetError.
+        Where there is no screen, `human` prints. Raises NotResetError.
         """
         self._check_begun()
-        return render(self.core, self.render_mode)
+        return render(self.core, self.render_mode, self._window)
 
     def _repr_html_(self) -> str:
         """What a notebook shows: the picture, the goal, and how the game stands."""
         return html_of(self.core)
 
     def close(self) -> None:
-        """Nothing is held: no window, no process, no connection."""
+        """Close the window; nothing else is held, no process and no connection."""
+        self._window.close()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A copy has a window of its own."""
+        return {**vars(self), "_window": Window(self.metadata["name"])}
 
     def _observed(self, agent: str, robot_action: Action | None) -> Observation:
         found = observe(self.core, agent, robot_action, over=self._illegal is not None)

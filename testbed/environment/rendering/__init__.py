@@ -16,6 +16,7 @@ from testbed.environment.rendering.scene import Scene as Scene
 from testbed.environment.rendering.scene import Stage as Stage
 from testbed.environment.rendering.scene import scene as scene
 from testbed.environment.rendering.svg import draw_svg as draw_svg
+from testbed.environment.rendering.window import Window as Window
 from testbed.environment.rules import NotResetError
 
 FIGURE = Markup(
@@ -27,18 +28,21 @@ SMALLEST = 18
 """Characters of the width of a place."""
 
 
-def render(core: Core, mode: str | None) -> str | Image | None:
-    """The situation in a mode; None for `human`, which prints, and where there is no mode."""
+def render(core: Core, mode: str | None, window: Window) -> str | Image | None:
+    """The situation in a mode; None for `human`, and where there is no mode.
+
+    `human` shows the picture in the window, and prints the text where there is no screen for one.
+    """
     if mode is None:
         return None
     shown = scene(core.world, core.situation, core.robot)
     if mode == "rgb_array":
         return draw_picture(shown)
-    text = draw_text(shown)
-    if mode == "human":
-        print(text)
-        return None
-    return text
+    if mode == "ansi":
+        return draw_text(shown)
+    if not window.show(draw_picture(shown)):
+        print(draw_text(shown))
+    return None
 
 
 def html_of(core: Core) -> str:
