@@ -18,11 +18,12 @@ class Window:
     def show(self, picture: Image) -> bool:
         """Show a picture (height, width, 3) of uint8; False where there is no screen."""
         import matplotlib.pyplot as plt  # noqa: PLC0415  # slow, and few look at a window
-        from matplotlib.backends import BackendFilter, backend_registry  # noqa: PLC0415
+        from matplotlib.backends.registry import BackendFilter, backend_registry  # noqa: PLC0415
 
-        if plt.get_backend().lower() in backend_registry.list_builtin(
+        files: list[str] = backend_registry.list_builtin(  # type: ignore[no-untyped-call]
             BackendFilter.NON_INTERACTIVE
-        ):
+        )
+        if plt.get_backend().lower() in files:  # which write pictures, and show none
             return False
         if self._figure is None or not plt.fignum_exists(self._figure.number):  # or was closed
             height, width, _ = picture.shape
