@@ -15,7 +15,7 @@ def _picked(masks: np.ndarray, random: np.random.Generator) -> np.ndarray:
     return np.array([random.choice(np.flatnonzero(mask)) for mask in masks])
 
 
-@pytest.mark.parametrize("name", ("office", *DOMAINS))
+@pytest.mark.parametrize("name", ["office", *DOMAINS])
 def test_a_vector_of_both_agents_is_the_parallel_environment(name: str, tmp_path: Path) -> None:
     config = "office" if name == "office" else str(write_domain(tmp_path, name))
     options = {"padded": True, "illegal": "noop", "max_cycles": 8}
