@@ -59,7 +59,7 @@ class Core:
         posed = pose or partial(as_it_is, world)
         self._payoff = Payoff(rules, posed, world.description.costs)
         self._reach = Reach(posed, rules.search_states)
-        self._legality = Legality(
+        self.legality = Legality(
             self.execution, rules, self.adversary_actions, self.allowance, self._reach
         )
         self._random = np.random.default_rng()
@@ -149,7 +149,7 @@ class Core:
 
     def legal_events(self, robot_action: Action | None) -> LegalEvents:
         """The same, each tested only when it is asked for. Those asked for last are remembered."""
-        return self._legality.events(self.situation, robot_action)
+        return self.legality.events(self.situation, robot_action)
 
     def legal(self, robot_action: Action | None, event: Action) -> bool:
         """Whether `event` is among `events(robot_action)`."""

@@ -14,7 +14,7 @@ from asp.language import Action
 from testbed.environment.core import Core
 from testbed.environment.legality import LegalEvents
 from testbed.environment.observation import vector
-from testbed.environment.rules import Ending
+from testbed.environment.rules import Ending, Rewards, Situation
 from testbed.protocol import FINISH, NONE
 
 ACHIEVED, FALSE_FINISH = 1, 2
@@ -45,7 +45,10 @@ class Tables:
       by zeros, with which they are copied faster.
 
     Where `made`, (S,), is False, nothing is known of what follows from a state: `make` finds it
-    out. Raises TableError for a game at the fine resolution, and for one whose goal is drawn.
+    out.
+
+    Raises TableError for a game at the fine resolution, for one whose goal is drawn, for bounds of
+    the adversary that depend on what was played, and for rewards other than the default.
     """
 
     def __init__(self, core: Core) -> None:
@@ -53,6 +56,11 @@ class Tables:
             raise TableError("tables are of the coarse resolution; this game is of the fine one")
         if core.draw_goal is not None:
             raise TableError("tables are of one goal; the goal of this game is drawn")
+        if core.allowance.highest:
+            bounds = "adversary.budget, cooldown or per_object"
+            raise TableError(f"tables know no history; drop {bounds}")
+        if core.rules.rewards != Rewards() or core.rules.adversary.cost:
+            raise TableError("tables are of the default rewards; drop rewards, and adversary.cost")
         self.core = core
         self.states: list[int] = []
         self.several: dict[int, tuple[int, ...]] = {}
@@ -168,9 +176,8 @@ class Tables:
         return 0 if self.core.rules.goal_feedback else FALSE_FINISH, FALSE_FINISH
 
     def _events(self, state: int, action: Action) -> LegalEvents:
-        core = self.core
-        thinking = core.rules.exogenous_while_thinking
-        return LegalEvents(core.execution, thinking, core.adversary_actions, state, action)
+        goal = self.core.rules.goal
+        return self.core.legality.events(Situation("", 1, state, goal), action)
 
     def _reached(self, state: int, action: Action, event: Action) -> tuple[int, ...]:
         """The states of the world that may follow."""

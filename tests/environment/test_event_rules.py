@@ -238,7 +238,7 @@ def test_in_the_parallel_view_what_is_not_legal_is_dropped_and_costs_nothing(
 ) -> None:
     file = config_of(tmp_path, "harbour")
     env = office_v0.parallel_env(
-        file, adversary={"budget": 1, "cost": 2.0}, rewards={"adversary": "fail"}
+        file, infos="text", adversary={"budget": 1, "cost": 2.0}, rewards={"adversary": "fail"}
     )
     _, _ = env.reset(seed=0)
     silt = _index(env, "silt(east)")
@@ -262,7 +262,7 @@ def test_in_the_parallel_view_an_event_may_be_fair_only_without_the_robots_actio
     goal = ["lies(silk,west)"]
     initial = ["lies(silk,east)", "lies(salt,dock)", "stands(mate,east)"]
     file = config_of(tmp_path, "harbour", goal=goal, initial=initial)
-    env = office_v0.parallel_env(file, adversary={"fair": True})
+    env = office_v0.parallel_env(file, adversary={"fair": True}, infos="text")
     observations, _ = env.reset(seed=0)
     silt = _index(env, "silt(east)")
     assert observations[ADVERSARY]["action_mask"][silt]

@@ -14,6 +14,7 @@ from testbed.environment.rendering import (
     MODES,
     Image,
     Scene,
+    Window,
     draw_picture,
     draw_svg,
     draw_text,
@@ -173,7 +174,7 @@ def test_a_mark_is_one_shape_filled_or_hollow_and_shuts_nothing() -> None:
 
 @pytest.mark.parametrize("mode", [*MODES, None])
 def test_no_mode_needs_a_screen(mode: str | None, capsys: pytest.CaptureFixture[str]) -> None:
-    shown = render(office(), mode)
+    shown = render(office(), mode, Window("office"))
     assert (shown is None) is (mode in ("human", None))
     assert ("kitchen" in capsys.readouterr().out) is (mode == "human")
 

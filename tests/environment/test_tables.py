@@ -1,12 +1,14 @@
 """Tables of coarse games against the game itself: every state, every answer, every event."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from asp import SourceError, load_description, parse_description
-from testbed.environment import ADVERSARY, ROBOT, Core, Rules
+from testbed.environment import ADVERSARY, ROBOT, Core, EventRules, Rules
 from testbed.environment.observation import observe
 from testbed.environment.rules import Situation
 from testbed.environment.tables import ENDINGS, TableError, Tables
@@ -135,6 +137,27 @@ def test_they_are_made_as_they_are_needed(name: str) -> None:
     assert set(tables.states) == set(whole.states)
 
 
-def test_there_are_none_of_a_fine_game() -> None:
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"level": "L1"},
+        {"adversary": {"budget": 3}},
+        {"adversary": {"cooldown": 3}},
+        {"adversary": {"per_object": {"book": 1}}},
+        {"adversary": {"cost": 0.5}},
+        {"rewards": {"step": 0.1}},
+        {"rewards": {"adversary": "waste"}},
+    ],
+)
+def test_there_are_none_of_a_game_that_they_cannot_hold(options: dict[str, Any]) -> None:
     with pytest.raises(TableError):
-        Tables(make_core(level="L1"))
+        Tables(make_core(**options))
+
+
+@pytest.mark.parametrize("name", DOMAINS)
+@pytest.mark.parametrize("fair", [True, False])
+def test_they_hold_which_events_are_allowed_and_fair(name: str, fair: bool) -> None:
+    world, goal = WORLDS[name]
+    event = world.exogenous_actions[0].name
+    bounds = EventRules(fair=fair, events=(event,))
+    _check(world, Rules(goal=parsed(goal), steps=5, adversary=bounds))
