@@ -18,10 +18,10 @@ from asp.reasoning.diagnosis.inconsistency import cannot_hold as cannot_hold
 from asp.reasoning.diagnosis.inconsistency import conflict as conflict
 from asp.reasoning.diagnosis.inconsistency import distrust_tests as distrust_tests
 from asp.reasoning.diagnosis.inconsistency import never_together as never_together
-from asp.reasoning.diagnosis.incremental import DiagnosisSessions as DiagnosisSessions
 from asp.reasoning.diagnosis.incremental import IncrementalDiagnoser as IncrementalDiagnoser
 from asp.reasoning.diagnosis.initial_states import beyond_observed as beyond_observed
 from asp.reasoning.diagnosis.long_histories.frontier import Compression as Compression
 from asp.reasoning.diagnosis.reference import ReferenceDiagnoser as ReferenceDiagnoser
 from asp.reasoning.diagnosis.reference import diagnosis_of as diagnosis_of
 from asp.reasoning.diagnosis.reference import event_limits as event_limits
+from asp.reasoning.diagnosis.sessions import DiagnosisSessions as DiagnosisSessions

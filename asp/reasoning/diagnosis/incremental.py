@@ -14,7 +14,7 @@ from functools import partial
 from typing import Generic, Self
 
 from asp.language import Fluent
-from asp.reasoning.diagnosis.belief import Belief, Beliefs, BeliefTracker
+from asp.reasoning.diagnosis.belief import Belief, Beliefs
 from asp.reasoning.diagnosis.explanations import (
     Alternatives,
     Diagnoser,
@@ -23,12 +23,11 @@ from asp.reasoning.diagnosis.explanations import (
     H_contra,
 )
 from asp.reasoning.diagnosis.history import History, Problem, Record, problem_of, record_of
-from asp.reasoning.diagnosis.long_histories.arcs import Arcs
 from asp.reasoning.diagnosis.long_histories.frontier import Compression, Frontier
 from asp.reasoning.diagnosis.reference import SEARCH
-from asp.reasoning.diagnosis.smallest_explanations import Interpretation, SmallestExplanations
-from asp.reasoning.knowledge import Goal, Knowledge
-from asp.reasoning.successors import Transitions
+from asp.reasoning.diagnosis.sessions import DiagnosisSessions
+from asp.reasoning.diagnosis.smallest_explanations import Interpretation
+from asp.reasoning.knowledge import Goal
 from asp.solving import BudgetError, LimitError, State, current, up_to
 
 COMPRESSION: Compression | None = Compression()
@@ -37,21 +36,6 @@ COMPRESSION: Compression | None = Compression()
 It pays in contradictions: one at step 100 takes 2 ms, and 58 without; one that assumes 20 hidden
 events takes 3 ms, and 3 s without, with nothing proved. Other decisions take 0.3 ms more.
 """
-
-
-class DiagnosisSessions:
-    """The sessions of the solver that diagnosis in one domain needs; they outlive histories."""
-
-    def __init__(self, knowledge: Knowledge) -> None:
-        self.knowledge = knowledge
-        fluents, deterministic = knowledge.description.fluents, knowledge.deterministic
-        self.transitions = Transitions(knowledge.program, fluents, deterministic)
-        self.explanations = SmallestExplanations(knowledge)
-        self.arcs = Arcs(knowledge)
-
-    def tracker(self, goal: Goal, since: int = 0) -> BeliefTracker:
-        """A tracker of beliefs about a goal; `since` is the first step with events."""
-        return BeliefTracker(self.knowledge, self.transitions, goal, since)
 
 
 class IncrementalDiagnoser(Generic[H_contra]):
