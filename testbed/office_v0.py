@@ -65,7 +65,7 @@ def make_game(
     config: Config = None, max_cycles: int | None = None, level: str | None = None, **overrides: Any
 ) -> tuple[Core, Conventions]:
     """The game, and how an environment is to show it. Raises ConfigError."""
-    read = _read(config, level, overrides)
+    read = read_config(config, level, **overrides)
     return _core(read, max_cycles), Conventions(read.infos, read.illegal, read.padded)
 
 
@@ -108,8 +108,13 @@ def _fine(config: ExperimentConfig, rules: Rules) -> Core:
     )
 
 
-def _read(config: Config, level: str | None, overrides: dict[str, Any]) -> ExperimentConfig:
-    """Raises ConfigError, also for what is neither a key of a configuration nor a parameter."""
+def read_config(
+    config: Config = None, level: str | None = None, **overrides: Any
+) -> ExperimentConfig:
+    """The configuration of an environment. Parameters as for `env`.
+
+    Raises ConfigError, also for what is neither a key of a configuration nor a parameter.
+    """
     if isinstance(config, ExperimentConfig):
         if overrides or level:
             raise ValueError("overrides go with the name of a configuration, not with a read one")

@@ -103,7 +103,7 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     decision = client.ask(percept)
     if decision.action not in core.robot_actions:
         raise RobotLost(f"answered '{decision.action}', which is not an action")
-    event = adversary.act(_view(core, decision, adversary.sees))
+    event = adversary.act(adversary_view(core, decision, adversary.sees))
     skipped = adversary.skipped if isinstance(adversary, Script) else ()
     for impossible in skipped:
         why = core.why_not(decision.action, impossible) or f"beside {event}"
@@ -119,7 +119,7 @@ def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recor
     return Moment(percept, decision, after.happened, exogenous, before.state, after.state, skipped)
 
 
-def _view(core: Core, decision: Decision, sees: Sequence[Sight]) -> AdversaryView:
+def adversary_view(core: Core, decision: Decision, sees: Sequence[Sight]) -> AdversaryView:
     now, sees_action, robot_action = core.situation, "robot_action" in sees, decision.action
     is_told = "trace" in sees and decision.trace != NO_MIND
     return AdversaryView(
