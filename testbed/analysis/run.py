@@ -6,14 +6,14 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import polars as pl
 
 from testbed.analysis.stored_table import Table, read_table
 from testbed.analysis.table import records_of
 from testbed.config import ExperimentConfig, conditions_of
+from testbed.experiment.provenance import read_provenance
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.run_folder import PROVENANCE, read_config
+from testbed.experiment.run_folder import read_config
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Run:
     `table` has one row per trial on record, in the order in which they ended, and one column per
     key of a record; what is nested there is a list or a struct here. It is compressed, and of a
     query only the columns that it needs are not. `provenance` is what `provenance.json` holds,
-    empty where there is none; `digest` is that of all results.
+    empty where that is not known; `digest` is that of all results.
     """
 
     folder: Path
@@ -60,6 +60,5 @@ def load_run(folder: str | Path) -> Run:
 
 def run_of(folder: Path, config: ExperimentConfig, table: Table) -> Run:
     """The run with this configuration and this table."""
-    provenance = folder / PROVENANCE
-    known = msgspec.json.decode(provenance.read_bytes()) if provenance.is_file() else {}
+    known = read_provenance(folder)
     return Run(folder, config, known, table.rows, table.digest)

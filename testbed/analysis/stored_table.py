@@ -4,13 +4,11 @@
 the file stands for the records, and is read in a fraction of the time.
 """
 
-import errno
-import os
 from collections.abc import Iterable
-from hashlib import file_digest
+from hashlib import file_digest, sha256
 from io import BytesIO
 from pathlib import Path
-from typing import BinaryIO, NamedTuple
+from typing import NamedTuple
 
 import msgspec
 import polars as pl
@@ -19,8 +17,7 @@ from testbed.analysis.table import write_parquet
 from testbed.config import ExperimentConfig
 from testbed.experiment.digest import Digest
 from testbed.experiment.fingerprint import fingerprint
-from testbed.experiment.origin import sha256
-from testbed.experiment.run_folder import TRIALS, flat_config, naming, replace_lines
+from testbed.experiment.run_folder import TRIALS, flat_config, replace_lines
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
 
@@ -52,18 +49,13 @@ def read_table(folder: Path) -> Table:
 
     Raises StoreError for a damaged record.
     """
-    stored = _stored(folder, _hash(folder / TRIALS))
-    if stored is not None:
-        return stored
-    made = BytesIO()
-    digest = _write(folder, made)
-    return Table(pl.scan_parquet(made.getvalue()), digest)
+    return _stored(folder, _hash(folder / TRIALS)) or made_table(folder).table
 
 
 def stored_table(
     folder: Path, config: ExperimentConfig, specs: Iterable[TrialSpec] | None = None
 ) -> Table:
-    """The same; a new one is stored.
+    """The same; a new one is stored, unless there is no record.
 
     With `specs`, which are the trials of the configuration, each record was checked to be that of
     one of these when the table was made.
@@ -76,45 +68,55 @@ def stored_table(
     stored = _stored(folder, records, plan)
     if stored is not None:
         return stored
-    path = folder / PARQUET
-    draft = path.with_name(f"{PARQUET}.part")
-    try:
-        with naming(path):
-            digest = _write(folder, draft, specs)
-        os.replace(draft, path)
-    finally:
-        draft.unlink(missing_ok=True)
-    made_of = MadeOf(records, _hash_of(fingerprint()), _hash(path), digest, plan)
-    replace_lines(folder / MADE_OF, [msgspec.json.encode(made_of), b"\n"])
-    return Table(pl.scan_parquet(path.read_bytes()), digest)
+    made = made_table(folder, specs)
+    if made.rows:
+        code, digest = _hash_of(fingerprint()), made.table.digest
+        made_of = MadeOf(records, code, sha256(made.content).hexdigest(), digest, plan)
+        replace_lines(folder / PARQUET, [made.content])
+        replace_lines(folder / MADE_OF, [msgspec.json.encode(made_of), b"\n"])
+    return made.table
 
 
-def _write(folder: Path, target: Path | BinaryIO, specs: Iterable[TrialSpec] | None = None) -> str:
-    """Write the table of a run; its digest. Raises OSError where the target cannot hold it."""
-    digest = Digest()
-    try:
-        write_parquet(map(digest.taken, read_records(folder, specs)), target)
-    except pl.exceptions.ComputeError as error:
-        if not str(error).startswith("parquet: "):
-            raise
-        raise OSError(errno.EIO, "cannot be written; the disk may be full") from None
-    return digest.value
+class Made(NamedTuple):
+    """A new table, its bytes as a file, and the number of its rows."""
+
+    table: Table
+    content: bytes
+    rows: int
+
+
+def made_table(folder: Path, specs: Iterable[TrialSpec] | None = None) -> Made:
+    """A table made of the records. Raises StoreError as `stored_table`."""
+    digest, target = Digest(), BytesIO()
+    write_parquet(map(digest.taken, read_records(folder, specs)), target)
+    rows = pl.scan_parquet(target.getvalue())
+    number = rows.select(pl.len()).collect().item()
+    return Made(Table(rows, digest.value), target.getvalue(), number)
 
 
 def _stored(folder: Path, records: str, plan: str | None = None) -> Table | None:
-    """The stored table where it was made of these records, and checked as is asked for."""
+    """The stored table where it was made of these records, and checked as is asked for.
+
+    One that cannot be read, for whatever reason, is none.
+    """
+    files = folder / MADE_OF, folder / PARQUET
     try:
-        told = msgspec.json.decode((folder / MADE_OF).read_bytes(), type=MadeOf)
-        sound = told.table == _hash(folder / PARQUET) and told.code == _hash_of(fingerprint())
-    except (FileNotFoundError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        if not all(map(Path.is_file, files)):  # a pipe would be waited for
+            return None
+        text, content = (file.read_bytes() for file in files)
+        told = msgspec.json.decode(text, type=MadeOf)
+    except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         return None
-    if not sound or told.records != records or plan not in (None, told.plan):
+    made_of = (told.records, told.code, told.table)
+    if made_of != (records, _hash_of(fingerprint()), sha256(content).hexdigest()):
         return None
-    return Table(pl.scan_parquet((folder / PARQUET).read_bytes()), told.digest)
+    if plan not in (None, told.plan):
+        return None
+    return Table(pl.scan_parquet(content), told.digest)
 
 
 def _hash_of(known: object) -> str:
-    return sha256(msgspec.json.encode(known, order="sorted").decode())
+    return sha256(msgspec.json.encode(known, order="sorted")).hexdigest()
 
 
 def _hash(path: Path) -> str:

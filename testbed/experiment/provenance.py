@@ -8,6 +8,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 import asp
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
@@ -85,11 +87,16 @@ def _text(name: str, text: str) -> dict[str, str]:
 
 def sessions_of(folder: Path) -> list[dict[str, Any]]:
     """The sessions of a run, as far as they are known, the last one last."""
+    last = read_provenance(folder)
+    return [*last.pop("before", []), last] if last else []
+
+
+def read_provenance(folder: Path) -> dict[str, Any]:
+    """What `provenance.json` holds; empty where it is not what a run writes there."""
     try:
-        last = json.loads((folder / PROVENANCE).read_text(encoding="utf-8"))
-        return [*last.pop("before", []), last]
-    except (OSError, ValueError, AttributeError):
-        return []
+        return msgspec.json.decode((folder / PROVENANCE).read_bytes(), type=dict[str, Any])
+    except (OSError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        return {}
 
 
 def _now() -> str:

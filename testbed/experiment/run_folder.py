@@ -106,12 +106,16 @@ def replace_text(path: Path, text: str) -> None:
 
 def replace_lines(path: Path, lines: Iterable[bytes]) -> None:
     """As `replace_text`; the new lines reach the disk before the old ones leave it."""
-    draft = path.with_name(path.name + ".part")
-    with naming(path), draft.open("wb") as file:
-        file.writelines(lines)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(draft, path)
+    # A draft per process: two of them may write the same file at once.
+    draft = path.with_name(f"{path.name}.{os.getpid()}.part")
+    try:
+        with naming(path), draft.open("wb") as file:
+            file.writelines(lines)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(draft, path)
+    finally:
+        draft.unlink(missing_ok=True)
 
 
 def read_config(folder: Path) -> ExperimentConfig:

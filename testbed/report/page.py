@@ -15,7 +15,7 @@ from testbed.analysis.comparison import COUNTS, MEASURES, compared, eventful, me
 from testbed.analysis.condition import condition
 from testbed.analysis.pairs import Compared
 from testbed.analysis.run import run_of
-from testbed.analysis.stored_table import stored_table
+from testbed.analysis.stored_table import Table, made_table, stored_table
 from testbed.analysis.summary import write_summary
 from testbed.config import ExperimentConfig
 from testbed.experiment.plan import coverage_of
@@ -29,7 +29,7 @@ from testbed.report.explorer import explorer_of, served_explorer
 from testbed.report.stories import accounts_of, chapters, command_of, failures, slowest
 from testbed.report.tables import Row, headings, rows_of
 from testbed.studies import Chart, Results, Section, grid, left_out, results_of
-from testbed.text import chance, counted, listed, number, plain
+from testbed.text import chance, counted, listed, number, plain, warn
 from testbed.text.grid import Grid
 
 
@@ -82,7 +82,7 @@ def written_report(
     folder: Path, config: ExperimentConfig, specs: Iterable[TrialSpec] | None = None
 ) -> Report:
     """The same; the whole report."""
-    run = run_of(folder, config, stored_table(folder, config, specs))
+    run = run_of(folder, config, _table(folder, config, specs))
     found = results_of(run)
     covered = coverage_of(run.table.select("scenario", "level").collect().iter_rows(), config)
     summary = write_summary(run, covered.numbers(), [own.numbers for own in found])
@@ -103,6 +103,15 @@ def written_report(
     report = Report(run, tables, _parts(run, tables, sections, _compared(rows, found, summary)))
     replace_text(folder / REPORT, report.page())
     return report
+
+
+def _table(folder: Path, config: ExperimentConfig, specs: Iterable[TrialSpec] | None) -> Table:
+    """The table of a run, stored if that is possible: a report can be made without."""
+    try:
+        return stored_table(folder, config, specs)
+    except OSError as error:  # of writing: the records have been read, and checked
+        warn(f"{error.filename}: {error.strerror}; each report reads all records")
+        return made_table(folder).table
 
 
 def page_of_several(reports: Sequence[Report]) -> str:

@@ -4,6 +4,8 @@ import hashlib
 import os
 import shutil
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import msgspec
@@ -18,7 +20,7 @@ from testbed.analysis.table import table_of
 from testbed.cli import app
 from testbed.experiment import StoreError
 from testbed.experiment.digest import digest
-from testbed.experiment.run_folder import REPORT, TRIALS
+from testbed.experiment.run_folder import PROVENANCE, REPORT, TRIALS
 from testbed.experiment.store import encode, read_records
 from tests.pots import write_pots
 
@@ -136,6 +138,64 @@ def test_a_damaged_one_is_never_taken_for_the_records(folder: Path, at: float) -
     content[place : place + 8] = bytes(255 - byte for byte in content[place : place + 8])
     (folder / PARQUET).write_bytes(content)
     assert_frame_equal(load_run(folder).trials, table_of(read_records(folder)))
+
+
+@pytest.mark.parametrize("file", [PARQUET, MADE_OF])
+@pytest.mark.parametrize("kind", ["folder", "loop", "nowhere", "pipe", "forbidden"])
+def test_what_is_no_file_is_no_table(folder: Path, file: str, kind: str) -> None:
+    where = folder / file
+    content = where.read_bytes()
+    where.unlink()
+    if kind == "folder":
+        where.mkdir()
+    elif kind == "pipe":
+        os.mkfifo(where)
+    elif kind == "forbidden":
+        where.write_bytes(content)
+        where.chmod(0)
+    else:
+        where.symlink_to(where if kind == "loop" else "nowhere")
+    assert _rows(folder) == 4
+
+
+def test_a_report_is_made_where_the_table_cannot_be_stored(folder: Path) -> None:
+    """As on a disk without room for it: there is a folder in its place."""
+    for file in (PARQUET, REPORT):
+        (folder / file).unlink()
+    (folder / PARQUET).mkdir()
+    done = CliRunner().invoke(app, ["report", str(folder)])
+    assert done.exit_code == 0
+    assert PARQUET in done.stderr
+    assert (folder / REPORT).is_file()
+
+
+def test_an_export_without_trials_leaves_nothing(folder: Path) -> None:
+    for file in (PARQUET, MADE_OF, TRIALS):
+        (folder / file).unlink()
+    before = sorted(folder.iterdir())
+    assert _testbed("export", folder) == 2
+    assert sorted(folder.iterdir()) == before
+
+
+def test_reports_of_one_run_may_be_made_at_once(folder: Path) -> None:
+    for _ in range(3):
+        (folder / MADE_OF).unlink()
+        with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+            assert list(pool.map(_testbed_again, [folder] * 4)) == [0] * 4
+        assert not list(folder.glob("*.part"))
+        assert _rows(folder) == 4
+
+
+def _testbed_again(folder: Path) -> int:
+    return _testbed("report", folder)
+
+
+@pytest.mark.parametrize("content", [b"", b"[", b"[]", b"\xff"])
+def test_a_run_is_read_though_its_provenance_is_not_known(folder: Path, content: bytes) -> None:
+    (folder / PROVENANCE).write_bytes(content)
+    assert load_run(folder).provenance == {}
+    for command in ("report", "compare"):
+        assert _testbed(command, folder) == 0
 
 
 def test_records_of_other_trials_are_refused_though_an_export_has_them(folder: Path) -> None:
