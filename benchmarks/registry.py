@@ -5,6 +5,7 @@ from pathlib import Path
 
 from benchmarks import (
     ablation,
+    adversary_steps,
     batches,
     branches,
     chaos,
@@ -48,6 +49,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "worlds": worlds.main,
     "ablation": ablation.main,
     "batches": batches.main,
+    "adversary_steps": adversary_steps.main,
     "branches": branches.main,
 }
 

@@ -20,6 +20,7 @@ from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec, setting_of
 from testbed.experiment.trial import adversary_view
 from testbed.experiment.trial_setup import setup_of
+from testbed.learning.remembered import Remembered
 from testbed.link import connect
 from testbed.office_v0 import Config, raw_env, read_config
 from testbed.protocol import WAIT, Decision, RobotClient, Trace
@@ -132,12 +133,15 @@ class AdversaryEnv(_Side):
     """The adversary's side of games against a robot: `gymnasium.make("testbed/Adversary-v0")`.
 
     `robot` is a name, or `module:Class`. By `link` it thinks in this process, or in a process of
-    its own behind zenoh, which ends with `close`. Its answer is in what the adversary sees.
+    its own behind zenoh, which ends with `close`. Its answer is in what the adversary sees. With
+    `remember` it is asked only after histories in which it has not answered before: then its
+    answers have to follow from task and percepts, and its seed is 0 in each game.
     Configuration and options are those of `office_v0.env`.
 
     Raises:
         ConfigError: for a bad configuration, and for one of the fine resolution.
         RobotLost: by `reset` and `step`, where the robot fails.
+        UnlikeError: by these, where a remembered robot answers otherwise than before.
     """
 
     agent = ADVERSARY
@@ -147,19 +151,26 @@ class AdversaryEnv(_Side):
         config: Config = None,
         robot: str = "intentional",
         link: Link = "inprocess",
+        remember: bool = False,
         scenario: str | None = None,
         observations: Form = "dict",
         render_mode: str | None = None,
         **options: Any,
     ) -> None:
         super().__init__(config, robot, scenario, observations, render_mode, **options)
-        self._link = link
+        self._link, self._remembers = link, remember
         self._client: RobotClient | None = None
+        self._memory: Remembered | None = None
         self._open = ExitStack()
+
+    @property
+    def asked(self) -> int | None:
+        """How often a remembered robot was asked since it was connected; None of another one."""
+        return None if self._memory is None else self._memory.asked
 
     def close(self) -> None:
         self._open.close()
-        self._client = None
+        self._client = self._memory = None
         super().close()
 
     def _begin(self, spec: TrialSpec) -> None:
@@ -167,18 +178,23 @@ class AdversaryEnv(_Side):
             seconds = self.config.limits.answer_s
             link = connect(self._link, make_robot, self.config.name, seconds)
             self._client = self._open.enter_context(link)
-        self._client.begin(self._setup.task(spec, self.game.core.situation.state, spec.seed))
-        self._let_robot_answer(self._client)
+            self._memory = Remembered(self._client) if self._remembers else None
+        seed = 0 if self._remembers else spec.seed
+        task = self._setup.task(spec, self.game.core.situation.state, seed)
+        (self._memory or self._client).begin(task)
+        self._let_robot_answer()
 
     def _play(self, action: int) -> None:
         self.game.step(action)
         if not self._is_over:
-            assert self._client is not None
-            self._let_robot_answer(self._client)
+            self._let_robot_answer()
 
-    def _let_robot_answer(self, client: RobotClient) -> None:
-        core = self.game.core
-        self.game.step(core.robot_actions.index(client.ask(core.percept).action))
+    def _let_robot_answer(self) -> None:
+        core, memory, client = self.game.core, self._memory, self._client
+        assert client is not None
+        percept = core.percept
+        answer = memory.answer(percept) if memory else client.ask(percept).action
+        self.game.step(core.robot_actions.index(answer))
 
 
 class RobotEnv(_Side):

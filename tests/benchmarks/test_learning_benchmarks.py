@@ -1,0 +1,20 @@
+"""The benchmarks of what learners play, in their small size."""
+
+from benchmarks import adversary_steps, batches
+
+
+def test_games_of_each_number_are_played_at_once() -> None:
+    (sheet,) = batches.main("small")
+    assert [row["games"] for row in sheet.rows] == [*batches.GAMES]
+    for row in sheet.rows:
+        assert row["states"] == 192
+        assert all(float(str(row[name])) > 0 for name in ("first", "batch", "single"))
+
+
+def test_a_robot_of_which_all_is_remembered_is_asked_less() -> None:
+    (sheet,) = adversary_steps.main("small")
+    games = {(row["robot"], row["starts"], row["budget"]) for row in sheet.rows}
+    assert len(games) == len(adversary_steps.ROBOTS) * len(adversary_steps.GAMES)
+    one = [row for row in sheet.rows if row["starts"] == "one"]
+    assert all(0 < float(str(row["asked"])) < 1 for row in one)
+    assert all(float(str(row["remembered"])) > 0 for row in sheet.rows)
