@@ -11,7 +11,7 @@ from benchmarks.sheets import Row, Sheet, gathered
 from testbed.learning import AdversaryEnv
 
 ROBOTS = ("traditional", "intentional")
-STEPS = {"small": 40, "full": 6_000}
+STEPS = {"small": 300, "full": 6_000}
 ROUNDS = {"small": 1, "full": 3}
 LIMIT = 50
 GAMES = (("one", 1), ("one", 2), ("any", 2))
