@@ -5,8 +5,6 @@ to import than all the rest.
 """
 
 from testbed.environment.allowance import Left as Left
-from testbed.environment.conventions import Illegal as Illegal
-from testbed.environment.conventions import Infos as Infos
 from testbed.environment.core import Core as Core
 from testbed.environment.execution import Execution as Execution
 from testbed.environment.fine import Pace as Pace
@@ -18,7 +16,9 @@ from testbed.environment.rules import ROBOT as ROBOT
 from testbed.environment.rules import AdversaryReward as AdversaryReward
 from testbed.environment.rules import Ending as Ending
 from testbed.environment.rules import EventRules as EventRules
+from testbed.environment.rules import Illegal as Illegal
 from testbed.environment.rules import IllegalActionError as IllegalActionError
+from testbed.environment.rules import Infos as Infos
 from testbed.environment.rules import Mode as Mode
 from testbed.environment.rules import NotResetError as NotResetError
 from testbed.environment.rules import Observability as Observability

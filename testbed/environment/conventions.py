@@ -1,8 +1,7 @@
 """How an environment talks to what plays in it; the game is the same under all conventions."""
 
 from dataclasses import dataclass
-from typing import Any, TypeAlias
-from typing import Literal as Choice
+from typing import Any
 
 import numpy as np
 from gymnasium import spaces
@@ -11,10 +10,8 @@ from numpy.typing import NDArray
 from asp.language import Action
 from testbed.environment.core import Core
 from testbed.environment.observation import Observation, vector
-from testbed.environment.rules import ADVERSARY, ROBOT, Ending
+from testbed.environment.rules import ADVERSARY, ROBOT, Ending, Illegal, Infos
 
-Infos: TypeAlias = Choice["numeric", "text"]
-Illegal: TypeAlias = Choice["error", "noop", "terminate"]
 ILLEGAL_REWARD = -1.0
 """Of the agent whose illegal answer ends a game, as PettingZoo's classic environments have it."""
 OUTCOMES = (None, *Ending)

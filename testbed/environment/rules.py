@@ -12,6 +12,8 @@ from testbed.protocol import Event
 
 ROBOT, ADVERSARY = "robot_0", "adversary_0"
 Mode = Choice["never", "colocated", "always"]
+Infos = Choice["numeric", "text"]
+Illegal = Choice["error", "noop", "terminate"]
 RobotReward = Choice["goal"]
 AdversaryReward = Choice["zero_sum", "fail", "waste", "regret"]
 

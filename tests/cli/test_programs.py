@@ -51,11 +51,13 @@ scenarios
   quiet: nothing.
 """
 RELAY = """
+from dataclasses import replace
+
 from agents.intentional import IntentionalRobot
 
 
 class Relay:
-    capabilities = IntentionalRobot.capabilities
+    capabilities = replace(IntentionalRobot.capabilities, snapshots=False)
     watcher = None
 
     def begin(self, task):
