@@ -82,6 +82,7 @@ class Batch:
         self._position = np.zeros(games, np.int64)
         self._step = np.ones(games, np.int64)
         self._over = np.zeros(games, np.bool_)
+        self._may_be_over = autoreset_mode is not AutoresetMode.SAME_STEP
         self.begin()
 
     @property
@@ -101,7 +102,7 @@ class Batch:
     def robot_sight(self) -> Sight:
         """What the robot sees before it answers."""
         mask = np.ones((self.games, len(self.robot_actions)), np.int8)
-        if self._over.any():
+        if self._may_be_over:
             mask[self._over, 1:] = 0
         seen = self.tables.robot_sees.take(self._position >> 1, axis=0)
         return Sight(seen[:, : len(self.fluents)], mask)
@@ -112,10 +113,12 @@ class Batch:
         Raises IllegalActionError for an answer that is no action.
         """
         answers, tables = self._numbers(ROBOT, robot_answers), self._prepared()
-        beside = (self._position >> 1) * len(self.robot_actions) + answers
+        beside = self._position >> 1
+        beside *= len(self.robot_actions)
+        beside += answers
         seen = _rows(tables.adversary_sees).take(beside, axis=0)
         mask = _rows(tables.legal).take(beside, axis=0)
-        if self._over.any():
+        if self._may_be_over:
             mask[self._over, 1:] = 0
         entries = len(self.fluents) + len(self.robot_actions)
         return Sight(seen[:, :entries], mask[:, : len(self.adversary_actions)])
@@ -127,7 +130,7 @@ class Batch:
         is illegal beside the robot's answer, and a game that is over and does not begin by itself.
         """
         robot, event = self._numbers(ROBOT, robot_answers), self._numbers(ADVERSARY, events)
-        anew = np.flatnonzero(self._over) if self._over.any() else NOBODY
+        anew = np.flatnonzero(self._over) if self._may_be_over else NOBODY
         if len(anew):
             robot, event = self._without(anew, robot, event)
         following, ending = self._played(robot, event)
@@ -135,7 +138,7 @@ class Batch:
         self._position = following
         self._step += 1
         self._begin(anew)
-        ended = np.flatnonzero(ending)
+        ended = np.flatnonzero(ending != 0)  # of bytes it takes longer
         moves = self._moves(ending, ended)
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             self._begin(ended)
@@ -146,8 +149,10 @@ class Batch:
     def _played(self, robot: Numbers, event: Numbers) -> tuple[Numbers, Bytes]:
         """The positions that follow, and the numbers of the endings."""
         tables = self._prepared()
-        beside = self._position * len(self.robot_actions) + robot
-        places = beside * len(self.adversary_actions) + event
+        beside = self._position * len(self.robot_actions)
+        beside += robot
+        places = beside * len(self.adversary_actions)
+        places += event
         following = tables.following.reshape(-1).take(places)
         if following.min() < 0:
             game = int(np.argmax(following < 0))
