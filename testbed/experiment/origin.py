@@ -1,6 +1,5 @@
 """Where a record came from: versions, machine, load, revision, and hashes of what was read."""
 
-import hashlib
 import os
 import platform
 import subprocess
@@ -85,8 +84,3 @@ def _cpu() -> str:
     lines = CPUS.read_text("utf-8", "replace").splitlines() if CPUS.is_file() else ()
     named = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
     return next(named, "") or platform.processor() or platform.machine()
-
-
-def sha256(text: str) -> str:
-    """The SHA-256 of a text, in hexadecimal."""
-    return hashlib.sha256(text.encode()).hexdigest()

@@ -3,10 +3,10 @@
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import closing
-from typing import NamedTuple
 
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.specs import TrialSpec
+from testbed.experiment.status import Estimate
 from testbed.experiment.worker_pool import Results
 
 MOST = 24
@@ -14,17 +14,6 @@ MOST = 24
 
 Stratum = tuple[str, str, str]
 """Condition, scenario and level: trials of one take about as long as each other."""
-
-
-class Estimate(NamedTuple):
-    """Trials of a condition that are to be played, and the seconds that one process needs.
-
-    `seconds` is None as long as the first pairs are being played.
-    """
-
-    cell: str
-    trials: int
-    seconds: float | None
 
 
 class Pilot:

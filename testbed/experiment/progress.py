@@ -7,8 +7,7 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from testbed.experiment.pilot import Estimate
-from testbed.experiment.status import Notify, RunStatus
+from testbed.experiment.status import Estimate, Notify, RunStatus
 from testbed.text import Say, columns, counted, warn
 from testbed.text.grid import Grid
 

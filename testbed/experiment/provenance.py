@@ -14,9 +14,10 @@ import asp
 from asp.refinement import read_refinement
 from testbed.config import ExperimentConfig
 from testbed.experiment.fingerprint import versions
-from testbed.experiment.origin import ROOT, git, sha256
+from testbed.experiment.origin import ROOT, git
 from testbed.experiment.run_folder import PROVENANCE, replace_text
 from testbed.experiment.shard import Shard
+from testbed.experiment.texts import sha256
 from testbed.registry import PATH_VARIABLE
 
 DIFFERENCE = "difference.patch"

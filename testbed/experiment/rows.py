@@ -13,13 +13,13 @@ import msgspec
 from asp.language import packaged_domains, read_domain
 from asp.refinement import read_refinement
 from testbed.experiment.errors import StoreError
-from testbed.experiment.origin import Origin, here, sha256
+from testbed.experiment.origin import Origin, here
 from testbed.experiment.record import TrialRecord
 from testbed.experiment.recorder import NAMED
 from testbed.experiment.row_rules import check_row
 from testbed.experiment.specs import Setting, TrialSpec
 from testbed.experiment.store import sealed
-from testbed.experiment.texts import refuse_another
+from testbed.experiment.texts import refuse_another, sha256
 from testbed.experiment.trial_setup import setup_of
 
 ENDINGS = {"domain": ".al", "refinement": ".fine"}

@@ -11,7 +11,6 @@ from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.lock import locked
-from testbed.experiment.origin import sha256
 from testbed.experiment.pilot import Pilot
 from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
 from testbed.experiment.provenance import Provenance
@@ -29,6 +28,7 @@ from testbed.experiment.shard import Shard
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.status import Notify, RunStatus
 from testbed.experiment.store import TrialWriter, read_records
+from testbed.experiment.texts import sha256
 from testbed.experiment.trial import play_trial
 from testbed.experiment.worker import Play
 from testbed.experiment.worker_pool import Results, play_all, workers_for

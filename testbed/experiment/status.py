@@ -2,9 +2,20 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from testbed.experiment.interrupts import INTERRUPTED
-from testbed.experiment.pilot import Estimate
+
+
+class Estimate(NamedTuple):
+    """Trials of a condition that are to be played, and the seconds that one process needs.
+
+    `seconds` is None as long as the first pairs are being played.
+    """
+
+    cell: str
+    trials: int
+    seconds: float | None
 
 
 @dataclass

@@ -1,12 +1,17 @@
 """Whether the texts in a run folder are those that its trials were played in."""
 
+import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
 
 from testbed.experiment.errors import StoreError
-from testbed.experiment.origin import sha256
+
+
+def sha256(text: str) -> str:
+    """The SHA-256 of a text, in hexadecimal."""
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 class _Hashes(msgspec.Struct):

@@ -12,9 +12,9 @@ from testbed.config import refinement_of_files, refinement_of_size
 from testbed.environment import Core, Rules, fine_core
 from testbed.experiment.adversaries import make_adversary
 from testbed.experiment.judge import Judge
-from testbed.experiment.origin import sha256
 from testbed.experiment.specs import BUDGETS, Setting, TrialSpec, event_rules
 from testbed.experiment.storyteller import Storyteller
+from testbed.experiment.texts import sha256
 from testbed.protocol import Task
 from testbed.search import as_it_is, coarse_problem
 from testbed.world import World, load_world, world_of

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from testbed.config import load_config
-from testbed.experiment.pilot import MOST, Estimate, Pilot
+from testbed.experiment.pilot import MOST, Pilot
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.progress import Lines
 from testbed.experiment.recorder import Recorder, Result
 from testbed.experiment.runner import play_missing
 from testbed.experiment.specs import TrialSpec
-from testbed.experiment.status import RunStatus
+from testbed.experiment.status import Estimate, RunStatus
 from testbed.experiment.store import read_records
 from tests.config.test_sweep import written
 
