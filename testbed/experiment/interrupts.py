@@ -126,10 +126,18 @@ def interrupts_later() -> Iterator[None]:
     A process started in it is deaf to them from its first moment. Blocking the signal does
     that; it does not spare this process, whose other threads may get it.
     """
+    if current_thread() is main_thread():
+        resource_tracker.ensure_running()  # its start, with that of a process, would lift the block
+    with uninterrupted():
+        yield
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """The same for a block in which no process is started."""
     if current_thread() is not main_thread():
         yield
         return
-    resource_tracker.ensure_running()  # its start, with that of a process, would lift the block
     missed: list[int] = []
     handlers = {own: signal.signal(own, lambda n, _: missed.append(n)) for own in SIGNALS}
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)

@@ -10,6 +10,7 @@ from pathlib import Path
 from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.checks import CHECKS
 from testbed.experiment.errors import WorkerError
+from testbed.experiment.interrupts import uninterrupted
 from testbed.experiment.lock import locked
 from testbed.experiment.pilot import Pilot
 from testbed.experiment.plan import plan_trials, planned_trials, sweep_findings
@@ -206,12 +207,13 @@ def _put_on_record(
     turn = 0
     try:
         for position, result in results:
-            early[position] = result
-            while turn in early:
-                record(early.pop(turn))
-                turn += 1
-            status.done += 1
-            status.failed += result.record.outcome in FAILURES
+            with uninterrupted():  # what is told to be kept is what is on record
+                early[position] = result
+                while turn in early:
+                    record(early.pop(turn))
+                    turn += 1
+                status.done += 1
+                status.failed += result.record.outcome in FAILURES
             notify(status)
     except KeyboardInterrupt:
         status.interrupted = True

@@ -14,7 +14,9 @@ from typer.testing import CliRunner
 from testbed.cli import app
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
+from testbed.experiment.record import TrialRecord
 from testbed.experiment.shard import Shard
+from testbed.experiment.store import TrialWriter
 
 pytestmark = pytest.mark.load
 
@@ -105,6 +107,23 @@ def test_an_interrupt_while_trials_are_planned_is_put_on_record(
     provenance = json.loads(Path("run/provenance.json").read_text(encoding="utf-8"))
     assert (provenance["exit"], provenance["workers"]) == (130, 0)
     assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+
+
+def test_a_trial_on_record_is_counted_when_the_interrupt_comes_with_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    append = TrialWriter.append
+
+    def interrupted(writer: TrialWriter, record: TrialRecord) -> None:
+        append(writer, record)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(TrialWriter, "append", interrupted)
+    config = ["quickstart", "scenarios=[2,4,5,6]", "robots=[traditional]", "link=inprocess"]
+    done = CliRunner().invoke(app, ["run", *config, "--workers", "1", "--out", "run"])
+    assert done.exit_code == 130
+    assert Path("run/trials.jsonl").read_bytes().count(b"\n") == 1
+    assert "1 of 4 trials kept" in done.stdout
 
 
 def test_a_part_that_is_interrupted_while_it_is_planned_counts_its_own_trials(
