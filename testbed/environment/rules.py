@@ -54,7 +54,7 @@ class Observability:
 
 @dataclass(frozen=True)
 class EventRules:
-    """What the adversary may do of what is possible, and what it pays for it.
+    """Bounds on the adversary's events, and what an event costs it.
 
     `budget`: events per game; `per_object`: by sort, events per game that name one object of it;
     `cooldown`: steps that have to pass after an event; `cost`: what an event takes from the

@@ -63,7 +63,7 @@ def cheapest_plan(
                 left = heuristic(reached)
                 heappush(frontier, (spent + left, left, next(number), reached))
         if expanded == UNINFORMED:
-            heuristic = _potentials(world).heuristic(initial, goal, price)
+            heuristic = potentials_of(world).heuristic(initial, goal, price)
             current = [(n, s) for total, _, n, s in frontier if total == least[s]]
             frontier = [(least[s] + (left := heuristic(s)), left, n, s) for n, s in current]
             heapify(frontier)
@@ -79,5 +79,6 @@ def _path(came_from: Mapping[int, tuple[int, Action] | None], state: int) -> tup
 
 
 @lru_cache(maxsize=64)
-def _potentials(world: World) -> Potentials:
+def potentials_of(world: World) -> Potentials:
+    """The heuristics of a world; making them takes long in a large one."""
     return Potentials(world.description)

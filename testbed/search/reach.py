@@ -1,11 +1,12 @@
 """Whether a goal can still be achieved, asked of many states."""
 
 from collections.abc import Iterable, Iterator
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import Any
 
-from testbed.search.plans import Goal, Pose
+from testbed.search.heuristic import Heuristic, blind
+from testbed.search.plans import UNINFORMED, Goal, Pose, potentials_of
 from testbed.world import World
 
 MOST_REMEMBERED = 100_000
@@ -39,6 +40,7 @@ class _Known:
 
     def __init__(self, world: World, goal: Goal, most_states: int) -> None:
         self._world, self._goal, self._most_states = world, goal, most_states
+        self._costs: dict[str, int] = dict.fromkeys(world.agent_actions, 1)
         self._answers: dict[int, bool | None] = {}
         self._after: dict[int, tuple[int, ...]] = {}
 
@@ -47,31 +49,38 @@ class _Known:
             if len(self._after) > MOST_REMEMBERED or len(self._answers) > MOST_REMEMBERED:
                 self._answers, self._after = {}, {}
             seen = {start}
-            self._answers[start] = self._search(seen)
+            self._answers[start] = self._search(start, seen)
             if self._answers[start] is False:
                 # No state that is reached from here leads further, and a search from it ends, too.
                 self._answers.update(dict.fromkeys(seen, False))
         return self._answers[start]
 
-    def _search(self, seen: set[int]) -> bool | None:
-        """Greedy search for the goal from the state in `seen`, which all that it finds is put in.
+    def _search(self, start: int, seen: set[int]) -> bool | None:
+        """Greedy search for the goal from the state, which is in `seen`; all found is put there.
 
-        First comes the state at which the fewest literals of the goal are missing.
+        First comes the state at which the fewest literals of the goal are missing, and in a search
+        that is not over soon the one with the lowest bound on the actions that are left.
         """
         number = count()
-        frontier = [(self._missing(state), next(number), state) for state in seen]
+        heuristic: Heuristic = blind
+        frontier = [(0, self._missing(start), next(number), start)]
         for expanded in count():
             if not frontier:
                 return False
-            missing, _, state = heappop(frontier)
+            _, missing, _, state = heappop(frontier)
             if not missing:
                 return True
             if expanded == self._most_states:
                 return None
+            if expanded == UNINFORMED:
+                heuristic = potentials_of(self._world).heuristic(start, self._goal, self._costs)
+                frontier = [(heuristic(own), lack, n, own) for _, lack, n, own in frontier]
+                heapify(frontier)
             for reached in self._successors(state):
                 if reached not in seen:
                     seen.add(reached)
-                    heappush(frontier, (self._missing(reached), next(number), reached))
+                    ahead = heuristic(reached), self._missing(reached), next(number), reached
+                    heappush(frontier, ahead)
         raise AssertionError("counting does not end")
 
     def _missing(self, state: int) -> int:

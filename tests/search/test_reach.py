@@ -17,6 +17,7 @@ from testbed.world import World, world_of
 from tests import games
 from tests.games import DOMAINS
 from tests.literals import parsed
+from tests.search.test_heuristic import DEPOT
 from tests.world.test_world_random import HEADER, laws
 
 
@@ -132,6 +133,23 @@ def test_an_answer_does_not_depend_on_what_was_asked_before(most: int) -> None:
         other = _reach(world, most)
         for state in order:
             assert other(state, goal) == _reach(world, most)(state, goal) == reach(state, goal)
+
+
+def test_a_long_way_is_found_from_few_states_in_any_order() -> None:
+    world, choose = world_of(parse_description(DEPOT)), Random(5)
+    goal = parsed(f"stands(c{n},b0)" for n in range(1, 7))
+    starts = [
+        world.state(parsed([f"stands(hauler,b{choose.randrange(8)})", *_far_crates(choose)]))
+        for _ in range(4)
+    ]
+    # The number of missing literals alone leads nowhere within this bound.
+    before, after = _reach(world, 250), _reach(world, 250)
+    assert [before(start, goal) for start in starts] == [True] * 4
+    assert [after(start, goal) for start in starts[::-1]] == [True] * 4
+
+
+def _far_crates(choose: Random) -> list[str]:
+    return [f"stands(c{n},b{choose.randrange(3, 8)})" for n in range(1, 7)]
 
 
 def test_copies_answer_alike() -> None:
