@@ -1,10 +1,11 @@
 """The judge of trials: the fewest actions, and units, that achieve a goal, known completely."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
+from asp.language import Action
 from testbed.experiment.record import Minimal
-from testbed.search import BudgetError, Goal, Pose, cheapest_plan
+from testbed.search import BudgetError, Goal, Pose, cheapest_plan, least_knowing
 
 MOST_ANSWERS = 4_096
 """How many answers are remembered: trials from the same state ask the same."""
@@ -23,6 +24,24 @@ class Judge:
         """Whether some plan achieves the goal from the state; None where the budget struck."""
         reason = self._fewest(state, goal, most_states).reason
         return None if reason == "budget" else reason is None
+
+    def knowing(
+        self, state: int, goal: Goal, events: Sequence[tuple[int, Action]], most_states: int
+    ) -> int | None:
+        """The fewest units that achieve the goal for who knows the events and their steps.
+
+        None where there is no plan, the budget does not suffice, or the events are not of the
+        world that is searched.
+        """
+        if not events:
+            return self.minimal(state, goal, most_states).units
+        problem = world, *_ = self._problem(state, goal)
+        if not {event for _, event in events} <= {*world.exogenous_actions}:
+            return None
+        try:
+            return least_knowing(problem, events, self._costs, most_states)
+        except BudgetError:
+            return None
 
     def _search(self, state: int, goal: Goal, most_states: int) -> Minimal:
         """The fewest actions, without their units; where they are not known, why."""

@@ -137,9 +137,11 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     `minimal_actions` and `minimal_units` are the judge's, from the initial state with nothing
     exogenous, of a trial that counts. Where the actions are None `minimal_reason`
     says why: `no plan` exists, or the `budget` of states did not suffice to find the least. The
-    plan with the fewest actions need not be the one that costs least. `correct` is None where that
-    depends on the fewest actions and these are not known (so is `in_reach`), and of a trial that
-    something other than its robot ended: it says nothing of the robot.
+    plan with the fewest actions need not be the one that costs least. `oracle_units` are the fewest
+    units for who knows the events of the trial beforehand; None where they are not known.
+    `correct` is None where that depends on the fewest actions and these are not known (so is
+    `in_reach`), and of a trial that something other than its robot ended: it says nothing of the
+    robot.
     `no_plan` says why the robot gave up, from what it believed; `in_reach` from what is true.
     `unproved_steps` is the number of decisions under an explanation that is not proved to be as
     small as any, `unheeded_steps` that of decisions at which it saw the contrary of what it
@@ -168,6 +170,7 @@ class TrialRecord(msgspec.Struct, kw_only=True):
     minimal_actions: Count | None = None
     minimal_units: Count | None = None
     minimal_reason: MinimalReason | None = None
+    oracle_units: Count | None = None
     outcome: Outcome = "error"
     reason: str | None = None
     cause: Cause | None = None

@@ -21,7 +21,7 @@ from testbed.link import InProcessRobot
 from testbed.text import Say, columns, counted
 from testbed.text.grid import Grid
 
-NEWER = ("condition", "unproved_steps", "unheeded_steps")
+NEWER = ("condition", "oracle_units", "unproved_steps", "unheeded_steps")
 """Keys that records of older versions do not have."""
 
 

@@ -3,14 +3,14 @@
 import time
 import traceback
 from collections.abc import Sequence
-from functools import partial
 
 import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Script, Sight
 from testbed.environment import Core, IllegalActionError
+from testbed.experiment.judge import Judge
 from testbed.experiment.origin import load
-from testbed.experiment.record import Occurrence, Rejected
+from testbed.experiment.record import Occurrence, Rejected, TrialRecord
 from testbed.experiment.recorder import Recorder, Result
 from testbed.experiment.seeds import seeds_within
 from testbed.experiment.specs import TrialSpec
@@ -72,7 +72,6 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     recorder.costs, core = setup.costs, setup.core(spec.setting)
     recorder.origin.domain_sha256, recorder.origin.refinement_sha256 = setup.hashes
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
-    least = partial(setup.judge.minimal, core.situation.state, goal, spec.setting.judge_states)
     recorder.teller = setup.teller(spec.trial)
     adversary = setup.adversary(spec)
     adversary.reset(for_adversary)
@@ -85,17 +84,25 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     except RobotGone:
         raise
     except RobotLost:  # its own error: the trial counts if the goal has a plan
-        record.minimal_actions, record.minimal_units, record.minimal_reason = least()
+        _judge(record, setup.judge, core)
         raise
     finally:
         record.achieved = core.achieved
-    record.minimal_actions, record.minimal_units, record.minimal_reason = least()
+    _judge(record, setup.judge, core)
     recorder.end(core.situation.ending)
     if not core.achieved:
         state = core.situation.state
         record.in_reach = setup.judge.in_reach(state, goal, spec.setting.judge_states)
     if isinstance(adversary, Script) and (left := adversary.unreached(core.situation.step)):
         record.reason = f"script {listed(left)} {'were' if len(left) > 1 else 'was'} not reached"
+
+
+def _judge(record: TrialRecord, judge: Judge, core: Core) -> None:
+    """The least that achieves the goal, with and without what happened."""
+    now, most = core.situation, core.rules.search_states
+    least = judge.minimal(now.start, now.goal, most)
+    record.minimal_actions, record.minimal_units, record.minimal_reason = least
+    record.oracle_units = judge.knowing(now.start, now.goal, now.played, most)
 
 
 def _step(core: Core, client: RobotClient, adversary: Adversary, recorder: Recorder) -> Moment:

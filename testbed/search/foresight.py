@@ -2,11 +2,15 @@
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from functools import lru_cache
 from math import inf
 
 from asp.language import Action
 from testbed.search.plans import BudgetError, Problem
+from testbed.world import World
+
+MOST_REMEMBERED = 8_192
+"""States whose moves are remembered: those of a step, or of all of a small world."""
 
 
 def least_knowing(
@@ -41,7 +45,6 @@ class _Layers:
     def __init__(self, problem: Problem, costs: Mapping[str, int], most_states: int) -> None:
         self._world, initial, self._goal = problem
         self._costs, self._most_states = costs, most_states
-        self._moves = cache(lambda state: tuple(self._world.moves(state)))
         self.best: float = inf
         self.least: dict[int, float] = {}
         self._take({initial: 0.0})
@@ -64,7 +67,7 @@ class _Layers:
         while improved and taken != steps:
             cheaper: dict[int, float] = {}
             for state, spent in improved.items():
-                for action, reached in self._moves(state):
+                for action, reached in _moves(self._world, state):
                     cost = spent + self._costs.get(action, 0)
                     if cost < min(cheaper.get(reached, inf), self.least.get(reached, inf)):
                         cheaper[reached] = cost
@@ -85,11 +88,16 @@ class _Layers:
         for reached in world.successors(state, (event,)) or world.successors(state, ()):
             yield 0, reached
         alone, together = defaultdict[Action, list[int]](list), defaultdict[Action, list[int]](list)
-        for action, reached in self._moves(state):
+        for action, reached in _moves(world, state):
             alone[action].append(reached)
-        for action, reached in world.moves(state, (event,)):
+        for action, reached in _moves(world, state, event):
             together[action].append(reached)
         # What others do does not make an action possible that is impossible by itself.
         for action, states in alone.items():
             for reached in together.get(action, states):
                 yield self._costs.get(action, 0), reached
+
+
+@lru_cache(MOST_REMEMBERED)
+def _moves(world: World, state: int, *beside: Action) -> tuple[tuple[Action, int], ...]:
+    return tuple(world.moves(state, beside))

@@ -25,6 +25,7 @@ RECORD: dict[str, tuple[type, ...]] = {
     "correct": (bool, type(None)),
     "minimal_actions": (int, type(None)),
     "minimal_units": (int, type(None)),
+    "oracle_units": (int, type(None)),
     "outcome": (str,),
     "actions": (list,),
     "exogenous": (list,),

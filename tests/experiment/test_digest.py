@@ -59,6 +59,7 @@ REST: dict[str, object] = {
     "steps": 7,
     "minimal_actions": 9,
     "minimal_units": 5,
+    "oracle_units": 4,
     "reports": [Report(2, 1, "event", true=False)],
     "fine": FineCounts(plans=1, tests=2, infer_time_s=1.0),
     "in_reach": True,
