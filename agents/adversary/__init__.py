@@ -8,6 +8,7 @@ from agents.adversary.base import Remaining as Remaining
 from agents.adversary.base import Sight as Sight
 from agents.adversary.belief import Belief as Belief
 from agents.adversary.greedy import Greedy as Greedy
+from agents.adversary.human import Human as Human
 from agents.adversary.meddler import Meddler as Meddler
 from agents.adversary.none import Nothing as Nothing
 from agents.adversary.random import RANDOM_RATE as RANDOM_RATE

@@ -1,5 +1,6 @@
 """Configurations: YAML with dotted overrides in, a validated `ExperimentConfig` out."""
 
+from testbed.config.checking import Check as Check
 from testbed.config.composing import write_yaml as write_yaml
 from testbed.config.conditions import conditions_of as conditions_of
 from testbed.config.conditions import with_sweep as with_sweep

@@ -11,6 +11,7 @@ import msgspec
 from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
 from asp.language import Action, Literal, suggestion
 from testbed.config import NO_EVENTS, ExperimentConfig, Finding, refinements
+from testbed.experiment.robots import HUMAN
 from testbed.experiment.specs import Setting, default_strategy
 from testbed.protocol import in_one_line, shortened
 from testbed.registry import Registry, RegistryError, class_fault
@@ -59,6 +60,7 @@ ADVERSARIES: Registry[AdversaryClass] = Registry(
         "meddler": "agents.adversary.meddler:Meddler",
         "belief": "agents.adversary.belief:Belief",
         "greedy": "agents.adversary.greedy:Greedy",
+        HUMAN: "agents.adversary.human:Human",
     },
     _fault,
 )

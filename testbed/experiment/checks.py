@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from testbed.config import ExperimentConfig, Finding, early_script_findings
 from testbed.experiment.adversaries import adversary_findings
-from testbed.experiment.robots import ROBOTS
+from testbed.experiment.robots import HUMAN, ROBOTS
 from testbed.protocol import Capabilities
 from testbed.registry import RegistryError
 
@@ -38,6 +38,15 @@ def _lacks(able: Capabilities, config: ExperimentConfig) -> Iterator[str]:
         yield f"does not make plans that are {config.plans}; give plans: {' or '.join(able.plans)}"
     if able.needs_goal_feedback and not config.gives_goal_feedback:
         yield "needs to be told that its goal does not hold; give goal_feedback: true"
+
+
+def person_findings(config: ExperimentConfig) -> Iterator[Finding]:
+    """Agents that a person plays, of whom there is none where trials are run."""
+    for index, name in enumerate(config.robots):
+        if name == HUMAN:
+            yield ("robots", index), f"a person plays '{HUMAN}': testbed play CONFIG --as robot"
+    if config.adversary.strategy == HUMAN:
+        yield ("adversary", "strategy"), f"a person plays '{HUMAN}': testbed play CONFIG"
 
 
 CHECKS = (robot_findings, adversary_findings)

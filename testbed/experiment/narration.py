@@ -28,8 +28,11 @@ class Narrator:
     def tell(self, step: StoryStep) -> None:
         """Tell one step."""
         self._true = applied(self._true, step.world)
-        for line in ("", f"step {step.step}", *self._lines(step)):
+        for line in (*self._head(step), *self._lines(step)):
             self._say(line)
+
+    def _head(self, step: StoryStep) -> Iterator[str]:
+        yield from ("", f"step {step.step}")
 
     def _lines(self, step: StoryStep) -> Iterator[str]:
         yield from self._state(step)

@@ -2,6 +2,7 @@
 
 import shlex
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from asp.language import suggestion
@@ -9,8 +10,9 @@ from testbed.experiment.digest import logical
 from testbed.experiment.errors import StoreError
 from testbed.experiment.narration import narrator_of
 from testbed.experiment.plan import plan_trials
+from testbed.experiment.recalled import Recalled
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.robots import make_robot
+from testbed.experiment.robots import HUMAN, make_robot
 from testbed.experiment.run_folder import read_config
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.store import read_records
@@ -18,6 +20,7 @@ from testbed.experiment.timeline import in_words, of_place, place
 from testbed.experiment.trial import play_trial
 from testbed.experiment.trial_setup import setup_of
 from testbed.link import InProcessRobot
+from testbed.protocol import Robot
 from testbed.text import Say, columns, counted
 from testbed.text.grid import Grid
 
@@ -42,7 +45,7 @@ def replay_trial(spec: TrialSpec, recorded: TrialRecord | None, say: Say) -> boo
     say(f"trial {spec.trial}: {where}{under}, {spec.robot}, seed {spec.seed}")
     say(f"goal: {' '.join(spec.setting.goal)}")
     teller, narrator = setup_of(spec.setting).teller(spec.trial), narrator_of(spec.setting, say)
-    robot = InProcessRobot(make_robot)
+    robot = InProcessRobot(partial(_player, recorded))
     now = play_trial(spec, robot, lambda moment: narrator.tell(teller.tell(moment))).record
     reason = f": {now.reason}" if now.reason else ""
     steps, actions = counted(now.steps, "step"), counted(now.action_count, "action")
@@ -50,6 +53,11 @@ def replay_trial(spec: TrialSpec, recorded: TrialRecord | None, say: Say) -> boo
     say("")
     say(f"outcome {now.outcome}{reason} after {steps}, {actions}, {units}")
     return _compare(recorded, now, say)
+
+
+def _player(recorded: TrialRecord | None, name: str) -> Robot:
+    """The robot of a trial; in place of a person one that answers as recorded."""
+    return Recalled(recorded) if name == HUMAN else make_robot(name)
 
 
 def stored_trial(folder: Path, trial: str) -> tuple[TrialSpec, TrialRecord | None]:

@@ -23,6 +23,8 @@ def _fault(found: Any) -> str | None:
     return class_fault(found, "begin", "act", *snapshots)
 
 
+HUMAN = "human"
+"""The robot, and the adversary, that a person plays."""
 ROBOTS: Registry[RobotClass] = Registry(
     "robot",
     "intention_testbed.robots",
@@ -35,6 +37,7 @@ ROBOTS: Registry[RobotClass] = Registry(
         "intentional-checking": "agents.intentional.checking:CheckingRobot",
         "traditional": "agents.traditional.robot:TraditionalRobot",
         "traditional-plain": "agents.traditional.robot:TraditionalReference",
+        HUMAN: "agents.human:Human",
     },
     _fault,
 )

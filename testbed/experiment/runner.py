@@ -8,7 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from testbed.config import ConfigError, ExperimentConfig, dotted
-from testbed.experiment.checks import CHECKS
+from testbed.experiment.checks import CHECKS, person_findings
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import uninterrupted
 from testbed.experiment.lock import locked
@@ -59,7 +59,9 @@ def run(
         StoreError: for a folder that holds another run, or that another process writes into.
         WorkerError: when no trial can be played.
     """
-    findings = [found for check in (*CHECKS, sweep_findings) for found in check(config)]
+    findings = [
+        found for check in (*CHECKS, person_findings, sweep_findings) for found in check(config)
+    ]
     if findings:
         raise ConfigError([f"{dotted(key)}: {message}" for key, message in findings])
     folder = choose_folder(folder, config.name, resume)

@@ -3,7 +3,7 @@
 import pytest
 
 from testbed.experiment.plan import plan_trials
-from testbed.experiment.robots import ROBOTS, make_robot
+from testbed.experiment.robots import HUMAN, ROBOTS, make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from tests.experiment.samples import Configure
@@ -15,7 +15,7 @@ EVENT = "script=[{step: 1, action: 'exo_lock(library)'}]"
 COARSE = {
     name: robot.capabilities
     for name, robot in ROBOTS.usable()
-    if "coarse" in robot.capabilities.resolutions
+    if "coarse" in robot.capabilities.resolutions and name != HUMAN
 }
 
 
