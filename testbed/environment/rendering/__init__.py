@@ -1,9 +1,9 @@
 """A game as text, as a picture, on the terminal, and in a notebook."""
 
 from base64 import b64encode
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from io import BytesIO
-from itertools import pairwise, zip_longest
+from itertools import chain, pairwise, zip_longest
 
 from markupsafe import Markup
 from PIL import Image as Pillow
@@ -61,17 +61,23 @@ def html_of(core: Core) -> str:
     return str(FIGURE.format(alt=draw_text(shown), png=png, caption=caption))
 
 
-def draw_text(scene: Scene) -> str:
-    """The places side by side, an open wall (`=`) between neighbours, and a caption."""
-    return "\n".join([*_rooms(scene), *_caption(scene)])
+def draw_text(scene: Scene, width: int | None = None) -> str:
+    """The places side by side, an open wall (`=`) between neighbours, and a caption.
 
-
-def _rooms(scene: Scene) -> Iterator[str]:
-    if not scene.places:
-        return
+    Without a `width` all places stand in one row.
+    """
     columns = [list(_lines(place)) for place in scene.places]
-    width = max([SMALLEST, *(len(line) for column in columns for line in column)])
-    doors = ["=" if b.name in a.next_to else "|" for a, b in pairwise(scene.places)]
+    widest = max([SMALLEST, *(len(line) for column in columns for line in column)])
+    a_row = len(columns) if width is None else max(1, (width - 1) // (widest + 3))
+    rows = (
+        _row(scene.places[at : at + a_row], columns[at : at + a_row], widest)
+        for at in range(0, len(columns), max(1, a_row))
+    )
+    return "\n".join([*chain.from_iterable(rows), *_caption(scene)])
+
+
+def _row(places: Sequence[Place], columns: Sequence[list[str]], width: int) -> Iterator[str]:
+    doors = ["=" if b.name in a.next_to else "|" for a, b in pairwise(places)]
     rule = "+" + "+".join(["-" * (width + 2)] * len(columns)) + "+"
     yield rule
     for number, row in enumerate(zip_longest(*columns, fillvalue="")):
