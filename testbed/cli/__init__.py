@@ -26,6 +26,7 @@ from testbed.cli import (
     report,
     robot,
     run,
+    stress,
     translate,
     watch,
 )
@@ -35,6 +36,7 @@ from testbed.text import mute, tolerant, warn
 
 COMMANDS = (
     run,
+    stress,
     check,
     robot,
     report,

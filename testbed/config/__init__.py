@@ -29,3 +29,4 @@ from testbed.config.sections import Observability as Observability
 from testbed.config.sections import RewardSettings as RewardSettings
 from testbed.config.sections import ScenarioSettings as ScenarioSettings
 from testbed.config.sections import ScriptEntry as ScriptEntry
+from testbed.config.sections import StressSettings as StressSettings

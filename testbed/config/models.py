@@ -20,6 +20,7 @@ from testbed.config.sections import (
     RewardSettings,
     ScenarioSettings,
     ScriptEntry,
+    StressSettings,
 )
 from testbed.config.sweep import Sweep
 from testbed.config.values import (
@@ -65,7 +66,8 @@ class ExperimentConfig(Section):
     the study that the trials are for: a name, or `module:OBJECT`. `sweep` says under which
     conditions trials are played, each under all of them. `runner` is what plays them: processes of
     this machine, or Dask: the workers of a `scheduler`, without one a cluster on this machine.
-    `rewards` is what a game of the environment is worth; results of trials do not depend on it.
+    `rewards` is what a game of the environment is worth, and `stress` what a search for failures
+    looks for; results of trials depend on neither.
 
     `infos`, `illegal` and `padded` are conventions of the environments of a configuration.
 
@@ -108,6 +110,7 @@ class ExperimentConfig(Section):
     rewards: RewardSettings = RewardSettings()
     limits: Limits = Limits()
     sweep: Sweep = Sweep()
+    stress: StressSettings = StressSettings()
     infos: environment.Infos = "numeric"
     illegal: environment.Illegal = "error"
     padded: Flag = False

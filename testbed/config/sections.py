@@ -2,8 +2,10 @@
 
 from dataclasses import fields
 from typing import Annotated, Any
+from typing import Literal as Choice
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
+from pydantic_core import PydanticCustomError
 
 from asp import language
 from testbed import environment
@@ -20,6 +22,9 @@ from testbed.config.values import (
     Seconds,
     Section,
 )
+
+Objective = Choice["fail", "waste", "regret", "reasoning"]
+Varied = Choice["initial", "goal", "observability", "goal_feedback"]
 
 
 class Observability(Section):
@@ -111,6 +116,32 @@ class RewardSettings(Section):
     step: Amount = 0.0
     shaping: Amount = 0.0
     discount: Annotated[float, Field(strict=True, gt=0.0, le=1.0)] = 1.0
+
+
+def _distinct(names: tuple[Objective, ...]) -> tuple[Objective, ...]:
+    if not names or len({*names}) < len(names):
+        raise PydanticCustomError("objectives", "should be one name or several different ones")
+    return names
+
+
+class StressSettings(Section):
+    """What a search for failures looks for, and how far it goes (docs/stress.md).
+
+    `objectives` judge each episode. `events`: the most exogenous actions of an episode; `minutes`
+    that the search takes; `branches`: of a case with given events, the most that are tried as the
+    next one. `vary`: what episodes draw that are not of the plan of trials. More than `waste`, or
+    `regret`, execution units, or `reasoning_s` seconds of process time, are a finding; null: none
+    is, and the greatest are told.
+    """
+
+    objectives: Annotated[tuple[Objective, ...], AfterValidator(_distinct)] = ("fail",)
+    events: Count = 2
+    minutes: Annotated[float, Field(strict=True, gt=0.0, le=1e6)] = 10.0
+    branches: Count = 1_000
+    vary: tuple[Varied, ...] = ()
+    waste: Amount | None = None
+    regret: Amount | None = None
+    reasoning_s: Seconds | None = None
 
 
 class LevelSettings(Section):

@@ -25,7 +25,8 @@ RANGE = re.compile(rf"({NUMBER}):({NUMBER}):({NUMBER})$")
 FIXED: Mapping[str, str] = {
     **dict.fromkeys(("name", "protocol", "sweep"), "is that of the whole run"),
     **dict.fromkeys(
-        ("link", "limits.answer_s", "rewards", "runner", "scheduler", "tls"), "changes no result"
+        ("link", "limits.answer_s", "rewards", "runner", "scheduler", "stress", "tls"),
+        "changes no result",
     ),
     **dict.fromkeys(
         ("robots", "scenarios", "levels"), "is a list that is played under every condition"

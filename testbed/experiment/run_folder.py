@@ -144,18 +144,34 @@ def as_played(config: ExperimentConfig) -> ExperimentConfig:
 def write_config(folder: Path, config: ExperimentConfig) -> None:
     """Write the resolved configuration, and beside it a domain or map that is not packaged."""
     folder.mkdir(parents=True, exist_ok=True)
-    files = _own_files(config)
-    for source in files.values():
+    _copy_own_files(config, folder)
+    replace_text(folder / CONFIG, stored_text(config))
+
+
+def portable_text(config: ExperimentConfig, folder: Path) -> str:
+    """The configuration as a file in `folder` has it, by its keys that are not as by default.
+
+    A domain or map that is not packaged is copied there. Raises OSError.
+    """
+    _copy_own_files(config, folder)
+    return write_yaml(_beside(config).model_dump(mode="json", exclude_defaults=True))
+
+
+def _copy_own_files(config: ExperimentConfig, folder: Path) -> None:
+    for source in _own_files(config).values():
         if source.parent != folder.resolve():
             with naming(folder / source.name):
                 shutil.copyfile(source, folder / source.name)
-    replace_text(folder / CONFIG, stored_text(config))
 
 
 def stored_text(config: ExperimentConfig) -> str:
     """The configuration as a run folder has it: its own files lie beside it."""
-    beside = {key: source.name for key, source in _own_files(config).items()}
-    return config_text(config.model_copy(update=beside))
+    return config_text(_beside(config))
+
+
+def _beside(config: ExperimentConfig) -> ExperimentConfig:
+    own = {key: source.name for key, source in _own_files(config).items()}
+    return config.model_copy(update=own)
 
 
 def _own_files(config: ExperimentConfig) -> dict[str, Path]:

@@ -23,8 +23,9 @@ from testbed.world import World, load_world, world_of
 class TrialSetup:
     """The setup of trials in a domain as it is described; it is reused across them.
 
-    `costs` are the execution units of the actions that a record counts, and `judge` knows the
-    fewest of them, and of their units. `hashes` are those of the domain and of its refinement.
+    `world` is what is played in. `costs` are the execution units of the actions that a record
+    counts, and `judge` knows the fewest of them, and of their units. `hashes` are those of the
+    domain and of its refinement.
     """
 
     def __init__(self, world: World) -> None:
@@ -32,7 +33,7 @@ class TrialSetup:
         self.judge = Judge(partial(as_it_is, world), self.costs)
         self._world, self._source = world, world.description.source
         self.hashes: tuple[str, str | None] = sha256(self._source), None
-        self._played, self._exogenous = world, world.exogenous_actions
+        self.world, self._exogenous = world, world.exogenous_actions
 
     def core(self, setting: Setting) -> Core:
         """A new game."""
@@ -51,7 +52,7 @@ class TrialSetup:
             exogenous_actions=tuple(filter(rules.permits, self._exogenous)),
             description=self._world.description,
             rules=rules,
-            world=self._played,
+            world=self.world,
             remaining=partial(self._remaining, spec.setting),
         )
         return make_adversary(spec.setting, game)
@@ -92,7 +93,7 @@ class FineTrialSetup(TrialSetup):
         super().__init__(world_of(description))
         self._refinement, self._source = refinement, coarse.text
         self.hashes = sha256(coarse.text), sha256(refinement.text)
-        self._fine = self._played = world_of(refinement)
+        self._fine = self.world = world_of(refinement)
         self._exogenous = self._fine.exogenous_actions
         self.judge = Judge(partial(coarse_problem, refinement), self.costs)
         inertial, robot = self._fine.description.inertial, description.robots[0]

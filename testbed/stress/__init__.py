@@ -1,0 +1,8 @@
+"""Stress tests: search for episodes in which a robot fails, and for the simplest of each kind."""
+
+from testbed.stress.episode import Episode as Episode
+from testbed.stress.episode import Player as Player
+from testbed.stress.objectives import OBJECTIVES as OBJECTIVES
+from testbed.stress.objectives import Finding as Finding
+from testbed.stress.objectives import Verdict as Verdict
+from testbed.stress.stories import findings as findings

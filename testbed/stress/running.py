@@ -1,0 +1,145 @@
+"""Conduct a search in a folder: play units, keep the journal, shrink and write what was found."""
+
+import json
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from testbed.config import ExperimentConfig
+from testbed.experiment.errors import WorkerError
+from testbed.experiment.interrupts import INTERRUPTED, uninterrupted
+from testbed.experiment.run_folder import SUMMARY, replace_text
+from testbed.experiment.specs import TrialSpec
+from testbed.stress.cases import cases_of
+from testbed.stress.catalogue import Catalogue, Example, Kind
+from testbed.stress.executors import executor_of
+from testbed.stress.journal import Journal
+from testbed.stress.search import Search, results
+from testbed.stress.shrinking import Shrunk, shrunk
+
+
+@dataclass
+class Status:
+    """A search as it stands: `cases` of the plan, what was found, and when (seconds) for the first
+    time; whether it was interrupted. `stories` are the shrunk episodes, one per kind, once it is
+    over.
+    """
+
+    cases: int
+    catalogue: Catalogue = field(default_factory=Catalogue)
+    seconds: float = 0.0
+    first_s: dict[Kind, float] = field(default_factory=dict)
+    interrupted: bool = False
+    stories: dict[Kind, Shrunk] = field(default_factory=dict)
+
+    @property
+    def exit_code(self) -> int:
+        """0 where nothing was found, 1 where something was, 130 where it was interrupted."""
+        return INTERRUPTED if self.interrupted else int(bool(self.catalogue.kinds))
+
+
+Notify = Callable[[Status], None]
+
+
+def search(config: ExperimentConfig, folder: Path, workers: int, notify: Notify) -> Status:
+    """Search for `stress.minutes`, or until all is explored; go on from the folder's journal.
+
+    An interrupt ends it early; what was played is kept. `notify` is called after every unit.
+
+    Raises:
+        StoreError: for a journal that is none.
+        WorkerError: where no unit can be played, or a process that plays one is lost.
+    """
+    cases, journal = cases_of(config), Journal(folder)
+    status, began = Status(len(cases)), time.monotonic()
+    with executor_of(config, workers) as executor:
+        try:
+            notify(status)
+            _play(config, cases, executor, journal, status, notify, began)
+            status.stories = _shrunk(config, executor, status.catalogue)
+        except KeyboardInterrupt:
+            status.interrupted = True
+        except BrokenProcessPool:
+            told = "a process that played an episode was ended from outside; --resume goes on"
+            raise WorkerError(told) from None
+    status.seconds = time.monotonic() - began
+    status.stories = status.stories or _as_found(status.catalogue)
+    replace_text(folder / SUMMARY, json.dumps(summary(status), indent=2) + "\n")
+    return status
+
+
+def _play(
+    config: ExperimentConfig,
+    cases: Sequence[TrialSpec],
+    executor: Executor,
+    journal: Journal,
+    status: Status,
+    notify: Notify,
+    began: float,
+) -> None:
+    until = began + 60 * config.stress.minutes
+    played = results(
+        Search(config, cases), executor, journal.known, lambda: time.monotonic() < until
+    )
+    for unit, result in played:
+        with uninterrupted():
+            journal.add(unit, result)
+            new = status.catalogue.hear(unit, result)
+        status.seconds = time.monotonic() - began
+        status.first_s |= dict.fromkeys(new, status.seconds)
+        notify(status)
+
+
+def _shrunk(
+    config: ExperimentConfig, executor: Executor, catalogue: Catalogue
+) -> dict[Kind, Shrunk]:
+    """The simplest story of each kind; kinds that become the same by it are one."""
+    pending = []
+    for kind, own in sorted(catalogue.kinds.items()):
+        episode = own.case, own.judged.events
+        future = executor.submit(shrunk, config.seed, *episode, config.stress, own.finding)
+        pending.append((kind, future))
+    stories: dict[Kind, Shrunk] = {}
+    for kind, future in pending:
+        story = future.result()
+        stories.setdefault(kind._replace(events=_names(story)), story)
+    return stories
+
+
+def _as_found(catalogue: Catalogue) -> dict[Kind, Shrunk]:
+    return {kind: _unshrunk(own) for kind, own in sorted(catalogue.kinds.items())}
+
+
+def _unshrunk(found: Example) -> Shrunk:
+    own = found.judged
+    return Shrunk(found.case, own.events, own.length, own.chance, found.finding)
+
+
+def _names(story: Shrunk) -> tuple[str, ...]:
+    return tuple(event.name for _, event in story.events)
+
+
+def summary(status: Status) -> dict[str, object]:
+    """The numbers of a search, for `summary.json`."""
+    found = status.catalogue
+    return {
+        "cases": status.cases,
+        "cases_explored": found.cases,
+        "units": found.units,
+        "events_left_out": found.left_out,
+        "seconds": round(status.seconds, 3),
+        "episodes": dict(sorted(found.episodes.items())),
+        "with_findings": {robot: found.failed[robot] for robot in sorted(found.episodes)},
+        "greatest_score": dict(sorted(found.greatest.items())),
+        "kinds": [
+            {
+                **kind._asdict(),
+                "episodes": number,
+                "first_after_s": round(status.first_s.get(kind, 0.0), 3),
+            }
+            for kind, number in sorted(found.met.items())
+        ],
+    }

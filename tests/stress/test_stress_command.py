@@ -1,0 +1,117 @@
+"""The command: what it writes replays, tests fail as long as the finding is there, exit codes."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from testbed.cli import app
+from testbed.stress import findings
+from testbed.stress.journal import JOURNAL
+from tests.stress.domains import write_search
+
+ONE = ["--events", "1"]
+
+
+@pytest.fixture(scope="module")
+def office(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a search of the packaged configuration, in its smallest size."""
+    folder = tmp_path_factory.mktemp("office") / "found"
+    small = ["limit=2", "sweep.grid={goal_feedback: [false]}", "robots=[traditional]"]
+    done = CliRunner().invoke(app, ["stress", "stress", *small, *ONE, "--out", str(folder)])
+    assert done.exit_code == 1, done.output
+    return folder
+
+
+def test_the_published_failure_of_planning_alone_is_found(office: Path) -> None:
+    (story,) = office.glob("story-*.yaml")
+    (found,) = findings(story)
+    assert (found.objective, found.rule) == ("fail", "false_finish")
+
+
+def test_a_story_is_a_run(office: Path, tmp_path: Path) -> None:
+    (story,) = office.glob("story-*.yaml")
+    run = tmp_path / "run"
+    done = CliRunner().invoke(app, ["run", str(story), "--out", str(run), "--quiet"])
+    assert done.exit_code == 0
+    record = (run / "trials.jsonl").read_text(encoding="utf-8")
+    assert '"outcome":"false_finish"' in record
+
+
+def test_its_tests_fail_as_long_as_the_finding_is_there(office: Path) -> None:
+    tests = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(office)]
+    assert subprocess.run(tests, capture_output=True).returncode == 1
+    (story,) = office.glob("story-*.yaml")
+    text = story.read_text(encoding="utf-8")
+    try:
+        story.write_text(text.replace("- traditional", "- intentional"), encoding="utf-8")
+        assert subprocess.run(tests, capture_output=True).returncode == 0
+    finally:
+        story.write_text(text, encoding="utf-8")
+
+
+def test_nothing_found_is_a_success(tmp_path: Path) -> None:
+    config = write_search(tmp_path, "greenhouse")
+    folder = tmp_path / "found"
+    given = ["robots=[intentional]", *ONE, "--out", str(folder)]
+    done = CliRunner().invoke(app, ["stress", str(config), *given])
+    assert done.exit_code == 0, done.output
+    assert not list(folder.glob("story-*"))
+
+
+@pytest.mark.parametrize(
+    ("given", "key"),
+    [
+        (["stress.objectives=[luck]"], "stress.objectives"),
+        (["stress.objectives=[]"], "stress.objectives"),
+        (["--minutes", "0"], "stress.minutes"),
+        (["--events", "0"], "stress.events"),
+        (["stress.vary=[mood]"], "stress.vary"),
+        (["stress.colour=1"], "stress.colour"),
+    ],
+)
+def test_bad_input_is_one_line(given: list[str], key: str, tmp_path: Path) -> None:
+    config = write_search(tmp_path, "greenhouse")
+    done = CliRunner().invoke(app, ["stress", str(config), *given])
+    assert done.exit_code == 2
+    (line,) = done.stderr.splitlines()
+    assert key in line
+
+
+def test_a_journal_that_is_none_is_refused(tmp_path: Path) -> None:
+    config, folder = write_search(tmp_path, "greenhouse"), tmp_path / "found"
+    done = CliRunner().invoke(app, ["stress", str(config), *ONE, "--out", str(folder)])
+    assert done.exit_code in (0, 1)
+    (folder / JOURNAL).write_text("{}\n", encoding="utf-8")
+    again = ["stress", str(config), *ONE, "--out", str(folder), "--resume", "--quiet"]
+    done = CliRunner().invoke(app, again)
+    assert (done.exit_code, len(done.stderr.splitlines())) == (2, 1)
+
+
+def test_a_robot_of_ones_own_that_raises_an_error_is_a_finding(tmp_path: Path) -> None:
+    config = write_search(tmp_path, "greenhouse")
+    (tmp_path / "robot_that_trips.py").write_text(TRIPS, encoding="utf-8")
+    folder = tmp_path / "found"
+    given = ["robots=[robot_that_trips:Trips]", *ONE, "--out", str(folder), "--workers", "2"]
+    done = CliRunner().invoke(app, ["stress", str(config), *given])
+    assert done.exit_code == 1, done.output
+    (story,) = folder.glob("story-*.yaml")
+    (found,) = findings(story)
+    assert "over a pot" in found.detail
+
+
+TRIPS = """\
+from testbed.protocol import Capabilities
+
+
+class Trips:
+    capabilities = Capabilities()
+
+    def begin(self, task):
+        pass
+
+    def act(self, percept):
+        raise RuntimeError("tripped over a pot")
+"""
