@@ -77,6 +77,7 @@ def measured(trials: Trials) -> pl.DataFrame:
     query = trials.lazy().select(
         *KEPT,
         *LEAST.values(),
+        "oracle_units",
         lost=failure & ~own,
         late=pl.col("deadline"),
         unproved_steps=pl.col("unproved_steps"),

@@ -27,6 +27,9 @@ VALUES: Mapping[str, pl.Expr] = {
     "achieved": pl.col("achieved").cast(pl.Float64),
     "actions": pl.when("achieved").then("actions"),
     "explanations": pl.col("told"),
+    "plans": pl.col("plans"),
+    "extra": pl.when("achieved").then(pl.col("execution_units") - pl.col("minimal_units")),
+    "regret": pl.when("achieved").then(pl.col("execution_units") - pl.col("oracle_units")),
     "reasoning": 1000 * pl.col("reasoning_time"),
     **{name: pl.when("ended").then(name) for name in quality.OF},
 }

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
+from testbed.report.heat import FORMS, draw_map
 from testbed.studies import Chart, Series
 from testbed.text import plain
 
@@ -20,6 +21,7 @@ WIDTH = 3.2
 ROW_HEIGHT, FRAME_HEIGHT = 0.33, 0.45
 APART, ASIDE = 0.24, 0.1
 LEVELS_HEIGHT = 2.6
+MAP_HEIGHT = 0.28
 LETTERS = 45
 """Of a line above a figure."""
 TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
@@ -61,10 +63,13 @@ class Panel(NamedTuple):
 
 
 def drawn(chart: Chart) -> Panel:
-    """A chart as a figure: curves over the places, or one row per place."""
+    """A chart as a figure: curves over the places, one row per place, or a map."""
     with mpl.rc_context(SETTINGS), warnings.catch_warnings():
         warnings.filterwarnings("ignore", r"Glyph \d+")  # no font has every character
-        own = _curves(chart, CURVES[chart.kind]) if chart.kind in CURVES else _forest(chart)
+        if chart.kind in FORMS:
+            own = _map(chart)
+        else:
+            own = _curves(chart, CURVES[chart.kind]) if chart.kind in CURVES else _forest(chart)
         labels = ", ".join(series.label for series in chart.series)
         told = plain(f"{chart.title}: {labels}. The table has the numbers.")
         return Panel(chart.name, chart.title, _inline(own, chart.name, told))
@@ -84,6 +89,14 @@ def _forest(chart: Chart) -> Figure:
     for side in ("left", "bottom"):
         axes.spines[side].set_visible(False)
     _shares(axes) if chart.kind == "shares" else _ratios(axes, series)
+    return figure
+
+
+def _map(chart: Chart) -> Figure:
+    figure, axes = _blank(WIDTH, FRAME_HEIGHT + MAP_HEIGHT * (len(chart.places) + 1))
+    draw_map(axes, chart, COLOURS["first"], INK)
+    if chart.under:
+        axes.set_xlabel(fill(plain(chart.under), LETTERS), color=SOFT)
     return figure
 
 

@@ -10,6 +10,8 @@ from testbed.studies.tables import Cell, Value
 Colour = Literal["first", "second", "paper"]
 CurveKind = Literal["seconds", "share curve", "ratio curve", "number curve"]
 """Curves: seconds on a log scale, shares of a whole, ratios around 1, numbers from 0 on."""
+HeatKind = Literal["share heat", "number heat"]
+"""Maps of shares of a whole, or of numbers, of each place (a row) and series (a column)."""
 
 
 @dataclass(frozen=True)
@@ -62,14 +64,15 @@ class Chart:
     """A figure of its own.
 
     One row per place with `ratios` around 1, or `shares`; or curves over the places, with the name
-    of what they are values of (`axis`), and what holds in this figure alone (`under`).
+    of what they are values of (`axis`), and what holds in this figure alone (`under`); or a map of
+    places and series, the darker the larger the value.
     """
 
     name: str
     title: str
     places: Sequence[str]
     series: Sequence[Series]
-    kind: Literal["ratios", "shares"] | CurveKind = "ratios"
+    kind: Literal["ratios", "shares"] | CurveKind | HeatKind = "ratios"
     axis: str = ""
     under: str = ""
 

@@ -77,7 +77,16 @@ class Study(Generic[Found]):
         return () if self.published is None else deviations(config, load_config(self.published))
 
 
-NAMES = ("attention", "knowledge", "levels", "observability", "rate", "table1", "ties")
+NAMES = (
+    "attention",
+    "knowledge",
+    "levels",
+    "observability",
+    "rate",
+    "table1",
+    "ties",
+    "tournament",
+)
 """The packaged studies."""
 OF_SWEEPS = "testbed.studies.sweeps:SWEEP"
 """The study that reads the sweeps whose configuration names none."""

@@ -37,7 +37,7 @@ MEASURES: Mapping[str, Measure] = {
     "reasoning": Measure("reasoning in ms", "number curve", 1),
     **EXPLANATIONS,
 }
-"""By name; the values are those of `testbed.analysis.conditions`."""
+"""What is told of any sweep, by name; the values are those of `testbed.analysis.conditions`."""
 COST = "cost"
 """The name of the ratio of costs: of the baseline to the treatment, where both achieve."""
 
@@ -72,11 +72,11 @@ def sweep_study(
     )
 
 
-def found_in(run: Run) -> Found:
-    """What each condition of a run comes to."""
+def found_in(run: Run, measures: Sequence[str] = tuple(MEASURES)) -> Found:
+    """What each condition of a run comes to, by these measures."""
     from testbed.analysis.conditions import estimates  # noqa: PLC0415  # which loads polars
 
-    compared, by_condition = estimates(run, tuple(MEASURES))
+    compared, by_condition = estimates(run, measures)
     return Found(
         run.config.sweep.axes,
         run.config.robots,
