@@ -49,7 +49,7 @@ def _conclude(folder: Path, config: ExperimentConfig, status: Status, say: Say) 
     say(in_line(status))
     if paths:
         say(f"tests of these stories: python -m pytest {shlex.quote(str(folder / TESTS))}")
-    else:
+    elif not status.interrupted:
         say(f"nothing was found; {folder} has what was played")
 
 

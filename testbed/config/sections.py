@@ -23,7 +23,7 @@ from testbed.config.values import (
     Section,
 )
 
-Objective = Choice["fail", "waste", "regret", "reasoning"]
+Objective = Choice["fail", "waste", "regret", "reasoning", "principles"]
 Varied = Choice["initial", "goal", "observability", "goal_feedback"]
 
 

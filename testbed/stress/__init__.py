@@ -3,6 +3,6 @@
 from testbed.stress.episode import Episode as Episode
 from testbed.stress.episode import Player as Player
 from testbed.stress.objectives import OBJECTIVES as OBJECTIVES
-from testbed.stress.objectives import Finding as Finding
-from testbed.stress.objectives import Verdict as Verdict
 from testbed.stress.stories import findings as findings
+from testbed.stress.verdicts import Finding as Finding
+from testbed.stress.verdicts import Verdict as Verdict

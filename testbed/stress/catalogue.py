@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from testbed.experiment.specs import TrialSpec
-from testbed.stress.objectives import Finding
 from testbed.stress.units import Branching, Drawing, Judged, Result, Unit
+from testbed.stress.verdicts import Finding
 
 
 class Kind(NamedTuple):

@@ -5,35 +5,11 @@ episodes are worth more events.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-
-import msgspec
 
 from testbed.config import StressSettings
 from testbed.stress.episode import Episode
-
-
-class Finding(msgspec.Struct, frozen=True, order=True):
-    """What an objective found in an episode: the `rule` that is broken, where, and in words.
-
-    `step` is None where it is about the whole episode. `amount` is what was measured, in the
-    objective's unit; None where nothing is.
-    """
-
-    objective: str
-    rule: str
-    step: int | None
-    detail: str
-    amount: float | None = None
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """How near an episode is to a finding, and what was found."""
-
-    score: float = 0.0
-    findings: tuple[Finding, ...] = field(default=())
-
+from testbed.stress.principles import principles
+from testbed.stress.verdicts import Finding, Verdict
 
 Objective = Callable[[Episode, StressSettings], Verdict]
 
@@ -86,6 +62,7 @@ OBJECTIVES: Mapping[str, Objective] = {
     "waste": waste,
     "regret": regret,
     "reasoning": reasoning,
+    "principles": principles,
 }
 
 

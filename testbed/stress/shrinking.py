@@ -15,7 +15,8 @@ from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import setup_of
 from testbed.stress.cases import case_of
 from testbed.stress.episode import Episode, Events, Player
-from testbed.stress.objectives import Finding, judged
+from testbed.stress.objectives import judged
+from testbed.stress.verdicts import Finding
 from testbed.world import World
 
 MOST_EPISODES = 400

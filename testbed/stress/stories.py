@@ -17,8 +17,9 @@ from testbed.registry import search_last
 from testbed.stress.cases import configuration_of
 from testbed.stress.catalogue import Kind
 from testbed.stress.episode import Player
-from testbed.stress.objectives import Finding, judged
+from testbed.stress.objectives import judged
 from testbed.stress.shrinking import Shrunk
+from testbed.stress.verdicts import Finding
 from testbed.text import columns, counted
 
 PREFIX, TESTS = "story-", "test_stories.py"

@@ -13,7 +13,8 @@ from testbed.config import StressSettings
 from testbed.experiment.seeds import generator_of, short_hash
 from testbed.experiment.specs import TrialSpec
 from testbed.stress.episode import Episode, Events, Player
-from testbed.stress.objectives import Finding, judged
+from testbed.stress.objectives import judged
+from testbed.stress.verdicts import Finding
 
 
 class Judged(msgspec.Struct, frozen=True):
