@@ -12,6 +12,7 @@ from benchmarks import (
     decisions,
     driver,
     equality,
+    fairness,
     figures,
     games,
     growth,
@@ -51,6 +52,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "batches": batches.main,
     "adversary_steps": adversary_steps.main,
     "branches": branches.main,
+    "fairness": fairness.main,
 }
 
 FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {

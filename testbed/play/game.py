@@ -112,7 +112,8 @@ def conclusion(record: TrialRecord) -> Iterator[str]:
     yield f"outcome {record.outcome}{reason} after {counted(record.steps, 'step')}"
     yield f"  the robot    {actions}, {units}"
     if record.minimal_units is not None:
-        yield f"  undisturbed  {_units(record.minimal_units)} at least"
+        fewest = counted(record.minimal_actions or 0, "action")
+        yield f"  undisturbed  {fewest}, {_units(record.minimal_units)} at least"
     if record.oracle_units is not None:
         regret = record.execution_units - record.oracle_units
         knowing = f"{_units(record.oracle_units)} at least; regret {_units(regret)}"
