@@ -1,6 +1,6 @@
 """The interface of an adversary, its view of a game, and its observation at a step."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Literal as Choice
 from typing import Protocol
@@ -20,6 +20,41 @@ Infinite where no plan achieves it, None where the search for it was given up.
 """
 
 
+Occurrence = tuple[int, Action]
+"""A step, and the exogenous action that happens at it."""
+Events = tuple[Occurrence, ...]
+"""Exogenous actions, in the order of their steps."""
+
+
+class Rehearsed(Protocol):
+    """A trial that was played beforehand: its events, whether the robot finished with its goal
+    achieved, and the execution units of what it attempted.
+    """
+
+    @property
+    def events(self) -> Events: ...
+    @property
+    def achieved(self) -> bool: ...
+    @property
+    def units(self) -> int: ...
+
+
+class Rehearsal(Protocol):
+    """Plays the trial at hand beforehand, with another robot of the same name, as often as wanted.
+
+    Trials with the same events are the same unless something is left to chance.
+    """
+
+    def episode(self, events: Events) -> Rehearsed:
+        """The trial with these events."""
+
+    def additions(self, events: Events) -> Iterator[Occurrence]:
+        """Each event that is legal behind the last one of these."""
+
+    def branches(self, events: Events, added: Sequence[Occurrence]) -> Iterator[Rehearsed]:
+        """The trials with one of the `added` events behind these each, in the order of steps."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Game:
     """What an adversary is told of a trial before it begins.
@@ -27,7 +62,8 @@ class Game:
     `goal` are the robot's literals, `exogenous_actions` the ground actions that the adversary has
     and may use, `description` the domain, at the coarse resolution, `rules` what bounds the
     adversary, and what an event costs it. `world` is the world that is played in, and `remaining`
-    what its states are away from the goal: None where the adversary is not told.
+    what its states are away from the goal, and with `rehearsal` the trial can be played
+    beforehand: each is None where the adversary is not told.
     """
 
     scenario: str
@@ -37,6 +73,7 @@ class Game:
     rules: EventRules = field(default_factory=EventRules)
     world: World | None = None
     remaining: Remaining | None = None
+    rehearsal: Rehearsal | None = None
 
 
 @dataclass(frozen=True)

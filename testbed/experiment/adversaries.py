@@ -60,6 +60,7 @@ ADVERSARIES: Registry[AdversaryClass] = Registry(
         "meddler": "agents.adversary.meddler:Meddler",
         "belief": "agents.adversary.belief:Belief",
         "greedy": "agents.adversary.greedy:Greedy",
+        "optimal": "agents.adversary.optimal:Optimal",
         HUMAN: "agents.adversary.human:Human",
     },
     _fault,
@@ -150,7 +151,10 @@ def adversary_findings(config: ExperimentConfig) -> Iterator[Finding]:
     elif own.rate is not None:
         given[RATE] = own.rate
     try:
-        options = options_of(ADVERSARIES.find(strategy), given)
+        found = ADVERSARIES.find(strategy)
+        if getattr(found, "needs_budget", False) and own.budget is None:
+            yield ("adversary", "budget"), f"{strategy} needs one: a number of events, such as 2"
+        options = options_of(found, given)
         for option, names in getattr(options, "named_events", {}).items():
             for why in _unknown(names, config):
                 raise OptionError(option, why)

@@ -8,6 +8,7 @@ import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Script, Sight
 from testbed.environment import Core, IllegalActionError
+from testbed.experiment.episodes import Player
 from testbed.experiment.judge import Judge
 from testbed.experiment.origin import load
 from testbed.experiment.record import Occurrence, Rejected, TrialRecord
@@ -73,7 +74,7 @@ def _play(spec: TrialSpec, client: RobotClient, recorder: Recorder, watch: Watch
     recorder.origin.domain_sha256, recorder.origin.refinement_sha256 = setup.hashes
     core.reset(seed=for_world, initial=spec.initial, trial=spec.trial)
     recorder.teller = setup.teller(spec.trial)
-    adversary = setup.adversary(spec)
+    adversary = setup.adversary(spec, Player(spec))
     adversary.reset(for_adversary)
     try:
         client.begin(setup.task(spec, core.situation.state, for_robot))

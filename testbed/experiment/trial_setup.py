@@ -5,7 +5,7 @@ from math import inf
 
 import msgspec
 
-from agents.adversary import Adversary, Game, Measure
+from agents.adversary import Adversary, Game, Measure, Rehearsal
 from asp.language import Fluent, Literal
 from asp.refinement import Refinement
 from testbed.config import refinement_of_files, refinement_of_size
@@ -43,8 +43,8 @@ class TrialSetup:
         """Makes the story of a trial."""
         return Storyteller(trial, self._world)
 
-    def adversary(self, spec: TrialSpec) -> Adversary:
-        """The script, or the strategy that the setting has."""
+    def adversary(self, spec: TrialSpec, rehearsal: Rehearsal | None = None) -> Adversary:
+        """The script, or the strategy that the setting has; some need a `rehearsal`."""
         rules = event_rules(spec.setting)
         game = Game(
             scenario=spec.scenario,
@@ -54,6 +54,7 @@ class TrialSetup:
             rules=rules,
             world=self.world,
             remaining=partial(self._remaining, spec.setting),
+            rehearsal=rehearsal,
         )
         return make_adversary(spec.setting, game)
 

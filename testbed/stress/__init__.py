@@ -1,7 +1,7 @@
 """Stress tests: search for episodes in which a robot fails, and for the simplest of each kind."""
 
-from testbed.stress.episode import Episode as Episode
-from testbed.stress.episode import Player as Player
+from testbed.experiment.episodes import Episode as Episode
+from testbed.experiment.episodes import Player as Player
 from testbed.stress.objectives import OBJECTIVES as OBJECTIVES
 from testbed.stress.stories import findings as findings
 from testbed.stress.verdicts import Finding as Finding

@@ -9,9 +9,9 @@ so that a smaller number found here is an explanation in any case.
 from collections.abc import Iterator, Mapping
 
 from asp.language import Action, Literal
+from testbed.experiment.episodes import Episode
 from testbed.experiment.storyteller import Moment
 from testbed.protocol import FINISH, WAIT
-from testbed.stress.episode import Episode
 
 MOST_STATES = 20_000
 

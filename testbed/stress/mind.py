@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from asp.language import Action, Fluent
+from testbed.experiment.episodes import Episode
 from testbed.experiment.storyteller import Moment
-from testbed.stress.episode import Episode
 from testbed.world import StateError
 
 

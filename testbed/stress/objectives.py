@@ -7,7 +7,7 @@ episodes are worth more events.
 from collections.abc import Callable, Mapping
 
 from testbed.config import StressSettings
-from testbed.stress.episode import Episode
+from testbed.experiment.episodes import Episode
 from testbed.stress.principles import principles
 from testbed.stress.verdicts import Finding, Verdict
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 
 from asp.language import Action
 from testbed.config import StressSettings
+from testbed.experiment.episodes import Episode
 from testbed.protocol import FINISH, WAIT
-from testbed.stress.episode import Episode
 from testbed.stress.explanations import fewest_events
 from testbed.stress.mind import Believed, beliefs
 from testbed.stress.verdicts import Finding, Verdict

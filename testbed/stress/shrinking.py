@@ -9,12 +9,13 @@ from itertools import islice
 
 import msgspec
 
+from agents.adversary import Events
 from testbed.config import StressSettings
 from testbed.environment import Observability
+from testbed.experiment.episodes import Episode, Player
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import setup_of
 from testbed.stress.cases import case_of
-from testbed.stress.episode import Episode, Events, Player
 from testbed.stress.objectives import judged
 from testbed.stress.verdicts import Finding
 from testbed.world import World

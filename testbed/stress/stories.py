@@ -8,6 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 
 from testbed.config import ExperimentConfig, load_config
+from testbed.experiment.episodes import Player
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.provenance import modules_of
 from testbed.experiment.run_folder import portable_text, replace_text
@@ -16,7 +17,6 @@ from testbed.protocol import FINISH
 from testbed.registry import search_last
 from testbed.stress.cases import configuration_of
 from testbed.stress.catalogue import Kind
-from testbed.stress.episode import Player
 from testbed.stress.objectives import judged
 from testbed.stress.shrinking import Shrunk
 from testbed.stress.verdicts import Finding

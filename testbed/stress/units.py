@@ -8,11 +8,12 @@ from collections.abc import Callable
 import msgspec
 import numpy as np
 
+from agents.adversary import Events
 from asp.language import Action
 from testbed.config import StressSettings
+from testbed.experiment.episodes import Episode, Player
 from testbed.experiment.seeds import generator_of, short_hash
 from testbed.experiment.specs import TrialSpec
-from testbed.stress.episode import Episode, Events, Player
 from testbed.stress.objectives import judged
 from testbed.stress.verdicts import Finding
 

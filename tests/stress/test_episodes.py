@@ -7,14 +7,15 @@ from pathlib import Path
 
 import pytest
 
+from agents.adversary import Events
 from testbed.config import load_config
+from testbed.experiment.episodes import Episode, Player
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.stress.cases import cases_of, configuration_of
-from testbed.stress.episode import Episode, Events, Player
 from testbed.stress.stories import PREFIX
 from testbed.stress.units import Branching
 from tests.stress.domains import DOMAINS, search_in

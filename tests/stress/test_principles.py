@@ -8,11 +8,11 @@ import pytest
 from msgspec import structs
 
 from asp.language import Action, Literal
+from testbed.experiment.episodes import Episode, Player
 from testbed.experiment.storyteller import Moment
 from testbed.protocol import FINISH, WAIT, Event
 from testbed.search import as_it_is, cheapest_plan
 from testbed.stress.cases import cases_of
-from testbed.stress.episode import Episode, Player
 from testbed.stress.mind import beliefs
 from testbed.stress.principles import principles
 from testbed.stress.verdicts import Finding

@@ -7,25 +7,21 @@ only what differs is played.
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import log
 from typing import Any
 
 import msgspec
 
+from agents.adversary import Events, Occurrence
 from asp.language import Action
-from testbed.environment import Ending
+from testbed.environment import Core, Ending
 from testbed.experiment.seeds import seeds_within
 from testbed.experiment.snapshots import SnapshotError, restorable_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.storyteller import Moment
 from testbed.experiment.trial_setup import TrialSetup, setup_of
-from testbed.protocol import NONE, Decision, in_one_line
-
-Occurrence = tuple[int, Action]
-"""A step, and the exogenous action that happens at it."""
-Events = tuple[Occurrence, ...]
-"""The exogenous actions of an episode, in the order of their steps."""
-
+from testbed.protocol import NONE, Decision, Restorable, in_one_line
 
 IMPOSSIBLE = -1e6
 """In place of the logarithm of 0, finite so that JSON has it."""
@@ -80,17 +76,29 @@ def _attempted(moment: Moment) -> Action | None:
 
 
 class Player:
-    """Plays episodes of one case: a trial whose events are left to the caller."""
+    """Plays episodes of one case: a trial whose events are left to the caller.
+
+    The game and the robot are made when the first episode begins, which raises RegistryError for a
+    robot that there is not.
+    """
 
     def __init__(self, case: TrialSpec) -> None:
-        """Raises RegistryError for a robot that there is not."""
-        self._case, self._setup = case, setup_of(case.setting)
-        self._core = self._setup.core(case.setting)
-        self._robot = restorable_robot(case.robot)
-        self._rate = case.setting.rate or None
+        self._case, self._rate = case, case.setting.rate or None
         self._moments: list[Moment] = []
         self._fault: str | None = None
         self._chance = 0.0
+
+    @cached_property
+    def _setup(self) -> TrialSetup:
+        return setup_of(self._case.setting)
+
+    @cached_property
+    def _core(self) -> Core:
+        return self._setup.core(self._case.setting)
+
+    @cached_property
+    def _robot(self) -> Restorable:
+        return restorable_robot(self._case.robot)
 
     def episode(self, events: Events) -> Episode:
         """The episode with these events; those that turn out not to be legal are left out."""
