@@ -223,7 +223,7 @@ def _own_terminal(program: int) -> None:
     fcntl.ioctl(program, termios.TIOCSCTTY, 0)
 
 
-@pytest.mark.parametrize(("last", "code"), [(b"q", 0), (b"\x03", 130), (b"\x04", 0)])
+@pytest.mark.parametrize(("last", "code"), [(b"q", 0), (b"\x03", 130)])
 def test_a_person_leaves_a_terminal(tmp_path: Path, last: bytes, code: int) -> None:
     menu = b"q leaves"
     turns = [(menu, b"\x1b[B\n"), (b"chosen: exo_", b""), (menu, last)]
