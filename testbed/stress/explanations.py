@@ -29,20 +29,30 @@ def fewest_events(episode: Episode) -> Iterator[tuple[int, int, int]]:
     false_reports = any(own.false_reports > 0 for own in setting.observability.values())
     if setting.knowledge != "complete" or false_reports:
         return
-    told = _told(episode)
+    told, assumed = _told(episode), _assumed(episode)
     reached: Reached = {next(episode.states): 0}
-    before: Moment | None = None
-    for moment in episode.moments:
-        if before is not None:
-            reached = _after(episode, reached, before, moment, told)
+    for number, moment in enumerate(episode.moments[: max(assumed, default=-1) + 1]):
+        if number:
+            reached = _after(episode, reached, episode.moments[number - 1], moment, told)
         reached = _seen(episode, reached, moment)
-        if not reached or len(reached) > MOST_STATES:
+        # Only what has fewer events than an explanation to come can show that it is not minimal.
+        most = max(events for at, events in assumed.items() if at >= number)
+        reached = {state: events for state, events in reached.items() if events < most}
+        if len(reached) > MOST_STATES:
             return
-        trace = moment.decision.trace
-        adopted = trace.explanation
+        if number in assumed:
+            enough = min(reached.values(), default=assumed[number])
+            yield moment.percept.step, assumed[number], enough
+
+
+def _assumed(episode: Episode) -> dict[int, int]:
+    """By the position of its moment, the events of each explanation that is adopted as minimal."""
+    found = {}
+    for number, moment in enumerate(episode.moments):
+        adopted = moment.decision.trace.explanation
         if adopted is not None and adopted.minimal == "proved" and not adopted.distrusted:
-            yield moment.percept.step, len(adopted.unobserved), min(reached.values())
-        before = moment
+            found[number] = len(adopted.unobserved)
+    return found
 
 
 def _told(episode: Episode) -> Mapping[int, frozenset[Action]]:

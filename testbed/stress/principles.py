@@ -25,10 +25,11 @@ def principles(episode: Episode, _: StressSettings) -> Verdict:
     if episode.spec.setting.fine is not None:
         return Verdict()
     checks = (_procrastination, _persistence, _agreement, _minimality, _shortness)
+    minds = beliefs(episode)
     found = tuple(
         Finding(NAME, rule, step, detail)
         for check in checks
-        for rule, step, detail in check(episode, beliefs(episode))
+        for rule, step, detail in check(episode, minds)
     )
     return Verdict(float(bool(found)), found)
 
