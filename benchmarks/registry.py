@@ -5,6 +5,7 @@ from pathlib import Path
 
 from benchmarks import (
     ablation,
+    adversaries,
     adversary_steps,
     batches,
     branches,
@@ -50,6 +51,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "worlds": worlds.main,
     "ablation": ablation.main,
     "batches": batches.main,
+    "adversaries": adversaries.main,
     "adversary_steps": adversary_steps.main,
     "branches": branches.main,
     "fairness": fairness.main,

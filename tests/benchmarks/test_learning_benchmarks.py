@@ -1,6 +1,8 @@
 """The benchmarks of what learners play, in their small size."""
 
-from benchmarks import adversary_steps, batches
+from itertools import product
+
+from benchmarks import adversaries, adversary_steps, batches
 
 
 def test_games_of_each_number_are_played_at_once() -> None:
@@ -18,3 +20,12 @@ def test_a_robot_of_which_all_is_remembered_is_asked_less() -> None:
     one = [row for row in sheet.rows if row["starts"] == "one"]
     assert all(0 < float(str(row["asked"])) < 1 for row in one)
     assert all(float(str(row["remembered"])) > 0 for row in sheet.rows)
+
+
+def test_no_adversary_costs_more_than_the_optimal_one() -> None:
+    (sheet,) = adversaries.main("small")
+    told = [(row["robot"], row["strategy"]) for row in sheet.rows]
+    assert told == [*product(adversaries.ROBOTS, adversaries.STRATEGIES)]
+    units = {(row["robot"], row["strategy"]): float(str(row["units"])) for row in sheet.rows}
+    for robot, name in told:
+        assert units[robot, name] <= units[robot, "optimal"]
