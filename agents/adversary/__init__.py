@@ -12,6 +12,7 @@ from agents.adversary.base import Sight as Sight
 from agents.adversary.belief import Belief as Belief
 from agents.adversary.greedy import Greedy as Greedy
 from agents.adversary.human import Human as Human
+from agents.adversary.learned import Learned as Learned
 from agents.adversary.meddler import Meddler as Meddler
 from agents.adversary.none import Nothing as Nothing
 from agents.adversary.optimal import Optimal as Optimal

@@ -1,9 +1,11 @@
 """The adversaries that can be asked for, their options, and the one that plays a trial."""
 
+import os
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, is_dataclass
+from pathlib import Path
 from typing import Any, Protocol, get_args
 
 import msgspec
@@ -14,7 +16,7 @@ from testbed.config import NO_EVENTS, ExperimentConfig, Finding, refinements
 from testbed.experiment.robots import HUMAN
 from testbed.experiment.specs import Setting, default_strategy
 from testbed.protocol import in_one_line, shortened
-from testbed.registry import Registry, RegistryError, class_fault
+from testbed.registry import PATH_VARIABLE, Registry, RegistryError, class_fault
 from testbed.world import load_world, world_of
 
 SIGHTS = get_args(Sight)
@@ -61,6 +63,7 @@ ADVERSARIES: Registry[AdversaryClass] = Registry(
         "belief": "agents.adversary.belief:Belief",
         "greedy": "agents.adversary.greedy:Greedy",
         "optimal": "agents.adversary.optimal:Optimal",
+        "learned": "agents.adversary.learned:Learned",
         HUMAN: "agents.adversary.human:Human",
     },
     _fault,
@@ -102,11 +105,20 @@ def options_of(found: AdversaryClass, given: Mapping[str, object]) -> object:
     for name in given:
         if name not in known:
             raise OptionError(name, f"no such option; {suggestion(name, known)}")
+    files = {
+        name: _located(given[name]) for name in getattr(declared, "files", ()) if name in given
+    }
     try:
-        return msgspec.convert(dict(given), declared)
+        return msgspec.convert({**given, **files}, declared)
     except msgspec.ValidationError as error:
         why, _, place = str(error).replace("`", "").partition(" - at $")
         raise OptionError(re.split(r"[.\[]", place.lstrip("."))[0] or None, why) from None
+
+
+def _located(file: object) -> object:
+    """A file that an option names: beside the configuration, else where it is."""
+    beside = Path(os.environ.get(PATH_VARIABLE, ""), str(file))
+    return str(beside) if beside.is_file() else file
 
 
 class _Named:

@@ -10,6 +10,8 @@ from testbed.learning.batch import Moves as Moves
 from testbed.learning.batch import Sight as Sight
 from testbed.learning.gymnasium_envs import AdversaryEnv as AdversaryEnv
 from testbed.learning.gymnasium_envs import RobotEnv as RobotEnv
+from testbed.learning.policies import input_names as input_names
+from testbed.learning.policies import save_policy as save_policy
 
 _register("testbed/Adversary-v0", entry_point="testbed.learning.gymnasium_envs:AdversaryEnv")
 _register("testbed/Robot-v0", entry_point="testbed.learning.gymnasium_envs:RobotEnv")
