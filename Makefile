@@ -4,6 +4,7 @@
 # make bench  the benchmarks at full size
 # make fuzz   GAMES=5000 random games against brute force, from SEED on, the time of day by default
 # make load   the test suite beside busy processes, then three times the tests of link, interrupt, resume
+# make examples  what learners do with the environment, in the smallest size; installs PyTorch
 # make lowest a part of the suite with the lowest version of each dependency that pyproject.toml allows
 #
 # Each target prepares .venv by itself from constraints.txt; Python 3.11 and make are enough.
@@ -25,7 +26,7 @@ AXE := $(if $(shell command -v npm),tests/report/node_modules/axe-core/axe.min.j
 marked  = $$(grep -rl --include='test_*.py' 'mark\.$(1)' tests)
 BESIDE  = $(BIN)/python -m tests.beside $(BUSY)
 
-.PHONY: demo test check bench fuzz load lowest clean
+.PHONY: demo test check bench fuzz load lowest examples clean
 
 demo: $(VENV)/.demo
 	$(BIN)/testbed run configs/quickstart.yaml
@@ -54,6 +55,11 @@ lowest: $(VENV)/.test
 	$(BIN)/uv pip install --quiet --python $(LOWEST) --resolution lowest-direct --editable '.[test,cluster]'
 	$(LOWEST)/bin/python -m pytest -n 2 --dist worksteal -m versions $(call marked,versions)
 
+examples: $(VENV)/.train
+	$(BIN)/python examples/supersuit_vectors.py --games 2 --steps 40
+	$(BIN)/python examples/torchrl_rollout.py --steps 10
+	$(BIN)/python examples/train_adversary.py --robot traditional --steps 1024 --out $(VENV)/trained.npz
+
 clean:
 	rm -rf $(VENV) $(LOWEST)
 
@@ -69,6 +75,10 @@ $(VENV)/.test: pyproject.toml constraints.txt
 
 $(AXE): tests/report/package-lock.json
 	npm ci --prefix tests/report --ignore-scripts --no-audit --no-fund
+	touch $@
+
+$(VENV)/.train: $(VENV)/.test
+	$(PIP) --editable '.[test,cluster,train]'
 	touch $@
 
 $(VENV)/.bench: $(VENV)/.test

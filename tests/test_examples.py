@@ -40,3 +40,10 @@ def test_the_adversary_spoils_as_often_as_its_options_say(tmp_path: Path) -> Non
     events = record["exogenous"]
     assert len(events) == 2
     assert all(event["step"] >= 2 and event["action"].startswith("haul(") for event in events)
+
+
+def test_games_of_supersuit_are_played() -> None:
+    command = [sys.executable, str(EXAMPLES / "supersuit_vectors.py"), "--games", "2"]
+    done = subprocess.run([*command, "--steps", "40"], check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("40 steps of 2 games")

@@ -13,6 +13,7 @@ from agents.adversary.policy import Policy, load_policy
 from asp.language import Action
 from testbed.protocol import NONE
 
+PACKAGED = Path(__file__).parent / "policies"
 DOES, LEFT = "does ", "left "
 """Before the names of inputs: the robot's action, what is left to the adversary."""
 
@@ -26,7 +27,8 @@ class Learned:
 
     @dataclass(frozen=True)
     class Options:
-        """`policy`: the file; `sample`: draw by the softmax of the preferences instead.
+        """`policy`: the file, or the name of a packaged one; `sample`: draw, by the softmax of the
+        preferences, instead of taking the greatest.
 
         Raises PolicyError, a ValueError, for a file that is none.
         """
@@ -40,8 +42,10 @@ class Learned:
 
         @cached_property
         def network(self) -> Policy:
-            """The policy of the file."""
-            return load_policy(Path(self.policy))
+            """The policy of the file, or the packaged one of this name."""
+            packaged = PACKAGED / f"{self.policy}.npz"
+            is_packaged = Path(self.policy).name == self.policy and packaged.is_file()
+            return load_policy(packaged if is_packaged else Path(self.policy))
 
         @property
         def named_events(self) -> Mapping[str, Collection[str]]:
