@@ -12,6 +12,7 @@ from benchmarks import (
     chaos,
     decisions,
     driver,
+    environments,
     equality,
     fairness,
     figures,
@@ -54,6 +55,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "adversaries": adversaries.main,
     "adversary_steps": adversary_steps.main,
     "branches": branches.main,
+    "environments": environments.main,
     "fairness": fairness.main,
 }
 

@@ -3,21 +3,35 @@
 from copy import deepcopy
 from typing import Any, TypeAlias
 
+import numpy as np
 from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from asp.language import Action
-from testbed.environment.conventions import ILLEGAL_REWARD
-from testbed.environment.core import Snapshot
+from testbed.environment.conventions import ILLEGAL_REWARD, Conventions
+from testbed.environment.core import Core, Snapshot
 from testbed.environment.observation import Observation
-from testbed.environment.rules import ADVERSARY, ROBOT, IllegalActionError, known_agent, listed
-from testbed.environment.view import View
+from testbed.environment.rules import (
+    ADVERSARY,
+    ROBOT,
+    Ending,
+    IllegalActionError,
+    NotResetError,
+    known_agent,
+    listed,
+    rewards,
+)
+from testbed.environment.tabled import TabledGame, has_tables
+from testbed.environment.view import DEFAULT, View
 
 _TOLD = ("rewards", "_cumulative_rewards", "terminations", "truncations", "infos")
 """The attributes in which PettingZoo tells the agents of a step."""
-_TURN = ("agents", "agent_selection", "_chosen", "_illegal", *_TOLD)
+_TURN = ("agents", "agent_selection", "_answered", "_illegal", *_TOLD)
 """With these, the attributes that belong to the turn."""
 
+
+INTEGERS = (int, np.int64, np.int32)
+"""Types of answers that the tables take; others are looked at one by one."""
 
 AECSnapshot: TypeAlias = tuple[Snapshot, dict[str, Any]]
 """The core's snapshot, and whose turn it is with what PettingZoo has told so far."""
@@ -32,8 +46,40 @@ class AECView(View, AECEnv[str, Observation, int | None]):
     and raises UnknownOptionError for others. Before it, what needs a game raises NotResetError.
     """
 
-    _chosen: Action | None = None
-    """The robot's answer, until the adversary has given its own."""
+    _answered: int | None = None
+    """The number of the robot's answer, until the adversary has given its own."""
+    _told: dict[str, dict[str, Any]]
+    """The infos of this turn; those that are missing are as the tables say."""
+
+    def __init__(
+        self, core: Core, render_mode: str | None = None, conventions: Conventions = DEFAULT
+    ) -> None:
+        super().__init__(core, render_mode, conventions)
+        is_plain = conventions.infos == "numeric" and not conventions.padded
+        self._tabled = TabledGame(core) if is_plain and has_tables(core) else None
+
+    @property
+    def _chosen(self) -> Action | None:
+        return None if self._answered is None else self._actions[ROBOT][self._answered]
+
+    @property
+    def infos(self) -> dict[str, dict[str, Any]]:
+        """What each agent is told beside its observation."""
+        for agent in self.agents:
+            self._info(agent)
+        return self._told
+
+    @infos.setter
+    def infos(self, told: dict[str, dict[str, Any]]) -> None:
+        self._told = told
+
+    def _info(self, agent: str) -> dict[str, Any]:
+        """What one agent is told; the same object whenever it is asked for in a turn."""
+        told = self._told.get(agent)
+        if told is None:
+            assert self._tabled is not None
+            told = self._told[agent] = self._tabled.info(agent, self._answered)
+        return told
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
         self._begin(seed, options)
@@ -43,10 +89,20 @@ class AECView(View, AECEnv[str, Observation, int | None]):
     def last(
         self, observe: bool = True
     ) -> tuple[Observation | None, float, bool, bool, dict[str, Any]]:
-        self._check_begun()
-        return super().last(observe)
+        if self.core.now is None:
+            raise NotResetError
+        agent, seen = self.agent_selection, None
+        if observe:
+            game = None if self._illegal is not None else self._tabled
+            seen = None if game is None else game.observe(agent, self._answered)
+            seen = self.observe(agent) if seen is None else seen
+        told = self._told.get(agent) or self._info(agent)
+        earned = self._cumulative_rewards[agent]
+        return seen, earned, self.terminations[agent], self.truncations[agent], told
 
     def step(self, action: int | None) -> None:
+        if type(action) in INTEGERS and self._steps_in_tables(int(action)):  # type: ignore[arg-type]
+            return
         self._check_begun()
         agent = self.agent_selection
         if self.terminations[agent] or self.truncations[agent]:
@@ -58,6 +114,29 @@ class AECView(View, AECEnv[str, Observation, int | None]):
             if not self._tolerates(agent, action):
                 raise
             self._answer_illegally(agent)
+
+    def _steps_in_tables(self, number: int) -> bool:
+        """Play an answer by the tables; False: that is not possible, and nothing has changed."""
+        game = self._tabled
+        if game is None or self._illegal is not None or not game.is_under_way():
+            return False
+        if self._answered is None:
+            if not 0 <= number < game.answers:
+                return False
+            self._answered, self.agent_selection, self._told = number, ADVERSARY, {}
+            return True
+        if not 0 <= number < game.events or not game.play(self._answered, number):
+            return False
+        self._answered, self.agent_selection, self._told = None, ROBOT, {}
+        if game.ending is not None:
+            self._end(game.ending)
+        return True
+
+    def _end(self, ending: Ending) -> None:
+        self.terminations, self.truncations = self._ends(ending)
+        self.rewards = rewards(ending)
+        self._accumulate_rewards()
+        self._deads_step_first()
 
     def _answer(self, agent: str, action: int | None) -> None:
         answer = self._named(agent, action)
@@ -80,7 +159,7 @@ class AECView(View, AECEnv[str, Observation, int | None]):
     def _robot_answers(self, action: Action) -> None:
         self._cumulative_rewards[ROBOT] = 0.0
         self._clear_rewards()
-        self._chosen = action
+        self._answered = self._actions[ROBOT].index(action)
         self.agent_selection = ADVERSARY
         self.infos = self._infos(action)
 
@@ -101,13 +180,21 @@ class AECView(View, AECEnv[str, Observation, int | None]):
 
     def _open_turn(self) -> None:
         """The robot is next, and both agents are told of the new situation."""
-        self._chosen = None
+        self._answered = None
         self.agent_selection = ROBOT
-        self.terminations, self.truncations = self._ends()
+        if self._tabled is not None and self._tabled.is_under_way():
+            self.terminations, self.truncations = self._ends(None)
+            self.rewards, self._told = rewards(None), {}
+            return
+        self.terminations, self.truncations = self._ends(self.core.situation.ending)
         self.rewards = self.core.rewards
-        self.infos = self._infos(None)
+        self._told = self._infos(None)
 
     def observe(self, agent: str) -> Observation:
+        if self._tabled is not None and self._illegal is None:
+            seen = self._tabled.observe(agent, self._answered)
+            if seen is not None:
+                return seen
         return self._observed(known_agent(agent), self._chosen)
 
     def snapshot(self) -> AECSnapshot:

@@ -33,7 +33,9 @@ class Core:
 
     `execution` says how the robot's attempts come out; by default what is possible takes effect.
     A game has the goal of the rules unless `draw_goal` draws one for it. `pose` gives what the
-    searches of the rules look at; by default that is the world itself.
+    searches of the rules look at; by default that is the world itself. Where a game is
+    played by tables, `now` is the last moment at which the core was asked, and `catch_up` plays it
+    on from there; `situation` is the present one.
     Raises UnknownFluentError if the goal is not of the domain, ValueError for rules that are not.
     """
 
@@ -63,14 +65,27 @@ class Core:
             self.execution, rules, self.adversary_actions, self.allowance, self._reach
         )
         self._random = np.random.default_rng()
-        self._situation: Situation | None = None
+        self.now: Situation | None = None
+        self.catch_up: Callable[[], None] | None = None
 
     @property
     def situation(self) -> Situation:
         """The moment of the game. Raises NotResetError before the first game."""
-        if self._situation is None:
+        if self.catch_up is not None:
+            catch_up, self.catch_up = self.catch_up, None
+            catch_up()
+        if self.now is None:
             raise NotResetError
-        return self._situation
+        return self.now
+
+    @property
+    def random_state(self) -> Any:
+        """The state of the random generator, which can be set."""
+        return self._random.bit_generator.state
+
+    @random_state.setter
+    def random_state(self, state: Any) -> None:
+        self._random.bit_generator.state = state
 
     def reset(
         self, seed: int | None = None, initial: Sequence[Literal] | None = None, trial: str = ""
@@ -86,9 +101,10 @@ class Core:
         elif callable(self.initial):
             state = self.initial(self._random)
         else:
-            state = self._draw(self.initial)
+            state = self.draw(self.initial)
         goal = self.draw_goal(state, self._random) if self.draw_goal else self.rules.goal
-        self._situation = Situation(
+        self.catch_up = None
+        self.now = Situation(
             trial=trial,
             step=1,
             state=state,
@@ -99,11 +115,12 @@ class Core:
 
     def snapshot(self) -> Snapshot:
         """What `restore` needs to play on from here, as often as wanted, in the same way."""
-        return self.situation, self._random.bit_generator.state
+        return self.situation, self.random_state
 
     def restore(self, snapshot: Snapshot) -> None:
         """Goes back to where the snapshot was taken, in this or an equal core."""
-        self._situation, self._random.bit_generator.state = snapshot
+        self.catch_up = None
+        self.now, self.random_state = snapshot
 
     @property
     def achieved(self) -> bool:
@@ -174,7 +191,7 @@ class Core:
         happened = self._takes_effect(robot_action)
         effective = execution.physical(robot_action) if happened else ()
         compound = effective if event == NONE else (*effective, event)
-        state = self._draw(self.world.successors(now.state, compound))
+        state = self.draw(self.world.successors(now.state, compound))
         played = Played(
             execution=execution,
             rules=self.rules.observability,
@@ -187,7 +204,7 @@ class Core:
         )
         sensed = execution.sensed(robot_action, state, self._random) if happened else ()
         news = (*now.pending, *played.reports())
-        self._situation = Situation(
+        self.now = Situation(
             trial=now.trial,
             step=now.step + 1,
             state=state,
@@ -211,7 +228,8 @@ class Core:
         """Whether the goal is within reach, as far as the rewards ask."""
         return self.rules.rewards.adversary != "fail" or bool(self._reach(state, goal))
 
-    def _draw(self, states: Sequence[int]) -> int:
+    def draw(self, states: Sequence[int]) -> int:
+        """One of several states, or positions; of a single one nothing is drawn."""
         return states[int(self._random.integers(len(states)))] if len(states) > 1 else states[0]
 
     def _check(self, robot_action: Action, event: Action) -> None:

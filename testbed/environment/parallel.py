@@ -49,12 +49,13 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         )
         dropped = None if self.core.legal(robot_action, event) else event
         self.core.advance(robot_action, NONE if dropped else event)
-        if self.core.situation.ending is not None:
+        ended = self.core.situation.ending
+        if ended is not None:
             self.agents = []
         observations, information = self._shown(dropped)
         for agent in illegal:
             information[agent]["illegal"] = 1
-        return observations, self.core.rewards, *self._ends(), information
+        return observations, self.core.rewards, *self._ends(ended), information
 
     def _is_illegal(self, agent: str, answer: Any) -> bool:
         """Whether an answer lies outside the mask, which conventions have to tolerate."""

@@ -11,7 +11,15 @@ from testbed.environment.conventions import Conventions, infos, padded
 from testbed.environment.core import Core
 from testbed.environment.observation import Observation, Vector, dtype_of, observe, vector
 from testbed.environment.rendering import MODES, Image, Window, html_of, render
-from testbed.environment.rules import ADVERSARY, ROBOT, UnknownOptionError, known_agent, name_of
+from testbed.environment.rules import (
+    ADVERSARY,
+    ROBOT,
+    Ending,
+    NotResetError,
+    UnknownOptionError,
+    known_agent,
+    name_of,
+)
 
 DEFAULT = Conventions()
 OPTIONS = ("initial", "trial")
@@ -127,7 +135,8 @@ class View:
 
     def _check_begun(self) -> None:
         """Raises NotResetError before the first game."""
-        _ = self.core.situation
+        if self.core.now is None:
+            raise NotResetError
 
     def _begin(self, seed: int | None, options: dict[str, Any] | None) -> None:
         """Begins a game; of the options `initial` are literals and `trial` an id, both optional."""
@@ -140,9 +149,8 @@ class View:
         self.agents = list(self.possible_agents)
         self._illegal = None
 
-    def _ends(self) -> tuple[dict[str, bool], dict[str, bool]]:
+    def _ends(self, ending: Ending | None) -> tuple[dict[str, bool], dict[str, bool]]:
         """Terminations and truncations: agents end together, the first by the robot's answer."""
-        ending = self.core.situation.ending
         terminated = ending is not None and ending.by_answer
         truncated = ending is not None and not ending.by_answer
         both = self.possible_agents

@@ -2,7 +2,7 @@
 
 from itertools import product
 
-from benchmarks import adversaries, adversary_steps, batches
+from benchmarks import adversaries, adversary_steps, batches, environments
 
 
 def test_games_of_each_number_are_played_at_once() -> None:
@@ -29,3 +29,10 @@ def test_no_adversary_costs_more_than_the_optimal_one() -> None:
     units = {(row["robot"], row["strategy"]): float(str(row["units"])) for row in sheet.rows}
     for robot, name in told:
         assert units[robot, name] <= units[robot, "optimal"]
+
+
+def test_raw_environments_are_played_side_by_side() -> None:
+    (sheet,) = environments.main("small")
+    assert [row["environment"] for row in sheet.rows][:2] == ["office", "empty"]
+    assert all(float(str(row["per_s"])) > 0 for row in sheet.rows)
+    assert sheet.rows[0]["share"] == 1.0

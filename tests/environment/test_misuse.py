@@ -70,7 +70,7 @@ def _seen(env: Any, agent: str) -> dict[str, np.ndarray]:
 
 
 def test_each_exogenous_action_is_tested_once_for_a_mask(garden: dict[str, Any]) -> None:
-    env = office_v0.raw_env(**garden)
+    env = office_v0.raw_env(**garden, infos="text")
     core, asked = env.core, list[str]()
     world, executable = core.world, core.world.executable
     world.executable = lambda state, names: asked.extend(names) or executable(state, names)  # type: ignore
