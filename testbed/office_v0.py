@@ -12,6 +12,7 @@ resolution.
 """
 
 import json
+from numbers import Integral
 from os import PathLike
 from typing import Any, TypeAlias
 
@@ -76,7 +77,7 @@ def _core(read: ExperimentConfig, max_cycles: int | None) -> Core:
         raise ConfigError([f"{read.name}: is a sweep of {read.sweep.size} conditions; {one}"])
     rules = Rules(
         goal=read.goal,
-        steps=read.limits.steps if max_cycles is None else max_cycles,
+        steps=read.limits.steps if max_cycles is None else whole("max_cycles", max_cycles),
         observability=read.rules_of_news(),
         goal_feedback=read.goal_feedback,
         exogenous_while_thinking=read.exogenous_while_thinking,
@@ -89,6 +90,14 @@ def _core(read: ExperimentConfig, max_cycles: int | None) -> Core:
     world = world_of(load_description(read.domain))
     initial = world.initial_states() if read.initial is None else (world.state(read.initial),)
     return Core(world, rules, initial)
+
+
+def whole(name: str, given: Any) -> int:
+    """A whole number from 1 on, also one of NumPy's. Raises ConfigError for anything else."""
+    if isinstance(given, Integral) and not isinstance(given, bool) and int(given) >= 1:
+        return int(given)
+    wanted = f"should be a whole number from 1 on, not {given!r}"
+    raise ConfigError([f"keyword argument: {name}: {wanted}"])
 
 
 def _fine(config: ExperimentConfig, rules: Rules) -> Core:

@@ -45,7 +45,7 @@ class Random:
             if self.delay < 0:
                 raise ValueError(f"delay: {self.delay} is not a step")
             weights = [1.0] if self.mix is None else [*self.mix.values()]
-            if not (all(0 <= weight < inf for weight in weights) and any(weights)):
+            if not (all(0 <= weight < inf for weight in weights) and 0 < sum(weights) < inf):
                 raise ValueError("mix: weights are numbers from 0 on, and not all of them 0")
 
         @property

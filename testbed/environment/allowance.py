@@ -60,10 +60,10 @@ class Allowance:
         budget, pause, played = self.rules.budget, self.rules.cooldown, now.played
         named = Counter(own for _, event in played for own in set(event.arguments))
         return Left(
-            budget=None if budget is None else budget - len(played),
+            budget=None if budget is None else max(0, budget - len(played)),
             cooldown=max(0, played[-1][0] + pause + 1 - now.step) if played else 0,
             per_object={
-                sort: {own: self.rules.per_object[sort] - named[own] for own in objects}
+                sort: {own: max(0, self.rules.per_object[sort] - named[own]) for own in objects}
                 for sort, objects in self._objects.items()
             },
         )

@@ -94,10 +94,11 @@ class Core:
 
         Without a seed the generator goes on where it was. Raises StateError.
         """
+        given = None if initial is None else self.world.state(initial)
         if seed is not None:
             self._random = np.random.default_rng(seed)
-        if initial is not None:
-            state = self.world.state(initial)
+        if given is not None:
+            state = given
         elif callable(self.initial):
             state = self.initial(self._random)
         else:

@@ -32,7 +32,7 @@ class Legality:
     def events(self, now: Situation, robot_action: Action | None) -> "LegalEvents":
         """The legal events beside the robot's action, which need not be known."""
         left = self._allowance.left(now)
-        question = now.state, robot_action, now.goal, left
+        question = now.state, robot_action, now.goal, left, now.step if self._restricted else 0
         if self._last is None or self._last[0] != question:
             refusal = partial(self._allowance.why_not, left=left, step=now.step)
             found = LegalEvents(

@@ -20,6 +20,8 @@ Stepped: TypeAlias = tuple[
     dict[str, Observation], dict[str, float], Flags, Flags, dict[str, dict[str, Any]]
 ]
 """What `step` returns: observations, rewards, terminations, truncations, infos, by agent."""
+ParallelSnapshot: TypeAlias = tuple[Snapshot, str | None]
+"""The core's snapshot, and the agent whose illegal answer ended the game."""
 
 
 class ParallelView(View, ParallelEnv[str, Observation, int]):
@@ -81,12 +83,14 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         information[ADVERSARY]["dropped"] = dropped if text else number
         return {agent: self._observed(agent, None) for agent in self.possible_agents}, information
 
-    def snapshot(self) -> Snapshot:
+    def snapshot(self) -> ParallelSnapshot:
         """All that the rest of the episode depends on."""
-        return self.core.snapshot()
+        return self.core.snapshot(), self._illegal
 
-    def restore(self, snapshot: Snapshot) -> Shown:
+    def restore(self, snapshot: ParallelSnapshot) -> Shown:
         """Goes back to the snapshot, which may be used again; returns what `reset` would."""
-        self.core.restore(snapshot)
-        self.agents = list(self.possible_agents) if self.core.situation.ending is None else []
+        core, self._illegal = snapshot
+        self.core.restore(core)
+        is_over = self.core.situation.ending is not None or self._illegal is not None
+        self.agents = [] if is_over else list(self.possible_agents)
         return self._shown(None)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from testbed.environment import ADVERSARY, ROBOT, Ending, IllegalActionError, rewards
 from testbed.environment.rules import name_of
 from testbed.environment.tables import ENDINGS, Tables
-from testbed.office_v0 import Config, make_core
+from testbed.office_v0 import Config, make_core, whole
 
 Numbers = NDArray[np.int64]
 Bytes = NDArray[np.int8]
@@ -55,8 +55,9 @@ class Batch:
     returned are new.
 
     Raises:
-        ConfigError: for a bad configuration.
-        TableError: for a game at the fine resolution.
+        ConfigError: for a bad configuration, and a number of games that is none.
+        TableError: for a game that tables cannot hold.
+        ValueError: for what is no `autoreset_mode`.
     """
 
     def __init__(
@@ -69,7 +70,7 @@ class Batch:
         **options: Any,
     ) -> None:
         core = make_core(config, **options)
-        self.games, self.autoreset_mode = games, autoreset_mode
+        self.games, self.autoreset_mode = whole("games", games), AutoresetMode(autoreset_mode)
         self.robot_actions, self.adversary_actions = core.robot_actions, core.adversary_actions
         self.fluents = core.world.fluents
         self.tables = Tables(core)
@@ -82,7 +83,7 @@ class Batch:
         self._position = np.zeros(games, np.int64)
         self._step = np.ones(games, np.int64)
         self._over = np.zeros(games, np.bool_)
-        self._may_be_over = autoreset_mode is not AutoresetMode.SAME_STEP
+        self._may_be_over = self.autoreset_mode is not AutoresetMode.SAME_STEP
         self.begin()
 
     @property
@@ -93,11 +94,16 @@ class Batch:
     def begin(self, which: ArrayLike | None = None, seed: int | None = None) -> None:
         """Begin games anew: all, or those where `which`, (N,), is true.
 
-        With a seed, all draws from here on follow from it.
+        With a seed, all draws from here on follow from it. Raises IllegalActionError for numbers of
+        games in place of a mask.
         """
+        mask = np.ones(self.games, np.bool_) if which is None else np.asarray(which)
+        if mask.shape != (self.games,) or mask.dtype != np.bool_:
+            wanted = f"give {self.games} truth values, one per game"
+            raise IllegalActionError(f"begin: {mask.dtype} of shape {mask.shape}; {wanted}")
         if seed is not None:
             self._random = np.random.default_rng(seed)
-        self._begin(np.arange(self.games) if which is None else np.flatnonzero(which))
+        self._begin(np.flatnonzero(mask))
 
     def robot_sight(self) -> Sight:
         """What the robot sees before it answers."""

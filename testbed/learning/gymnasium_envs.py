@@ -1,8 +1,9 @@
 """One agent's side of a coarse game as a Gymnasium environment; the other plays inside of it."""
 
 from abc import abstractmethod
+from collections.abc import Sequence
 from contextlib import ExitStack
-from typing import Any, ClassVar, SupportsInt, TypeAlias
+from typing import Any, ClassVar, SupportsInt, TypeAlias, get_args
 from typing import Literal as Choice
 
 import gymnasium
@@ -12,9 +13,10 @@ from numpy.typing import NDArray
 
 from agents.adversary import Adversary
 from testbed.config import NO_EVENTS, ConfigError, ExperimentConfig
-from testbed.environment import ADVERSARY, ROBOT
+from testbed.environment import ADVERSARY, ROBOT, IllegalActionError
 from testbed.environment.observation import Observation, Vector
 from testbed.environment.rendering import MODES, Image
+from testbed.experiment.adversaries import AdversaryError
 from testbed.experiment.record import COARSE
 from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec, setting_of
@@ -22,8 +24,8 @@ from testbed.experiment.trial import adversary_view
 from testbed.experiment.trial_setup import setup_of
 from testbed.learning.remembered import Remembered
 from testbed.link import connect
-from testbed.office_v0 import Config, raw_env, read_config
-from testbed.protocol import WAIT, Decision, RobotClient, Trace
+from testbed.office_v0 import Config, raw_env, read_config, whole
+from testbed.protocol import WAIT, Decision, RobotClient, RobotLost, Trace
 
 Form: TypeAlias = Choice["dict", "flat"]
 Link: TypeAlias = Choice["inprocess", "zenoh"]
@@ -54,6 +56,7 @@ class _Side(gymnasium.Env[Any, Any]):
         self.config, self._scenario = _of_scenario(config, scenario, **options)
         self.game = raw_env(self.config, render_mode)
         self.render_mode = render_mode
+        _check("observations", observations, get_args(Form))
         self._robot, self._flat = robot, observations == "flat"
         known = self.game.observation_space(self.agent)
         assert isinstance(known, spaces.Dict)
@@ -76,11 +79,20 @@ class _Side(gymnasium.Env[Any, Any]):
     def step(
         self, action: SupportsInt
     ) -> tuple[Observation | Vector, float, bool, bool, dict[str, Any]]:
-        """Play until it is this side's turn again, or the game is over."""
-        self._play(int(action))
+        """Play until it is this side's turn again, or the game is over.
+
+        Raises IllegalActionError after the end, and after an error of what plays inside.
+        """
         game, own = self.game, self.agent
+        if not game.agents or self._is_over:
+            raise IllegalActionError("the game is over: reset the environment")
+        if game.agent_selection != own:  # what plays inside has failed to answer
+            raise IllegalActionError("the game cannot go on: reset the environment")
+        self._play(int(action))
         ends = game.terminations[own], game.truncations[own]
-        return self._seen(), float(game.rewards[own]), *ends, game.infos[own]
+        # Since its last answer: the other side's answer comes between.
+        earned = float(game._cumulative_rewards[own])
+        return self._seen(), earned, *ends, game.infos[own]
 
     def action_masks(self) -> NDArray[np.bool_]:
         """The legal actions, (A,) of bool, as MaskablePPO asks for them."""
@@ -158,6 +170,7 @@ class AdversaryEnv(_Side):
         **options: Any,
     ) -> None:
         super().__init__(config, robot, scenario, observations, render_mode, **options)
+        _check("link", link, get_args(Link))
         self._link, self._remembers = link, remember
         self._client: RobotClient | None = None
         self._memory: Remembered | None = None
@@ -194,6 +207,8 @@ class AdversaryEnv(_Side):
         assert client is not None
         percept = core.percept
         answer = memory.answer(percept) if memory else client.ask(percept).action
+        if answer not in core.robot_actions:
+            raise RobotLost(f"answered '{answer}', which is not an action")
         self.game.step(core.robot_actions.index(answer))
 
 
@@ -240,7 +255,16 @@ class RobotEnv(_Side):
             trace=Trace(),
         )
         event = self._adversary.act(adversary_view(core, decision, sees))
+        known = event in core.adversary_actions
+        why = core.why_not(decision.action, event) if known else "it is not an exogenous action"
+        if why is not None:
+            raise AdversaryError(f"{event} beside {decision.action}: {why}")
         self.game.step(core.adversary_actions.index(event))
+
+
+def _check(name: str, given: str, known: Sequence[str]) -> None:
+    if given not in known:
+        raise ConfigError([f"keyword argument: {name}: {given!r}; there are {', '.join(known)}"])
 
 
 def _of_scenario(
@@ -250,12 +274,12 @@ def _of_scenario(
     read = read_config(config, **options)
     if read.is_fine:
         raise ConfigError([f"{read.name}: is of the fine resolution; give a coarse one"])
-    name = scenario or next(iter(read.scenarios), NO_EVENTS)
+    name = str(scenario or "") or next(iter(read.scenarios), NO_EVENTS)
     if name not in (*read.scenarios, NO_EVENTS):
         known = ", ".join(read.scenarios)
         raise ConfigError([f"{read.name}: has no scenario '{name}'; there are {known}"])
     own = read.settings(name)
-    limits = {} if max_cycles is None else {"steps": max_cycles}
+    limits = {} if max_cycles is None else {"steps": whole("max_cycles", max_cycles)}
     changed = {key: getattr(own, key) for key in OF_A_SCENARIO}
     limited = read.limits.model_copy(update=limits)
     return read.model_copy(update={**changed, "limits": limited}), name
