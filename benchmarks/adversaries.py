@@ -4,7 +4,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from asp.language import Literal
 from benchmarks.sheets import DisagreementError, Row, Sheet, gathered
+from testbed.analysis.bootstrap import Values
 from testbed.analysis.statistics import signed_rank
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
@@ -15,10 +17,16 @@ from testbed.link import InProcessRobot
 
 ROBOTS = ("traditional", "intentional")
 BASELINE = "random"
-STRATEGIES = (BASELINE, "meddler", "belief", "greedy", "optimal")
-RATED = {BASELINE: "adversary.rate=0.3"}
-"""How often: of the others an event happens wherever it is worth anything."""
-TRIALS, BUDGET = {"small": 2, "full": 20}, {"small": 1, "full": 2}
+STRATEGIES = (BASELINE, "meddler", "belief", "greedy", "learned", "optimal")
+OPTIONS = {
+    BASELINE: "adversary.rate=0.3",
+    "learned": "adversary.options={{policy: office-{robot}}}",
+}
+"""Of the others an event happens wherever it is worth anything."""
+Start = tuple[Literal, ...]
+TRIALS, BUDGET = {"small": 3, "full": 96}, {"small": 1, "full": 2}
+BOUNDED = {"small": 2, "full": 20}
+"""Of these states those from which the optimal one plays, which takes long."""
 
 
 def main(size: str) -> list[Sheet]:
@@ -28,27 +36,28 @@ def main(size: str) -> list[Sheet]:
         "units: those of all attempts; extra: beyond the optimum without events; p and effect:",
         f"signed ranks of units against those of {BASELINE} from the same state, not corrected",
     )
-    rows = gathered(_rows(TRIALS[size], BUDGET[size]))
+    rows = gathered(_rows(TRIALS[size], BOUNDED[size], BUDGET[size]))
     return [Sheet("adversaries", "Execution units that adversaries cost robots", rows, notes)]
 
 
-def _rows(trials: int, budget: int) -> Iterator[Row]:
+def _rows(trials: int, bounded: int, budget: int) -> Iterator[Row]:
     for robot in ROBOTS:
-        records = {name: _played(robot, name, trials, budget) for name in STRATEGIES}
-        _check_bound(robot, records)
-        baseline = _units(records[BASELINE])
+        records = {
+            name: _played(robot, name, bounded if name == "optimal" else trials, budget)
+            for name in STRATEGIES
+        }
+        units = {name: _units(own) for name, own in records.items()}
+        _check_bound(robot, units)
         for name, own in records.items():
-            units = _units(own)
-            least = np.array([record.minimal_units or 0 for record in own], float)
-            test = signed_rank(units - baseline)
+            test = signed_rank(_differences(units[name], units[BASELINE]))
             yield {
                 "robot": robot,
                 "strategy": name,
                 "trials": len(own),
                 "achieved": sum(record.achieved for record in own),
                 "events": float(np.mean([len(record.exogenous) for record in own])),
-                "units": float(units.mean()),
-                "extra": float((units - least).mean()),
+                "units": float(np.mean([*units[name].values()])),
+                "extra": float(np.mean([_extra(record) for record in own])),
                 "p": None if test is None else test.p,
                 "effect": None if test is None else test.effect,
             }
@@ -62,19 +71,27 @@ def _played(robot: str, strategy: str, trials: int, budget: int) -> list[TrialRe
         f"adversary.budget={budget}",
         "adversary.fair=true",
         f"adversary.strategy={strategy}",
-        *([RATED[strategy]] if strategy in RATED else []),
+        *([OPTIONS[strategy].format(robot=robot)] if strategy in OPTIONS else []),
     ]
     client = InProcessRobot(make_robot)
     return [play_trial(spec, client).record for spec in plan_trials(load_config("office", given))]
 
 
-def _units(records: Sequence[TrialRecord]) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    return np.array([record.execution_units for record in records], float)
+def _units(records: Sequence[TrialRecord]) -> dict[Start, int]:
+    return {tuple(record.initial): record.execution_units for record in records}
 
 
-def _check_bound(robot: str, records: Mapping[str, Sequence[TrialRecord]]) -> None:
+def _extra(record: TrialRecord) -> int:
+    return record.execution_units - (record.minimal_units or 0)
+
+
+def _differences(units: Mapping[Start, int], others: Mapping[Start, int]) -> Values:
+    """From each state that both play from."""
+    return np.array([own - others[start] for start, own in units.items()], float)
+
+
+def _check_bound(robot: str, units: Mapping[str, Mapping[Start, int]]) -> None:
     """Both are deterministic: from no state does any strategy cost more than the optimal one."""
-    most = _units(records["optimal"])
-    for name, own in records.items():
-        if (_units(own) > most).any():
+    for name, own in units.items():
+        if (_differences(units["optimal"], own) < 0).any():
             raise DisagreementError(f"{name} costs {robot} more than optimal")

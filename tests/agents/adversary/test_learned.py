@@ -143,3 +143,21 @@ def test_a_missing_file_and_a_missing_option_are_said(tmp_path: Path) -> None:
         (line,) = done.stderr.splitlines()
         assert done.exit_code == 2
         assert part in line
+
+
+@pytest.mark.parametrize("robot", ["traditional", "intentional"])
+def test_the_packaged_policies_play_the_office(robot: str) -> None:
+    given = [
+        f"robots=[{robot}]",
+        "limit=1",
+        "scenarios=[1]",
+        "adversary.budget=2",
+        "adversary.fair=true",
+        "adversary.strategy=learned",
+        f"adversary.options={{policy: office-{robot}}}",
+    ]
+    (spec,) = plan_trials(load_config("office", given))
+    record = play_trial(spec, InProcessRobot(make_robot)).record
+    assert record.outcome not in ("error", "robot_lost"), record.reason
+    assert record.exogenous
+    assert record.execution_units > (record.minimal_units or 0)
