@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from typing import ClassVar
 
-from agents.shared.presence import Presence
+from agents.shared.presence import Presence, answered
 from asp.language import Action
-from testbed.protocol import FINISH, Capabilities, Decision, Percept, RobotStops, Task, Trace
+from testbed.protocol import Capabilities, Decision, Percept, RobotStops, Task
 
 PERSON: Presence[Callable[[Task, Percept], Action]] = Presence("robot")
 """Who is asked for the robot's action: a physical one, `wait`, or `finish`."""
@@ -27,14 +27,7 @@ class Human:
         """The person's decision. Raises RobotStops where there is no person to ask."""
         if PERSON.ask is None:
             raise RobotStops("nobody is there to ask; play it by: testbed play CONFIG --as robot")
-        action = PERSON.ask(self._task, percept)
-        return Decision(
-            trial=percept.trial,
-            step=percept.step,
-            action=action,
-            believes_goal=action == FINISH,
-            trace=Trace(),
-        )
+        return answered(percept, PERSON.ask(self._task, percept))
 
     def snapshot(self) -> Task:
         """The task: what a person remembers is not taken back."""

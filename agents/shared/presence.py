@@ -5,6 +5,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Generic, TypeVar
 
+from asp.language import Action
+from testbed.protocol import FINISH, Decision, Percept, Trace
+
 Ask = TypeVar("Ask")
 
 
@@ -27,3 +30,14 @@ class Presence(Generic[Ask]):
     def ask(self) -> Ask | None:
         """What asks the person; None where nobody is there."""
         return self._ask.get()
+
+
+def answered(percept: Percept, action: Action) -> Decision:
+    """The decision of somebody who tells nothing of a mind."""
+    return Decision(
+        trial=percept.trial,
+        step=percept.step,
+        action=action,
+        believes_goal=action == FINISH,
+        trace=Trace(),
+    )

@@ -1,7 +1,8 @@
 """A robot that answers as a record has it: the replay of a robot that a person played."""
 
+from agents.shared.presence import answered
 from testbed.experiment.record import TrialRecord
-from testbed.protocol import FINISH, WAIT, Decision, Percept, RobotStops, Task, Trace
+from testbed.protocol import WAIT, Decision, Percept, RobotStops, Task
 
 
 class Recalled:
@@ -19,11 +20,4 @@ class Recalled:
             raise RobotStops("a game of a person is not on record, so that it cannot be replayed")
         answers = (*self._record.actions, *self._record.mental)
         found = (own.action for own in answers if own.step == percept.step)
-        action = next(found, WAIT)
-        return Decision(
-            trial=percept.trial,
-            step=percept.step,
-            action=action,
-            believes_goal=action == FINISH,
-            trace=Trace(),
-        )
+        return answered(percept, next(found, WAIT))

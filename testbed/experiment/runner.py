@@ -209,7 +209,7 @@ def _put_on_record(
     turn = 0
     try:
         for position, result in results:
-            with uninterrupted():  # what is told to be kept is what is on record
+            with uninterrupted():  # a trial on record is counted
                 early[position] = result
                 while turn in early:
                     record(early.pop(turn))

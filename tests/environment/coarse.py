@@ -2,7 +2,12 @@
 
 from pathlib import Path
 
+from hypothesis import assume
+
+from asp import SourceError, parse_description
+from testbed.world import World, world_of
 from tests.greenhouse import GREENHOUSE
+from tests.world.test_world_random import HEADER
 
 FERRY = """\
 sorts
@@ -82,3 +87,17 @@ def write_domain(folder: Path, name: str) -> Path:
     config = folder / f"{name}.yaml"
     config.write_text(f"name: {name}\ndomain: {name}.al\ngoal: {goal!r}\n", encoding="utf-8")
     return config
+
+
+def random_world(drawn: list[str]) -> World:
+    """The world of a robot in a description with these laws, if games can be played in it."""
+    text = HEADER.replace("thing = {it}", "robot = {it}").replace("h(thing)", "h(robot)")
+    text += "\n".join(f"  {law}" for law in drawn) + "\n"
+    text += "sees\n  R sees f if robot(R).\n  R sees g if h(R).\n"
+    try:
+        world = world_of(parse_description(text))
+    except SourceError:  # a fluent defined through its own negation
+        assume(False)
+    states = tuple(world.states())
+    assume(states and all(world.successors(state, ()) for state in states))
+    return world

@@ -4,19 +4,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from asp import SourceError, load_description, parse_description
+from asp import load_description, parse_description
 from testbed.environment import ADVERSARY, ROBOT, Core, EventRules, Rules
 from testbed.environment.observation import observe
 from testbed.environment.rules import Situation
 from testbed.environment.tables import ENDINGS, TableError, Tables
 from testbed.office_v0 import make_core
 from testbed.world import World, world_of
-from tests.environment.coarse import DOMAINS
+from tests.environment.coarse import DOMAINS, random_world
 from tests.literals import parsed
-from tests.world.test_world_random import HEADER, laws
+from tests.world.test_world_random import laws
 
 
 def _worlds() -> dict[str, tuple[World, list[str]]]:
@@ -106,15 +106,7 @@ def test_they_are_the_game(name: str, thinking: bool, feedback: bool) -> None:
 @settings(max_examples=40, deadline=None)
 @given(st.lists(laws(), min_size=1, max_size=7))
 def test_they_are_the_game_of_random_descriptions(drawn: list[str]) -> None:
-    text = HEADER.replace("thing = {it}", "robot = {it}").replace("h(thing)", "h(robot)")
-    text += "\n".join(f"  {law}" for law in drawn) + "\n"
-    text += "sees\n  R sees f if robot(R).\n  R sees g if h(R).\n"
-    try:
-        world = world_of(parse_description(text))
-    except SourceError:  # a fluent defined through its own negation
-        assume(False)
-    assume(all(world.successors(state, ()) for state in world.states()))
-    _check(world, Rules(goal=parsed(["f"])))
+    _check(random_world(drawn), Rules(goal=parsed(["f"])))
 
 
 @pytest.mark.parametrize("name", WORLDS)
