@@ -14,7 +14,7 @@ from testbed.config import load_config
 from testbed.experiment.digest import digest, logical
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.record import TrialRecord
-from testbed.experiment.robots import ROBOTS, make_robot
+from testbed.experiment.robots import HUMAN, ROBOTS, make_robot
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 
@@ -57,7 +57,8 @@ shows
   hitch(T, B) shows tows(T, B).
   slip(T, B)  shows tows(T, B).
 """
-ALONE = [name for name in ROBOTS.names() if name not in ("intentional-nozoom", "intentional-joint")]
+OTHERS = ("intentional-nozoom", "intentional-joint", HUMAN)
+ALONE = [name for name in ROBOTS.names() if name not in OTHERS]
 """Those that explain in a phase of its own, at the coarse resolution."""
 
 NO_CLOCK = {"decision_s": None, "steps": 40, "plan": 8}
