@@ -47,7 +47,7 @@ def _rows(trials: int, bounded: int, budget: int) -> Iterator[Row]:
             for name in STRATEGIES
         }
         units = {name: _units(own) for name, own in records.items()}
-        _check_bound(robot, units)
+        check_bound(robot, units)
         for name, own in records.items():
             test = signed_rank(_differences(units[name], units[BASELINE]))
             yield {
@@ -90,7 +90,7 @@ def _differences(units: Mapping[Start, int], others: Mapping[Start, int]) -> Val
     return np.array([own - others[start] for start, own in units.items()], float)
 
 
-def _check_bound(robot: str, units: Mapping[str, Mapping[Start, int]]) -> None:
+def check_bound(robot: str, units: Mapping[str, Mapping[Start, int]]) -> None:
     """Both are deterministic: from no state does any strategy cost more than the optimal one."""
     for name, own in units.items():
         if (_differences(units["optimal"], own) < 0).any():

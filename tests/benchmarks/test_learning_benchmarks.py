@@ -2,7 +2,11 @@
 
 from itertools import product
 
+import pytest
+
+from asp.language import Literal
 from benchmarks import adversaries, adversary_steps, batches, environments
+from benchmarks.sheets import DisagreementError
 
 
 def test_games_of_each_number_are_played_at_once() -> None:
@@ -26,9 +30,14 @@ def test_no_adversary_costs_more_than_the_optimal_one() -> None:
     (sheet,) = adversaries.main("small")
     told = [(row["robot"], row["strategy"]) for row in sheet.rows]
     assert told == [*product(adversaries.ROBOTS, adversaries.STRATEGIES)]
-    units = {(row["robot"], row["strategy"]): float(str(row["units"])) for row in sheet.rows}
-    for robot, name in told:
-        assert units[robot, name] <= units[robot, "optimal"]
+    assert all(float(str(row["units"])) > 0 for row in sheet.rows)
+
+
+def test_a_strategy_that_costs_more_than_the_optimal_one_is_refused() -> None:
+    start = (Literal.parse("loc(book1,kitchen)"),)
+    adversaries.check_bound("robot", {"optimal": {start: 7}, "greedy": {start: 7}})
+    with pytest.raises(DisagreementError, match="greedy"):
+        adversaries.check_bound("robot", {"optimal": {start: 7}, "greedy": {start: 8}})
 
 
 def test_raw_environments_are_played_side_by_side() -> None:
