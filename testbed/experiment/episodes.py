@@ -17,7 +17,7 @@ from agents.adversary import Events, Occurrence
 from asp.language import Action
 from testbed.environment import Core, Ending
 from testbed.experiment.seeds import seeds_within
-from testbed.experiment.snapshots import SnapshotError, restorable_robot
+from testbed.experiment.snapshots import SnapshotError, going_back, restorable_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.storyteller import Moment
 from testbed.experiment.trial_setup import TrialSetup, setup_of
@@ -116,7 +116,11 @@ class Player:
             self._advance(decision, self._planned(planned, decision))
 
     def branches(self, events: Events, added: Sequence[Occurrence]) -> Iterator[Episode]:
-        """The episodes with one of the `added` events behind these each, in the order of steps."""
+        """The episodes with one of the `added` events behind these each, in the order of steps.
+
+        Raises:
+            SnapshotError: for a robot that cannot go back, or does not decide alike again.
+        """
         planned, ahead = dict(events), {step: list[Action]() for step, _ in added}
         for step, event in added:
             ahead[step].append(event)
@@ -126,10 +130,20 @@ class Player:
             if step in ahead:
                 before = self._snapshot()
                 for event in ahead.pop(step):
+                    self._check(decision, event)
                     self._advance(decision, event)
                     yield self._played_on({})
                     self._restore(before)
             self._advance(decision, self._planned(planned, decision))
+
+    def _check(self, decision: Decision, event: Action) -> None:
+        """Raises SnapshotError where an event that could be added once cannot be any more."""
+        if not self._core.legal(decision.action, event):
+            raise SnapshotError(
+                f"'{self._case.robot}' does not decide alike twice: asked again, it answered "
+                f"{decision.action} at step {self._core.situation.step}, where {event} was legal "
+                "before; its decisions have to follow from its task and its percepts"
+            )
 
     def _begin(self) -> None:
         self._moments, self._fault, self._chance = [], None, 0.0
@@ -157,7 +171,7 @@ class Player:
             return question()
         except SnapshotError:  # of the search, which needs a robot that decides alike again
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             self._fault = in_one_line(error)
             return None
 
@@ -194,14 +208,17 @@ class Player:
 
     def _snapshot(self) -> tuple[Any, ...]:
         told = len(self._moments), self._chance
-        return self._core.snapshot(), self._robot.snapshot(), told
+        with going_back(self._case.robot):
+            robot = self._robot.snapshot()
+        return self._core.snapshot(), robot, told
 
     def _restore(self, snapshot: tuple[Any, ...]) -> None:
         core, robot, (moments, self._chance) = snapshot
         del self._moments[moments:]
         self._fault = None
         self._core.restore(core)
-        self._robot.restore(robot)
+        with going_back(self._case.robot):
+            self._robot.restore(robot)
 
 
 def chance_of(event: Action, legal: Iterable[Action], rate: float) -> float:

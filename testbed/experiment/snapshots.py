@@ -1,7 +1,10 @@
 """Snapshots of robots for searches: a robot's own, or those of one that is told all again."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from testbed.experiment.robots import ROBOTS, RobotClass
-from testbed.protocol import Decision, Percept, Restorable, Task
+from testbed.protocol import Decision, Percept, Restorable, Task, in_one_line
 
 Told = tuple[Task, tuple[tuple[Percept, str], ...]]
 """A task, and percepts with the actions that were decided on."""
@@ -29,6 +32,17 @@ def restorable_robot(name: str, replays: bool = True) -> Restorable:
         f"'{name}' has no snapshots, which this search needs; a robot that has the methods "
         "snapshot and restore declares Capabilities(snapshots=True)"
     )
+
+
+@contextmanager
+def going_back(name: str) -> Iterator[None]:
+    """What a robot raises in `snapshot` or `restore` is a SnapshotError that names the robot."""
+    try:
+        yield
+    except SnapshotError:
+        raise
+    except Exception as error:
+        raise SnapshotError(f"'{name}' cannot go back: {in_one_line(error)}") from error
 
 
 class Replayed:

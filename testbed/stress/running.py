@@ -12,6 +12,7 @@ from testbed.config import ExperimentConfig
 from testbed.experiment.errors import WorkerError
 from testbed.experiment.interrupts import INTERRUPTED, uninterrupted
 from testbed.experiment.run_folder import SUMMARY, replace_text
+from testbed.experiment.snapshots import SnapshotError
 from testbed.experiment.specs import TrialSpec
 from testbed.stress.cases import cases_of
 from testbed.stress.catalogue import Catalogue, Example, Kind
@@ -51,7 +52,8 @@ def search(config: ExperimentConfig, folder: Path, workers: int, notify: Notify)
 
     Raises:
         StoreError: for a journal that is none.
-        WorkerError: where no unit can be played, or a process that plays one is lost.
+        WorkerError: where no unit can be played, for a robot that cannot go back, or where a
+            process that plays a unit is lost.
     """
     cases, journal = cases_of(config), Journal(folder)
     status, began = Status(len(cases)), time.monotonic()
@@ -62,6 +64,8 @@ def search(config: ExperimentConfig, folder: Path, workers: int, notify: Notify)
             status.stories = _shrunk(config, executor, status.catalogue)
         except KeyboardInterrupt:
             status.interrupted = True
+        except SnapshotError as error:
+            raise WorkerError(f"robots: {error}") from None
         except BrokenProcessPool:
             told = "a process that played an episode was ended from outside; --resume goes on"
             raise WorkerError(told) from None
@@ -101,21 +105,21 @@ def _shrunk(
     for kind, own in sorted(catalogue.kinds.items()):
         episode = own.case, own.judged.events
         future = executor.submit(shrunk, config.seed, *episode, config.stress, own.finding)
-        pending.append((kind, future))
+        pending.append((kind, own, future))
     stories: dict[Kind, Shrunk] = {}
-    for kind, future in pending:
-        story = future.result()
+    for kind, own, future in pending:
+        story = future.result() or _as_met(own, repeated=False)
         stories.setdefault(kind._replace(events=_names(story)), story)
     return stories
 
 
 def _as_found(catalogue: Catalogue) -> dict[Kind, Shrunk]:
-    return {kind: _unshrunk(own) for kind, own in sorted(catalogue.kinds.items())}
+    return {kind: _as_met(own) for kind, own in sorted(catalogue.kinds.items())}
 
 
-def _unshrunk(found: Example) -> Shrunk:
+def _as_met(found: Example, repeated: bool = True) -> Shrunk:
     own = found.judged
-    return Shrunk(found.case, own.events, own.length, own.chance, found.finding)
+    return Shrunk(found.case, own.events, own.length, own.chance, found.finding, repeated)
 
 
 def _names(story: Shrunk) -> tuple[str, ...]:

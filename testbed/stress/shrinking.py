@@ -30,13 +30,17 @@ Simpler = tuple[TrialSpec, Events]
 
 
 class Shrunk(msgspec.Struct, frozen=True):
-    """The simplest episode that was found, by its case and events, and what is found in it."""
+    """The simplest episode that was found, by its case and events, and what is found in it.
+
+    `repeated` is whether the finding was there when the episode was played again.
+    """
 
     case: TrialSpec
     events: Events
     length: int
     chance: float | None
     finding: Finding
+    repeated: bool = True
 
     @property
     def spec(self) -> TrialSpec:
@@ -47,8 +51,10 @@ class Shrunk(msgspec.Struct, frozen=True):
 
 def shrunk(
     root: int, case: TrialSpec, events: Events, settings: StressSettings, finding: Finding
-) -> Shrunk:
+) -> Shrunk | None:
     """The simplest episode with a finding of the same objective and rule.
+
+    None where the episode is played again without it: the robot does not decide alike twice.
 
     Simpler are fewer events, then fewer literals of the goal, events of which less is told, fewer
     steps, and earlier events. `root` is the seed of the configuration. At most `MOST_EPISODES`
@@ -62,11 +68,9 @@ class _Shrinking:
         self._root, self._settings, self._wanted = root, settings, wanted
         self._left = MOST_EPISODES
 
-    def from_(self, case: TrialSpec, events: Events) -> Shrunk:
-        episode = Player(case).episode(events)
-        best = self._found(case, episode)
-        assert best is not None, "an episode is shrunk that has no such finding"
-        while (smaller := self._smaller(best)) is not None:
+    def from_(self, case: TrialSpec, events: Events) -> Shrunk | None:
+        best = self._found(case, Player(case).episode(events))
+        while best is not None and (smaller := self._smaller(best)) is not None:
             best = smaller
         return best
 

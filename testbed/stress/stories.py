@@ -92,6 +92,10 @@ def told(kind: Kind, story: Shrunk, episodes: int) -> Iterator[str]:
     yield from _wrapped("goal", " ".join(sorted(setting.goal)))
     yield from (f"  {own.percept.step:<8}{_step(own)}" for own in episode.moments)
     yield from _wrapped("found", story.finding.detail)
+    if not story.repeated:
+        yield from _wrapped(
+            "but", "not found when it was played again: the robot decides otherwise"
+        )
     if story.chance is not None:
         chance = f"{exp(story.chance):.3g} where events are random, with rate {setting.rate:g}"
         yield from _wrapped("chance", chance)

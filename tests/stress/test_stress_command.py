@@ -102,6 +102,27 @@ def test_a_robot_of_ones_own_that_raises_an_error_is_a_finding(tmp_path: Path) -
     assert "over a pot" in found.detail
 
 
+@pytest.mark.parametrize("robot", ["NoWay", "NoWayBack", "Forgets", "Moody"])
+def test_a_robot_that_cannot_go_back_is_refused_in_one_line(tmp_path: Path, robot: str) -> None:
+    config = write_search(tmp_path, "greenhouse")
+    (tmp_path / "robots_that_stray.py").write_text(STRAYS, encoding="utf-8")
+    given = [f"robots=[robots_that_stray:{robot}]", *ONE, "--out", str(tmp_path / "found")]
+    done = CliRunner().invoke(app, ["stress", str(config), *given, "--quiet"])
+    (line,) = done.stderr.splitlines()
+    assert (done.exit_code, robot in line) == (2, True)
+
+
+def test_a_finding_that_is_not_there_again_is_told_as_such(tmp_path: Path) -> None:
+    config = write_search(tmp_path, "greenhouse")
+    (tmp_path / "robots_that_trip_once.py").write_text(STRAYS, encoding="utf-8")
+    folder = tmp_path / "found"
+    given = ["robots=[robots_that_trip_once:Once]", "limit=1", *ONE, "--out", str(folder)]
+    done = CliRunner().invoke(app, ["stress", str(config), *given])
+    assert (done.exit_code, "tripped once" in done.output) == (1, True)
+    again = [found.detail for story in folder.glob("story-*.yaml") for found in findings(story)]
+    assert not any("tripped once" in detail for detail in again)
+
+
 TRIPS = """\
 from testbed.protocol import Capabilities
 
@@ -114,4 +135,66 @@ class Trips:
 
     def act(self, percept):
         raise RuntimeError("tripped over a pot")
+"""
+
+STRAYS = """\
+from itertools import count
+
+from asp.language import Literal
+from testbed.protocol import FINISH, Capabilities, Decision, Trace
+
+PLAN = [Literal.parse(f"carry(gardener,{pot},{place})")
+        for _ in range(2) for pot in ("fern", "rose") for place in ("floor", "sill")]
+MADE = count()
+
+
+class Strays:
+    capabilities = Capabilities(snapshots=True)
+
+    def begin(self, task):
+        self.asked = 0
+
+    def act(self, percept):
+        action = self.next()
+        self.asked += 1
+        return Decision(trial=percept.trial, step=percept.step, action=action,
+                        believes_goal=False, trace=Trace())
+
+    def next(self):
+        return PLAN[self.asked] if self.asked < len(PLAN) else FINISH
+
+    def snapshot(self):
+        return self.asked
+
+    def restore(self, snapshot):
+        self.asked = snapshot
+
+
+class NoWay(Strays):
+    def snapshot(self):
+        raise RuntimeError("no way")
+
+
+class NoWayBack(Strays):
+    def restore(self, snapshot):
+        raise RuntimeError("no way back")
+
+
+class Forgets(Strays):
+    def restore(self, snapshot):
+        self.asked = len(PLAN)
+
+
+class Moody(Strays):
+    capabilities = Capabilities()
+
+    def begin(self, task):
+        self.asked = next(MADE) % 2
+
+
+class Once(Strays):
+    def next(self):
+        if next(MADE) == 12:
+            raise RuntimeError("tripped once")
+        return super().next()
 """
