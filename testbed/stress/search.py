@@ -7,14 +7,14 @@ were given out: the order is the same for any number of processes, and when a se
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
-from heapq import heappop, heappush
 from itertools import count
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.seeds import generator_of
 from testbed.experiment.specs import TrialSpec
 from testbed.stress.cases import drawn_case
-from testbed.stress.units import Branching, Drawing, Judged, Result, Unit, play
+from testbed.stress.frontier import Frontier
+from testbed.stress.units import Branching, Drawing, Result, Unit, play
 
 AHEAD = 8
 """Units that are given out before the result of the first of them is heard."""
@@ -25,9 +25,9 @@ class Search:
 
     First every case with no and with one event, in an order drawn with the seed of the
     configuration. Then, up to `stress.events`, what is behind the episodes that nothing was found
-    in: where events have a rate the likeliest first (uniform-cost search), else those of the
-    greatest score. Every other unit is then a draw, where `stress.vary` lists what is drawn, or
-    several events may happen.
+    in: where events have a rate the likeliest first (uniform-cost search), else of each case in
+    turn that of the greatest score. Every other unit is then a draw, where `stress.vary` lists what
+    is drawn, or several events may happen.
     """
 
     def __init__(self, config: ExperimentConfig, cases: Sequence[TrialSpec]) -> None:
@@ -37,8 +37,7 @@ class Search:
         self._cases = [cases[int(number)] for number in order]
         self._first = deque(self._cases)
         self._exploring = self._unheard = 0  # units given out whose results are not heard
-        self._open: list[tuple[float, int, TrialSpec, Judged]] = []
-        self._numbers, self._drawings = count(), count()
+        self._open, self._drawings = Frontier(), count()
         self._draws = bool(self.settings.vary) or self.settings.events > 1
         self._turn = False
 
@@ -52,7 +51,7 @@ class Search:
         self._turn = not self._turn
         if self._open and (self._turn or not self._draws):
             self._unheard += 1
-            *_, case, found = heappop(self._open)
+            case, found = self._open.pop()
             return Branching(case, found.events)
         left = self.settings.vary or self._open or self._unheard
         return self._drawing() if self._draws and left else None
@@ -67,8 +66,7 @@ class Search:
             self._exploring -= 1
         for own in result.judged[1:]:
             if not own.findings and len(own.events) < self.settings.events:
-                worth = own.score if own.chance is None else own.chance
-                heappush(self._open, (-worth, next(self._numbers), unit.case, own))
+                self._open.push(unit.case, own)
 
     def _drawing(self) -> Drawing:
         number = next(self._drawings)
