@@ -79,6 +79,7 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         if told is None:
             assert self._tabled is not None
             told = self._told[agent] = self._tabled.info(agent, self._answered)
+            told["illegal"] = int(agent in self._illegal)
         return told
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
@@ -93,7 +94,7 @@ class AECView(View, AECEnv[str, Observation, int | None]):
             raise NotResetError
         agent, seen = self.agent_selection, None
         if observe:
-            game = None if self._illegal is not None else self._tabled
+            game = None if self._illegal else self._tabled
             seen = None if game is None else game.observe(agent, self._answered)
             seen = self.observe(agent) if seen is None else seen
         told = self._told.get(agent) or self._info(agent)
@@ -109,16 +110,22 @@ class AECView(View, AECEnv[str, Observation, int | None]):
             self._was_dead_step(action)
             return
         try:
-            self._answer(agent, action)
+            answer = self._legal(agent, action)
+            self._illegal = tuple(own for own in self._illegal if own != agent)
         except IllegalActionError:
             if not self._tolerates(agent, action):
                 raise
-            self._answer_illegally(agent)
+            self._illegal = tuple(own for own in self.agents if own in (agent, *self._illegal))
+            if self._is_stopped:
+                self._stop(agent)
+                return
+            answer = self._actions[agent][0]
+        (self._robot_answers if agent == ROBOT else self._adversary_answers)(answer)
 
     def _steps_in_tables(self, number: int) -> bool:
         """Play an answer by the tables; False: that is not possible, and nothing has changed."""
         game = self._tabled
-        if game is None or self._illegal is not None or not game.is_under_way():
+        if game is None or self._illegal or not game.is_under_way():
             return False
         if self._answered is None:
             if not 0 <= number < game.answers:
@@ -138,17 +145,24 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         self._accumulate_rewards()
         self._deads_step_first()
 
-    def _answer(self, agent: str, action: int | None) -> None:
+    def _legal(self, agent: str, action: int | None) -> Action:
+        """The action of an answer. Raises IllegalActionError."""
         answer = self._named(agent, action)
-        (self._robot_answers if agent == ROBOT else self._adversary_answers)(answer)
+        if agent == ROBOT:
+            return answer
+        assert self._chosen is not None
+        reason = self.core.why_not(self._chosen, answer)
+        if reason is not None:
+            actions, legal = self.core.adversary_actions, self.core.events(self._chosen)
+            raise IllegalActionError(
+                f"{ADVERSARY}: {actions.index(answer)} {answer} is not legal: {reason}; "
+                f"legal are {listed(actions, legal)}"
+            )
+        return answer
 
-    def _answer_illegally(self, agent: str) -> None:
-        """Let the agent do nothing, or end the game, as PettingZoo's TerminateIllegalWrapper."""
-        if self.conventions.illegal == "noop":
-            self._answer(agent, 0)
-            self.infos[agent]["illegal"] = 1
-            return
-        self._illegal = agent
+    def _stop(self, agent: str) -> None:
+        """End the game by the agent's illegal answer, as PettingZoo's TerminateIllegalWrapper."""
+        self.infos = self._infos(self._chosen)
         self._cumulative_rewards[agent] = 0.0
         self.terminations = dict.fromkeys(self.agents, True)
         self.truncations = dict.fromkeys(self.agents, True)
@@ -165,13 +179,6 @@ class AECView(View, AECEnv[str, Observation, int | None]):
 
     def _adversary_answers(self, event: Action) -> None:
         assert self._chosen is not None
-        reason = self.core.why_not(self._chosen, event)
-        if reason is not None:
-            actions, legal = self.core.adversary_actions, self.core.events(self._chosen)
-            raise IllegalActionError(
-                f"{ADVERSARY}: {actions.index(event)} {event} is not legal: {reason}; "
-                f"legal are {listed(actions, legal)}"
-            )
         self.core.advance(self._chosen, event)
         self._cumulative_rewards[ADVERSARY] = 0.0
         self._open_turn()
@@ -191,7 +198,7 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         self._told = self._infos(None)
 
     def observe(self, agent: str) -> Observation:
-        if self._tabled is not None and self._illegal is None:
+        if self._tabled is not None and not self._illegal:
             seen = self._tabled.observe(agent, self._answered)
             if seen is not None:
                 return seen

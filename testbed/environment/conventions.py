@@ -1,5 +1,6 @@
 """How an environment talks to what plays in it; the game is the same under all conventions."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,9 +34,12 @@ class Conventions:
     padded: bool = False
 
 
-def infos(core: Core, robot_action: Action | None, kind: Infos) -> dict[str, dict[str, Any]]:
-    """What each agent is told beside its observation."""
-    return (_text if kind == "text" else _numeric)(core, robot_action)
+def infos(
+    core: Core, robot_action: Action | None, illegal: Collection[str], kind: Infos
+) -> dict[str, dict[str, Any]]:
+    """What each agent is told beside its observation; `illegal` are those whose last answer was."""
+    told = (_text if kind == "text" else _numeric)(core, robot_action)
+    return {agent: {**own, "illegal": int(agent in illegal)} for agent, own in told.items()}
 
 
 def _text(core: Core, robot_action: Action | None) -> dict[str, dict[str, Any]]:

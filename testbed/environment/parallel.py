@@ -1,6 +1,6 @@
 """The game as a PettingZoo parallel environment: robot and adversary answer at once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, TypeAlias
 
 from pettingzoo import ParallelEnv
@@ -20,8 +20,8 @@ Stepped: TypeAlias = tuple[
     dict[str, Observation], dict[str, float], Flags, Flags, dict[str, dict[str, Any]]
 ]
 """What `step` returns: observations, rewards, terminations, truncations, infos, by agent."""
-ParallelSnapshot: TypeAlias = tuple[Snapshot, str | None]
-"""The core's snapshot, and the agent whose illegal answer ended the game."""
+ParallelSnapshot: TypeAlias = tuple[Snapshot, tuple[str, ...]]
+"""The core's snapshot, and the agents whose last answer was illegal."""
 
 
 class ParallelView(View, ParallelEnv[str, Observation, int]):
@@ -42,21 +42,21 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         self._check_begun()
         if not self.agents:
             raise IllegalActionError("the game is over: reset the environment")
-        illegal = [agent for agent in self.agents if self._is_illegal(agent, actions.get(agent))]
+        given = {agent: actions.get(agent) for agent in self.agents}
+        illegal = tuple(agent for agent, own in given.items() if self._is_illegal(agent, own))
         if illegal and self.conventions.illegal == "terminate":
-            return self._ended_by(illegal)
+            return self._stop(illegal)
         robot_action, event = (
-            own[0] if agent in illegal else self._named(agent, actions.get(agent))
+            own[0] if agent in illegal else self._named(agent, given[agent])
             for agent, own in self._actions.items()
         )
+        self._illegal = illegal
         dropped = None if self.core.legal(robot_action, event) else event
         self.core.advance(robot_action, NONE if dropped else event)
         ended = self.core.situation.ending
         if ended is not None:
             self.agents = []
         observations, information = self._shown(dropped)
-        for agent in illegal:
-            information[agent]["illegal"] = 1
         return observations, self.core.rewards, *self._ends(ended), information
 
     def _is_illegal(self, agent: str, answer: Any) -> bool:
@@ -67,9 +67,9 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         outside = int(answer) >= len(own)
         return outside or (agent == ADVERSARY and not self.core.legal(None, own[int(answer)]))
 
-    def _ended_by(self, illegal: Sequence[str]) -> Stepped:
-        """The game is over: the first of these agents gets `ILLEGAL_REWARD`."""
-        self._illegal = illegal[0]
+    def _stop(self, illegal: tuple[str, ...]) -> Stepped:
+        """End the game: the first of these agents gets `ILLEGAL_REWARD`."""
+        self._illegal = illegal
         both, self.agents = list(self.agents), []
         earned = {agent: ILLEGAL_REWARD if agent == illegal[0] else 0.0 for agent in both}
         observations, information = self._shown(None)
@@ -91,6 +91,6 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         """Goes back to the snapshot, which may be used again; returns what `reset` would."""
         core, self._illegal = snapshot
         self.core.restore(core)
-        is_over = self.core.situation.ending is not None or self._illegal is not None
+        is_over = self.core.situation.ending is not None or self._is_stopped
         self.agents = [] if is_over else list(self.possible_agents)
         return self._shown(None)

@@ -37,8 +37,8 @@ class View:
     the agent's own actions.
     """
 
-    _illegal: str | None = None
-    """The agent whose illegal answer ended the game."""
+    _illegal: tuple[str, ...] = ()
+    """The agents whose last answer was illegal, in their order."""
 
     metadata: ClassVar[dict[str, Any]] = {
         "name": "office_v0",
@@ -114,7 +114,7 @@ class View:
         return {**vars(self), "_window": Window(self.metadata["name"])}
 
     def _observed(self, agent: str, robot_action: Action | None) -> Observation:
-        found = observe(self.core, agent, robot_action, over=self._illegal is not None)
+        found = observe(self.core, agent, robot_action, over=self._is_stopped)
         if not self.conventions.padded:
             return found
         space = self.observation_spaces[agent]
@@ -122,7 +122,7 @@ class View:
         return padded(found, space)
 
     def _infos(self, robot_action: Action | None) -> dict[str, dict[str, Any]]:
-        return infos(self.core, robot_action, self.conventions.infos)
+        return infos(self.core, robot_action, self._illegal, self.conventions.infos)
 
     def _named(self, agent: str, answer: Any) -> Action:
         """The action of an answer. Raises IllegalActionError, also for the padding of a mask."""
@@ -132,6 +132,11 @@ class View:
         """Whether an illegal answer is not an error, as it is at least one of the action space."""
         known = self.action_spaces[agent].contains(answer)
         return known and self.conventions.illegal != "error"
+
+    @property
+    def _is_stopped(self) -> bool:
+        """Whether an illegal answer has ended the game."""
+        return bool(self._illegal) and self.conventions.illegal == "terminate"
 
     def _check_begun(self) -> None:
         """Raises NotResetError before the first game."""
@@ -147,7 +152,7 @@ class View:
                 raise UnknownOptionError(f"reset: {key!r} is not an option; {near}")
         self.core.reset(seed, chosen.get("initial"), chosen.get("trial", ""))
         self.agents = list(self.possible_agents)
-        self._illegal = None
+        self._illegal = ()
 
     def _ends(self, ending: Ending | None) -> tuple[dict[str, bool], dict[str, bool]]:
         """Terminations and truncations: agents end together, the first by the robot's answer."""

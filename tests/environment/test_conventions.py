@@ -100,10 +100,68 @@ def test_an_illegal_answer_does_nothing(config: str) -> None:
     _illegal(other)
     env.step(illegal)
     other.step(0)
-    assert env.infos[ADVERSARY].pop("illegal") == 1
+    assert env.infos[ADVERSARY]["illegal"] == 1
     assert np.array_equal(env.state(), other.state())
     assert env.unwrapped.core.situation == other.unwrapped.core.situation
     assert env.rewards == other.rewards
+
+
+def _answers(space: Any, mask: np.ndarray, random: np.random.Generator) -> tuple[int, bool]:
+    """An answer, legal or not, and whether it is not."""
+    answer = int(random.integers(space.n))
+    return answer, not mask[answer]
+
+
+@pytest.mark.parametrize("kind", ["noop", "terminate"])
+@pytest.mark.parametrize("infos", ["numeric", "text"])
+def test_an_agent_is_told_that_its_last_answer_was_illegal_until_it_answers_again(
+    kind: str, infos: str, config: str
+) -> None:
+    for padded in (True, False):
+        env = office_v0.env(config, illegal=kind, infos=infos, padded=padded, max_cycles=9)
+        random = np.random.default_rng(6)
+        for seed in range(3):
+            env.reset(seed=seed)
+            last = dict.fromkeys(env.agents, False)
+            for agent in env.agent_iter():
+                seen, _, terminated, truncated, info = env.last()
+                assert {own: env.infos[own]["illegal"] for own in env.agents} == last
+                assert info["illegal"] == last[agent]
+                if terminated or truncated:
+                    env.step(None)
+                    del last[agent]
+                    continue
+                mask = seen["action_mask"]
+                answer, last[agent] = _answers(env.action_space(agent), mask, random)
+                env.step(answer)
+
+
+@pytest.mark.parametrize("kind", ["noop", "terminate"])
+def test_in_parallel_both_are_told_of_their_last_answer(kind: str, config: str) -> None:
+    env = office_v0.parallel_env(config, illegal=kind, padded=True, max_cycles=9)
+    random = np.random.default_rng(7)
+    for seed in range(3):
+        shown, infos = env.reset(seed=seed)
+        assert {own["illegal"] for own in infos.values()} == {0}
+        while env.agents:
+            both = {
+                agent: _answers(env.action_space(agent), own["action_mask"], random)
+                for agent, own in shown.items()
+            }
+            shown, *_, infos = env.step({agent: answer for agent, (answer, _) in both.items()})
+            told = {agent: bool(own["illegal"]) for agent, own in infos.items()}
+            assert told == {agent: illegal for agent, (_, illegal) in both.items()}
+
+
+def test_a_copy_tells_of_the_last_answer_too() -> None:
+    env = office_v0.raw_env(illegal="noop")
+    env.step(_illegal(env))
+    saved = env.snapshot()
+    env.step(0)
+    env.step(0)
+    assert env.infos[ADVERSARY]["illegal"] == 0
+    env.restore(saved)
+    assert env.infos[ADVERSARY]["illegal"] == 1
 
 
 def test_an_illegal_answer_ends_the_game_as_pettingzoos_wrapper_does(config: str) -> None:
