@@ -35,6 +35,11 @@ class TrialSetup:
         self.hashes: tuple[str, str | None] = sha256(self._source), None
         self.world, self._exogenous = world, world.exogenous_actions
 
+    @property
+    def robot(self) -> str:
+        """The constant that is the robot."""
+        return self._world.description.robots[0]
+
     def core(self, setting: Setting) -> Core:
         """A new game."""
         return Core(self._world, _rules(setting), ())
@@ -69,14 +74,13 @@ class TrialSetup:
         """What the robot is told of a trial that begins in `state`."""
         setting, world = spec.setting, self._world
         complete = setting.knowledge == "complete"
-        robot = world.description.robots[0]
         return Task(
             trial=spec.trial,
             robot=spec.robot,
             domain=spec.domain,
             source=self._source,
             goal=[*map(Literal.parse, setting.goal)],
-            initial=list(world.literals(state) if complete else world.visible(state, robot)),
+            initial=list(world.literals(state) if complete else world.visible(state, self.robot)),
             plan_limit=setting.plan_limit,
             relevance=setting.relevance,
             seed=seed,
@@ -97,8 +101,8 @@ class FineTrialSetup(TrialSetup):
         self._fine = self.world = world_of(refinement)
         self._exogenous = self._fine.exogenous_actions
         self.judge = Judge(partial(coarse_problem, refinement), self.costs)
-        inertial, robot = self._fine.description.inertial, description.robots[0]
-        self._about_robot = [fluent for fluent in inertial if robot in fluent.arguments]
+        inertial = self._fine.description.inertial
+        self._about_robot = [fluent for fluent in inertial if self.robot in fluent.arguments]
 
     def core(self, setting: Setting) -> Core:
         """A new game, with the setting's statistics and pace."""

@@ -1,12 +1,15 @@
 """What a robot says that it believes at each step, as a state of the world."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from asp.language import Action, Fluent
 from testbed.experiment.episodes import Episode
 from testbed.experiment.storyteller import Moment
 from testbed.world import StateError
+
+Broken = Iterator[tuple[str, int, str]]
+"""A rule, the step at which it is broken, and how."""
 
 
 @dataclass(frozen=True)

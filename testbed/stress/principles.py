@@ -1,36 +1,32 @@
-"""Principles of a robot that tells its mind, checked step by step at the coarse resolution.
+"""Principles of a robot that tells its mind, checked step by step.
 
 Each is judged by complete search in the world, from what the robot says that it believes. A robot
 is judged by a principle only where its trace tells what that is about. Numbers in parentheses are
 those of the theory (docs/theory.md).
 """
 
-from collections.abc import Iterator
+from itertools import chain
 
 from asp.language import Action
 from testbed.config import StressSettings
 from testbed.experiment.episodes import Episode
 from testbed.protocol import FINISH, WAIT
 from testbed.stress.explanations import fewest_events
-from testbed.stress.mind import Believed, beliefs
+from testbed.stress.fine_principles import plans_that_fit, teleports
+from testbed.stress.mind import Believed, Broken, beliefs
 from testbed.stress.verdicts import Finding, Verdict
 
 NAME = "principles"
-Broken = Iterator[tuple[str, int, str]]
-"""A rule, the step at which it is broken, and how."""
 
 
 def principles(episode: Episode, _: StressSettings) -> Verdict:
-    """All principles; at the fine resolution none is judged."""
+    """All principles of the resolution at which the robot acts."""
     if episode.spec.setting.fine is not None:
-        return Verdict()
-    checks = (_procrastination, _persistence, _agreement, _minimality, _shortness)
-    minds = beliefs(episode)
-    found = tuple(
-        Finding(NAME, rule, step, detail)
-        for check in checks
-        for rule, step, detail in check(episode, minds)
-    )
+        broken = chain(teleports(episode), plans_that_fit(episode))
+    else:
+        minds = beliefs(episode)
+        broken = chain.from_iterable(check(episode, minds) for check in COARSE)
+    found = tuple(Finding(NAME, *each) for each in broken)
     return Verdict(float(bool(found)), found)
 
 
@@ -110,3 +106,6 @@ def _shortness(episode: Episode, minds: list[Believed]) -> Broken:
         elif len(trace.plan) > fewest:
             told = f"its plan has {len(trace.plan)} actions, and {fewest} suffice"
             yield "not shortest", own.step, told
+
+
+COARSE = (_procrastination, _persistence, _agreement, _minimality, _shortness)

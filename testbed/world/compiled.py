@@ -94,12 +94,10 @@ class CompiledWorld(World):
         defaults = literals & self._inertial | self._closed_world
         return self._states_of(self._closure.models(effects, defaults))
 
-    def _forbidding(self, state: int, compound: frozenset[Action]) -> Law | None:
-        first = min(self._forbidden(self._sets.complete(state), compound), default=None)
-        if first is None:
-            return None
-        law = self.description.executability[first]
-        return law.actions, law.body
+    def _forbidding(self, state: int, compound: frozenset[Action]) -> Iterator[Law]:
+        for number in sorted(self._forbidden(self._sets.complete(state), compound)):
+            law = self.description.executability[number]
+            yield law.actions, law.body
 
     def _forbidden(self, literals: int, compound: frozenset[Action]) -> Iterator[int]:
         """The numbers of the laws that make the compound action impossible."""

@@ -188,10 +188,14 @@ class World(ABC):
         compound = frozenset(actions)
         if self.executable(state, compound):
             return None
-        law = self._forbidding(state, compound)
+        law = next(self.forbidding(state, compound), None)
         if law is None:
             return f"the effects of {', '.join(sorted(compound))} contradict each other"
         return self._if(f"impossible {', '.join(sorted(law[0]))}", law[1])
+
+    def forbidding(self, state: int, actions: Iterable[Action]) -> Iterator[Law]:
+        """The laws that make a compound action impossible in a state, as they are declared."""
+        return self._forbidding(state, frozenset(actions))
 
     def visible(self, state: int, robot: str) -> tuple[Literal, ...]:
         """The literals that the robot sees in the state, in the order of the fluents."""
@@ -211,8 +215,8 @@ class World(ABC):
         """The successors of a compound action of known actions, sorted."""
 
     @abstractmethod
-    def _forbidding(self, state: int, compound: frozenset[Action]) -> Law | None:
-        """The first law that makes the compound action impossible."""
+    def _forbidding(self, state: int, compound: frozenset[Action]) -> Iterator[Law]:
+        """The laws that make the compound action impossible, as they are declared."""
 
     @abstractmethod
     def _seen(self, state: int, robot: str) -> int:

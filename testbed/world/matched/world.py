@@ -80,7 +80,7 @@ class MatchedWorld(World):
         return Change(self._laws, nothing, self._read(literals), seeds)
 
     def _transitions(self, state: int, compound: frozenset[Action]) -> tuple[int, ...]:
-        if self._forbidding(state, compound) is not None:
+        if next(self._forbidding(state, compound), None) is not None:
             return ()
         effects = (
             head
@@ -103,17 +103,15 @@ class MatchedWorld(World):
         )
         return tuple(sorted(found))
 
-    def _forbidding(self, state: int, compound: frozenset[Action]) -> Law | None:
+    def _forbidding(self, state: int, compound: frozenset[Action]) -> Iterator[Law]:
         by_name: dict[str, list[Literal]] = {}
         for action in map(Literal.parse, sorted(compound)):
             by_name.setdefault(action.name, []).append(action)
-        found = (
-            (given, body)
-            for names, law in self._laws.prohibitions
-            for given in product(*(by_name.get(name, ()) for name in names))
-            for body in law.bodies(tuple(x for a in given for x in a.arguments), self.facts(state))
-        )
-        return next(found, None)
+        for names, law in self._laws.prohibitions:
+            for given in product(*(by_name.get(name, ()) for name in names)):
+                arguments = tuple(x for action in given for x in action.arguments)
+                for body in law.bodies(arguments, self.facts(state)):
+                    yield given, body
 
     def _seen(self, state: int, robot: str) -> int:
         facts = self.facts(state)
