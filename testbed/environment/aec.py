@@ -8,7 +8,7 @@ from pettingzoo import AECEnv
 from pettingzoo.utils.wrappers import OrderEnforcingWrapper
 
 from asp.language import Action
-from testbed.environment.conventions import ILLEGAL_REWARD, Conventions
+from testbed.environment.conventions import Conventions
 from testbed.environment.core import Core, Snapshot
 from testbed.environment.observation import Observation
 from testbed.environment.rules import (
@@ -166,7 +166,7 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         self._cumulative_rewards[agent] = 0.0
         self.terminations = dict.fromkeys(self.agents, True)
         self.truncations = dict.fromkeys(self.agents, True)
-        self.rewards = {**dict.fromkeys(self.agents, 0.0), agent: ILLEGAL_REWARD}
+        self.rewards = self.core.rewards_of_illegal(agent)
         self._accumulate_rewards()
         self._deads_step_first()
 

@@ -13,8 +13,6 @@ from testbed.environment.core import Core
 from testbed.environment.observation import Observation, vector
 from testbed.environment.rules import ADVERSARY, ROBOT, Ending, Illegal, Infos
 
-ILLEGAL_REWARD = -1.0
-"""Of the agent whose illegal answer ends a game, as PettingZoo's classic environments have it."""
 OUTCOMES = (None, *Ending)
 """Outcomes by number in numeric infos; 0: the game goes on."""
 

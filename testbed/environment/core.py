@@ -138,6 +138,10 @@ class Core:
         """What the last step was worth to each agent."""
         return self._payoff(self.situation)
 
+    def rewards_of_illegal(self, agent: str) -> dict[str, float]:
+        """What it is worth to each agent that an illegal answer of this one ends the game now."""
+        return self._payoff.of_illegal(self.situation, agent)
+
     @property
     def visible(self) -> tuple[Literal, ...]:
         """The literals that the robot is shown now, by its action and by what it always sees."""

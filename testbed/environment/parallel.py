@@ -6,7 +6,6 @@ from typing import Any, TypeAlias
 from pettingzoo import ParallelEnv
 
 from asp.language import Action
-from testbed.environment.conventions import ILLEGAL_REWARD
 from testbed.environment.core import Snapshot
 from testbed.environment.observation import Observation
 from testbed.environment.rules import ADVERSARY, IllegalActionError
@@ -68,10 +67,10 @@ class ParallelView(View, ParallelEnv[str, Observation, int]):
         return outside or (agent == ADVERSARY and not self.core.legal(None, own[int(answer)]))
 
     def _stop(self, illegal: tuple[str, ...]) -> Stepped:
-        """End the game: the first of these agents gets `ILLEGAL_REWARD`."""
+        """End the game by the illegal answer of the first of these agents."""
         self._illegal = illegal
         both, self.agents = list(self.agents), []
-        earned = {agent: ILLEGAL_REWARD if agent == illegal[0] else 0.0 for agent in both}
+        earned = self.core.rewards_of_illegal(illegal[0])
         observations, information = self._shown(None)
         ended = dict.fromkeys(both, True)
         return observations, earned, ended, dict(ended), information

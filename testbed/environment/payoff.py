@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
-from testbed.environment.rules import ADVERSARY, ROBOT, Rules, Situation, rewards
+from testbed.environment.rules import ADVERSARY, ILLEGAL_REWARD, ROBOT, Rules, Situation, rewards
 from testbed.protocol import NONE
 from testbed.search import BudgetError, Goal, Pose, cheapest_plan, least_knowing
 
@@ -37,6 +37,20 @@ class Payoff:
             robot += ours.shaping * self._progress(now)
         paid = 0.0 if now.event == NONE else self._rules.adversary.cost
         return {ROBOT: robot, ADVERSARY: self._of_adversary(now, robot) - paid}
+
+    def of_illegal(self, now: Situation, agent: str) -> dict[str, float]:
+        """The rewards where an illegal answer of the agent ends the game in place of a step.
+
+        The goal, events and units count for nothing. Shaping ends as it does at any end, so that
+        its sum does not depend on how the game ends.
+        """
+        earned = {own: ILLEGAL_REWARD if own == agent else 0.0 for own in (ROBOT, ADVERSARY)}
+        ours = self._rules.rewards
+        if ours.shaping:
+            shaped = -ours.shaping * self.potential(now.state, now.goal)
+            earned[ROBOT] += shaped
+            earned[ADVERSARY] -= shaped if ours.adversary == "zero_sum" else 0.0
+        return earned
 
     def potential(self, state: int, goal: Goal) -> float:
         """Minus the fewest units that the goal still takes.

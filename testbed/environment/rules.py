@@ -11,6 +11,8 @@ from asp.language import Action, Literal
 from testbed.protocol import Event
 
 ROBOT, ADVERSARY = "robot_0", "adversary_0"
+ILLEGAL_REWARD = -1.0
+"""Of the agent whose illegal answer ends a game, as PettingZoo's classic environments have it."""
 Mode = Choice["never", "colocated", "always"]
 Infos = Choice["numeric", "text"]
 Illegal = Choice["error", "noop", "terminate"]

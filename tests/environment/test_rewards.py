@@ -153,6 +153,45 @@ def test_shaping_adds_the_difference_of_potentials_to_an_episode(name: str, tmp_
         assert sum(added) == pytest.approx(2.0 * (0.0 - start))
 
 
+def _ends_illegally(env: Any, steps: int) -> dict[str, float]:
+    """Discounted sums of a game in which the adversary answers illegally after so many steps."""
+    draw, core, discount = np.random.default_rng(steps), env.core, env.core.rules.rewards.discount
+    earned = dict.fromkeys(env.agents, 0.0)
+    padding = int(env.action_space(ADVERSARY).n) - 1
+    for number in range(steps + 1):
+        answer = int(draw.integers(2, len(core.robot_actions)))
+        event = padding if number == steps else 0
+        if isinstance(env, AECView):
+            env.step(answer)
+            env.step(event)
+            rewarded = env.rewards
+        else:
+            _, rewarded, *_ = env.step({ROBOT: answer, ADVERSARY: event})
+        for agent, own in rewarded.items():
+            earned[agent] += discount**number * own
+    return earned
+
+
+@pytest.mark.parametrize("make", [office_v0.raw_env, office_v0.parallel_env])
+@pytest.mark.parametrize("kind", ["zero_sum", "fail"])
+@pytest.mark.parametrize("name", DOMAINS)
+def test_what_shaping_adds_does_not_depend_on_an_illegal_end(
+    name: str, kind: str, make: Any, tmp_path: Path
+) -> None:
+    rewards = {"adversary": kind, "shaping": 2.0, "discount": 0.9}
+    file = config_of(tmp_path, name)
+    env = make(file, illegal="terminate", padded=True, rewards=rewards)
+    goal, core = tuple(DOMAINS[name].goal), env.core
+    potentials = _potentials(core.world, goal, core.rules.steps)
+    for steps in (0, 1, 4):
+        env.reset(seed=steps)
+        added = -2.0 * potentials[core.situation.state]
+        earned = _ends_illegally(env, steps)
+        assert earned[ROBOT] == pytest.approx(added)
+        shared = added if kind == "zero_sum" else 0.0
+        assert earned[ADVERSARY] == pytest.approx(-(0.9**steps) - shared)
+
+
 def test_where_the_bound_strikes_the_rewards_do_not_guess(tmp_path: Path) -> None:
     file = config_of(tmp_path, "harbour")
     for kind in ("fail", "waste", "regret"):
