@@ -6,10 +6,12 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import ArrayLike, NDArray
 
+from testbed.config import ConfigError
 from testbed.environment import ADVERSARY, ROBOT, Ending, IllegalActionError, rewards
+from testbed.environment.conventions import Conventions
 from testbed.environment.rules import name_of
 from testbed.environment.tables import ENDINGS, Tables
-from testbed.office_v0 import Config, make_core, whole
+from testbed.office_v0 import Config, make_game, whole
 
 Numbers = NDArray[np.int64]
 Bytes = NDArray[np.int8]
@@ -52,10 +54,11 @@ class Batch:
     Gymnasium's: a game that ends begins anew in the same step (SAME_STEP); in the next one, which
     it does not play, whatever its answers (NEXT_STEP); or when `begin` is asked for (DISABLED). An
     answer is the number of an action in `robot_actions` or `adversary_actions`. All arrays that are
-    returned are new.
+    returned are new. With `illegal="noop"` an event that is illegal counts as action 0.
 
     Raises:
-        ConfigError: for a bad configuration, and a number of games that is none.
+        ConfigError: for a bad configuration, a number of games that is none, and for conventions
+            that are not those of batches: `illegal="terminate"`, `padded=True`, `infos="text"`.
         TableError: for a game that tables cannot hold.
         ValueError: for what is no `autoreset_mode`.
     """
@@ -69,7 +72,9 @@ class Batch:
         autoreset_mode: AutoresetMode = AutoresetMode.SAME_STEP,
         **options: Any,
     ) -> None:
-        core = make_core(config, **options)
+        core, conventions = make_game(config, **options)
+        _check(conventions)
+        self._tolerates = conventions.illegal == "noop"
         self.games, self.autoreset_mode = whole("games", games), AutoresetMode(autoreset_mode)
         self.robot_actions, self.adversary_actions = core.robot_actions, core.adversary_actions
         self.fluents = core.world.fluents
@@ -132,8 +137,9 @@ class Batch:
     def step(self, robot_answers: ArrayLike, events: ArrayLike) -> Moves:
         """Play a step of each game by the answers of both agents, (N,) each.
 
-        Raises IllegalActionError, and plays nothing, for an answer that is no action, an event that
-        is illegal beside the robot's answer, and a game that is over and does not begin by itself.
+        Raises IllegalActionError, and plays nothing, for an answer that is no action, a game
+        that is over and does not begin by itself, and an event that is illegal beside the robot's
+        answer, unless that counts as action 0.
         """
         robot, event = self._numbers(ROBOT, robot_answers), self._numbers(ADVERSARY, events)
         anew = np.flatnonzero(self._over) if self._may_be_over else NOBODY
@@ -161,8 +167,12 @@ class Batch:
         places += event
         following = tables.following.reshape(-1).take(places)
         if following.min() < 0:
-            game = int(np.argmax(following < 0))
-            raise IllegalActionError(f"game {game}: {tables.why_not(int(places[game]))}")
+            illegal = np.flatnonzero(following < 0)
+            if not self._tolerates:
+                game = int(illegal[0])
+                raise IllegalActionError(f"game {game}: {tables.why_not(int(places[game]))}")
+            places[illegal] -= event[illegal]
+            following[illegal] = tables.following.reshape(-1).take(places[illegal])
         tables.decide(places, following, self._random)
         late = (self._step >= self._limit).view(np.int8)
         return following, tables.ending.reshape(-1).take(beside) + LATE * late
@@ -214,6 +224,18 @@ class Batch:
         everything = tables.adversary_sees[number, 0, : end + robot]
         everything[:, end:] = 0
         return {ROBOT: tables.robot_sees[number, :end], ADVERSARY: everything}
+
+
+def _check(conventions: Conventions) -> None:
+    """Raises ConfigError for conventions that a batch does not have."""
+    lacking = {
+        'illegal: "terminate"; give "error" or "noop"': conventions.illegal == "terminate",
+        "padded: true; give false, and pad what a call returns": conventions.padded,
+        'infos: "text"; a batch has no infos, give "numeric"': conventions.infos == "text",
+    }
+    found = [f"batch: does not play with {what}" for what, given in lacking.items() if given]
+    if found:
+        raise ConfigError(found)
 
 
 def _rows(table: Bytes) -> Bytes:

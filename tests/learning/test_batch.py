@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode
 
+from testbed.config import ConfigError
 from testbed.environment import ADVERSARY, ROBOT, IllegalActionError
 from testbed.environment.aec import AECView
 from testbed.environment.tables import TableError
@@ -206,6 +207,31 @@ def test_a_game_that_is_over_and_does_not_begin_by_itself_is_not_played() -> Non
         pass
     with pytest.raises(IllegalActionError):
         batch.step(np.zeros(GAMES, int), np.zeros(GAMES, int))
+
+
+@pytest.mark.parametrize("name", CONFIGS)
+def test_an_illegal_event_may_count_as_action_0(name: str, tmp_path: Path) -> None:
+    config, random = _config(name, tmp_path), np.random.default_rng(8)
+    tolerant, strict = (_batch(config, illegal=kind) for kind in ("noop", "error"))
+    illegal = 0
+    for _ in range(STEPS):
+        robot = random.integers(len(strict.robot_actions), size=GAMES)
+        events = random.integers(len(strict.adversary_actions), size=GAMES)
+        legal = strict.adversary_sight(robot).action_mask[np.arange(GAMES), events]
+        given = events.copy()
+        moves, others = tolerant.step(robot, given), strict.step(robot, events * legal)
+        assert tolerant.states == strict.states
+        assert np.array_equal(given, events)
+        assert np.array_equal(moves.ended, others.ended)
+        assert np.array_equal(moves.rewards[ADVERSARY], others.rewards[ADVERSARY])
+        illegal += int((legal == 0).sum())
+    assert illegal
+
+
+@pytest.mark.parametrize("options", [{"illegal": "terminate"}, {"padded": True}, {"infos": "text"}])
+def test_conventions_that_a_batch_does_not_have_are_refused(options: dict[str, object]) -> None:
+    with pytest.raises(ConfigError, match=next(iter(options))):
+        Batch(games=2, **options)
 
 
 def test_a_fine_game_is_refused() -> None:
