@@ -8,6 +8,7 @@ import pytest
 from msgspec import structs
 
 from asp.language import Action, Literal
+from testbed.config import StressSettings
 from testbed.experiment.episodes import Episode, Player
 from testbed.experiment.storyteller import Moment
 from testbed.protocol import FINISH, WAIT, Event
@@ -32,9 +33,8 @@ def _episodes(tmp_path: Path, domain: str, robot: str, *more: str) -> list[Episo
     return found
 
 
-def _broken(episode: Episode, tmp_path: Path) -> list[Finding]:
-    settings = search_in(tmp_path, "greenhouse", "stress.objectives=[principles]").stress
-    return list(principles(episode, settings).findings)
+def _broken(episode: Episode) -> list[Finding]:
+    return list(principles(episode, StressSettings()).findings)
 
 
 @pytest.mark.parametrize("robot", ["intentional", "traditional"])
@@ -44,7 +44,7 @@ def test_the_robots_break_none(domain: str, robot: str, tmp_path: Path) -> None:
         if (robot, told) == ("traditional", "knowledge=seen"):
             continue
         for episode in _episodes(tmp_path, domain, robot, told):
-            assert _broken(episode, tmp_path) == []
+            assert _broken(episode) == []
 
 
 Change = Callable[[Episode, Moment], Moment | None]
@@ -129,7 +129,7 @@ def test_each_is_broken_by_a_robot_that_does_otherwise(rule: str, tmp_path: Path
                     continue
                 tried += 1
                 moments = (*episode.moments[:number], other, *episode.moments[number + 1 :])
-                found = _broken(replace(episode, moments=moments), tmp_path)
+                found = _broken(replace(episode, moments=moments))
                 if (rule, moment.percept.step) in {(own.rule, own.step) for own in found}:
                     return
     pytest.fail(f"{rule} was not found in {tried} episodes in which it was broken")
