@@ -25,6 +25,7 @@ from benchmarks import (
     mutation,
     peers,
     refinements,
+    robustness,
     rooms,
     worlds,
     zooming,
@@ -57,6 +58,7 @@ BENCHMARKS: Mapping[str, Callable[[str], list[Sheet]]] = {
     "branches": branches.main,
     "environments": environments.main,
     "fairness": fairness.main,
+    "robustness": robustness.main,
 }
 
 FIGURES: Mapping[str, Callable[[list[Sheet], Path], None]] = {

@@ -23,6 +23,14 @@ class Kind(NamedTuple):
         return f"{self.robot}: {self.objective}, {self.rule}{after}"
 
 
+class Group(NamedTuple):
+    """Episodes of one robot with so many events, under one condition of a sweep ("" of none)."""
+
+    robot: str
+    condition: str
+    events: int
+
+
 class Example(NamedTuple):
     """An episode with a finding: fewer events are simpler, then fewer steps, then likelier ones."""
 
@@ -39,16 +47,18 @@ class Example(NamedTuple):
 class Catalogue:
     """What was played so far, and what was found in it.
 
-    `kinds` has the simplest episode of each, `met` the number of episodes of each, `episodes` those
-    played by robot; `left_out` are next events that were not tried.
+    `kinds` has the simplest episode of each, `met` the number of episodes of each, `under` the
+    conditions. Of each group of episodes `episodes` is the number, `failed` that of those with a
+    finding. `left_out` are next events that were not tried.
     """
 
     units: int = 0
     cases: int = 0
     left_out: int = 0
-    episodes: Counter[str] = field(default_factory=Counter)
-    failed: Counter[str] = field(default_factory=Counter)
+    episodes: Counter[Group] = field(default_factory=Counter)
+    failed: Counter[Group] = field(default_factory=Counter)
     met: Counter[Kind] = field(default_factory=Counter)
+    under: dict[Kind, set[str]] = field(default_factory=dict)
     kinds: dict[Kind, Example] = field(default_factory=dict)
     greatest: dict[str, float] = field(default_factory=dict)
 
@@ -58,9 +68,10 @@ class Catalogue:
         self.units += 1
         self.cases += isinstance(unit, Branching) and not unit.events
         self.left_out += result.left_out
-        self.episodes[robot] += len(result.judged)
         for judged in result.judged:
-            self.failed[robot] += bool(judged.findings)
+            group = Group(robot, unit.case.cell, len(judged.events))
+            self.episodes[group] += 1
+            self.failed[group] += bool(judged.findings)
             self.greatest[robot] = max(judged.score, self.greatest.get(robot, 0.0))
             for kind, finding in _kinds(robot, judged):
                 self._take(kind, unit, judged, finding)
@@ -68,6 +79,7 @@ class Catalogue:
 
     def _take(self, kind: Kind, unit: Branching | Drawing, judged: Judged, found: Finding) -> None:
         self.met[kind] += 1
+        self.under.setdefault(kind, set()).add(unit.case.cell)
         unlikely = -(judged.chance or 0.0)
         text = f"{unit.case.trial} {judged.events}"
         size = len(judged.events), judged.length, unlikely, text

@@ -2,6 +2,7 @@
 
 import json
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from concurrent.futures.process import BrokenProcessPool
@@ -15,7 +16,7 @@ from testbed.experiment.run_folder import SUMMARY, replace_text
 from testbed.experiment.snapshots import SnapshotError
 from testbed.experiment.specs import TrialSpec
 from testbed.stress.cases import cases_of
-from testbed.stress.catalogue import Catalogue, Example, Kind
+from testbed.stress.catalogue import Catalogue, Example, Group, Kind
 from testbed.stress.executors import executor_of
 from testbed.stress.journal import Journal
 from testbed.stress.search import Search, results
@@ -135,15 +136,25 @@ def summary(status: Status) -> dict[str, object]:
         "units": found.units,
         "events_left_out": found.left_out,
         "seconds": round(status.seconds, 3),
-        "episodes": dict(sorted(found.episodes.items())),
-        "with_findings": {robot: found.failed[robot] for robot in sorted(found.episodes)},
+        "episodes": _by_robot(found.episodes),
+        "with_findings": _by_robot(found.failed),
+        "groups": [
+            {**own._asdict(), "episodes": number, "with_findings": found.failed[own]}
+            for own, number in sorted(found.episodes.items())
+        ],
         "greatest_score": dict(sorted(found.greatest.items())),
         "kinds": [
             {
                 **kind._asdict(),
                 "episodes": number,
+                "conditions": sorted(found.under[kind]),
                 "first_after_s": round(status.first_s.get(kind, 0.0), 3),
             }
             for kind, number in sorted(found.met.items())
         ],
     }
+
+
+def _by_robot(numbers: Counter[Group]) -> dict[str, int]:
+    robots = sorted({own.robot for own in numbers})
+    return {name: sum(n for own, n in numbers.items() if own.robot == name) for name in robots}
