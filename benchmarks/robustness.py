@@ -60,7 +60,7 @@ HUNTS: Mapping[str, Hunt] = {
         "relevance: [definition, published]",
         ["levels=[L1, L2, L3]", "limit=4", "adversary.rate=0", "statistics={}"],
     ),
-    "joint": Hunt("stress", ["intentional-joint"], 12, 2, more=["limit=1"]),
+    "joint": Hunt("stress", ["intentional-joint-staged"], 12, 2, more=["limit=1"]),
 }
 
 
