@@ -74,8 +74,10 @@ class Random:
         self.reset(0)
 
     def reset(self, seed: int) -> None:
+        """Begins a trial, before it in a burst as often as at any later step."""
         self._random = np.random.default_rng(seed)
-        self._goes_on = False
+        options = self._options
+        self._goes_on = options.burst > 1 and bool(self._random.random() < options.rate)
 
     def act(self, view: AdversaryView) -> Action:
         if view.step < self._options.delay or not self._happens():

@@ -69,6 +69,23 @@ def test_a_burst_is_as_long_on_average_as_it_is_to_be_at_the_same_rate(
     assert np.mean(lengths) == pytest.approx(burst / (1 - begins), rel=0.1)
 
 
+@pytest.mark.parametrize("delay", [0, 3])
+@pytest.mark.parametrize("rate", [0.05, 0.3])
+def test_the_rate_is_that_of_each_step_from_the_first_on(rate: float, delay: int) -> None:
+    adversary, trials = at_rate(rate, burst=4.0, delay=delay), 2500
+    acts = np.zeros(9)
+    for seed in range(trials):
+        adversary.reset(seed)
+        for step in range(1, len(acts)):
+            seen = replace(view([NONE, *EVENTS[:1]]), step=step)
+            acts[step] += adversary.act(seen) != NONE
+    first = max(1, delay)
+    assert not acts[:first].any()
+    # Four standard deviations of a share: a false alarm once in some thousand seeds.
+    wanted = pytest.approx(rate, abs=4 * (rate * (1 - rate) / trials) ** 0.5)
+    assert [*(acts[first:] / trials)] == [wanted] * (len(acts) - first)
+
+
 def test_by_default_what_is_drawn_is_what_was_always_drawn() -> None:
     """As the strategy was before it had more options: a coin, then a thing, then an event."""
     for seed in range(5):
