@@ -138,6 +138,11 @@ def _domain_findings(
     yield from _names(("observability",), config.observability, signature, "exogenous", why)
     if not description.robots:
         yield ("domain",), NO_ROBOT
+    if config.initial is None:
+        try:
+            world.check_begins()
+        except StateError as error:
+            yield ("domain",), str(error)
     if not config.goal:
         yield ("goal",), f"should not be empty; for example {GOAL}"
     yield from event_findings(config.adversary, signature)

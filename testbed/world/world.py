@@ -109,9 +109,18 @@ class World(ABC):
         """The states that have all that the description asks of an initial one, in that order."""
         return self._initial_states
 
+    def check_begins(self) -> None:
+        """Raises StateError where there is no initial state; it looks for the first one."""
+        if next(self._initial(), None) is None:
+            why = "no state has all that its section 'initially' asks for; change it, or the laws"
+            raise StateError(f"has no initial state: {why}")
+
     @cached_property
     def _initial_states(self) -> tuple[int, ...]:
-        return tuple(s for s in self.states() if all(s & mask for mask, _ in self._needed))
+        return tuple(self._initial())
+
+    def _initial(self) -> Iterator[int]:
+        return (s for s in self.states() if all(s & mask for mask, _ in self._needed))
 
     def bare(self) -> int:
         """A state in which nothing is true but what must be. Raises StateError if there is none."""

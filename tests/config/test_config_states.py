@@ -1,11 +1,16 @@
 """Goals and initial states of a configuration that the laws of its domain forbid."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from testbed import office_v0
 from testbed.config import load_config
 from tests.config.tiny import LAMP, VALID, file_of, refusal
+from tests.environment.coarse import FERRY
+from tests.games import HARBOUR
+from tests.greenhouse import GREENHOUSE
 
 pytestmark = pytest.mark.versions
 
@@ -68,3 +73,26 @@ def test_a_goal_that_no_state_has_is_refused_where_no_law_says_so_by_itself(tmp_
     assert refused("[-hot]") == [prefix + "-hot cannot hold"]
     allowed = [*given, "initial=[lit,hot]", "goal=[-safe,lit]"]
     assert load_config(file_of(tmp_path, VALID), allowed).goal == ("-safe", "lit")
+
+
+NOWHERE = {
+    "pots": (GREENHOUSE, "-stands(rose,B).", "-stands(rose,sill)"),
+    "ferry": (FERRY, "-moored(cabbage,B) if bank(B).", "moored(goat,island)"),
+    "harbour": (HARBOUR, "-stands(mate,B) if berth(B).", "lies(silk,west)"),
+}
+"""Domains, laws that leave no state in which each thing is somewhere, and goals that remain."""
+
+
+@pytest.mark.parametrize("name", NOWHERE)
+@pytest.mark.parametrize("read", [load_config, office_v0.env])
+def test_a_domain_in_which_no_game_can_begin_is_refused(
+    tmp_path: Path, name: str, read: Callable[..., object]
+) -> None:
+    text, law, goal = NOWHERE[name]
+    config = f"name: tiny\ndomain: {name}.al\ngoal: ['{goal}']\n"
+    domain = tmp_path / f"{name}.al"
+    domain.write_text(text, encoding="utf-8")
+    read(file_of(tmp_path, config))
+    domain.write_text(text.replace("laws\n", f"laws\n  {law}\n"), encoding="utf-8")
+    (line,) = refusal(tmp_path, config, read=lambda file, _: read(file))
+    assert line.startswith("tiny.yaml:2: domain: ")
