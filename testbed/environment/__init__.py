@@ -22,6 +22,7 @@ from testbed.environment.rules import Infos as Infos
 from testbed.environment.rules import Mode as Mode
 from testbed.environment.rules import NotResetError as NotResetError
 from testbed.environment.rules import Observability as Observability
+from testbed.environment.rules import ResetOptionError as ResetOptionError
 from testbed.environment.rules import Rewards as Rewards
 from testbed.environment.rules import RobotReward as RobotReward
 from testbed.environment.rules import Rules as Rules

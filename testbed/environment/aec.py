@@ -41,9 +41,9 @@ class AECView(View, AECEnv[str, Observation, int | None]):
     """A view of a core: two answers a step, the second of which plays it.
 
     An answer outside the mask raises IllegalActionError and changes nothing, unless conventions say
-    otherwise. `reset` takes the
-    options `initial` (literals: begin there, raises StateError) and `trial` (an id for percepts),
-    and raises UnknownOptionError for others. Before it, what needs a game raises NotResetError.
+    otherwise. `reset` takes the options `initial` (literals: begin there, raises StateError) and
+    `trial` (an id for percepts), and raises ResetOptionError for what these cannot be, and for
+    others. Before it, what needs a game raises NotResetError.
     """
 
     _answered: int | None = None

@@ -28,7 +28,11 @@ class UnknownAgentError(ValueError):
     """The name of an agent that is not one of the environment's; one line names these."""
 
 
-class UnknownOptionError(ValueError):
+class ResetOptionError(ValueError):
+    """What `reset` cannot take as options; one line says what is wrong with them."""
+
+
+class UnknownOptionError(ResetOptionError):
     """A key of `reset(options=...)` that means nothing; one line says which is likely meant."""
 
 

@@ -6,26 +6,15 @@ from typing import Any, ClassVar
 import numpy as np
 from gymnasium import spaces
 
-from asp.language import Action, suggestion
+from asp.language import Action
 from testbed.environment.conventions import Conventions, infos, padded
 from testbed.environment.core import Core
 from testbed.environment.observation import Observation, Vector, dtype_of, observe, vector
+from testbed.environment.options import read_options
 from testbed.environment.rendering import MODES, Image, Window, html_of, render
-from testbed.environment.rules import (
-    ADVERSARY,
-    ROBOT,
-    Ending,
-    NotResetError,
-    UnknownOptionError,
-    known_agent,
-    name_of,
-)
+from testbed.environment.rules import ADVERSARY, ROBOT, Ending, NotResetError, known_agent, name_of
 
 DEFAULT = Conventions()
-OPTIONS = ("initial", "trial")
-"""The keys of `reset(options=...)`."""
-_PROBE = "options"
-"""A key that PettingZoo's own tests give, and that means nothing."""
 
 
 class View:
@@ -144,13 +133,9 @@ class View:
             raise NotResetError
 
     def _begin(self, seed: int | None, options: dict[str, Any] | None) -> None:
-        """Begins a game; of the options `initial` are literals and `trial` an id, both optional."""
-        chosen = options or {}
-        for key in chosen:
-            if key not in (*OPTIONS, _PROBE):
-                near = suggestion(key, OPTIONS)
-                raise UnknownOptionError(f"reset: {key!r} is not an option; {near}")
-        self.core.reset(seed, chosen.get("initial"), chosen.get("trial", ""))
+        """Begins a game."""
+        chosen = read_options(options)
+        self.core.reset(seed, chosen.initial, chosen.trial)
         self.agents = list(self.possible_agents)
         self._illegal = ()
 

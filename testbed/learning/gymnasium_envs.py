@@ -15,6 +15,7 @@ from agents.adversary import Adversary
 from testbed.config import NO_EVENTS, ConfigError, ExperimentConfig
 from testbed.environment import ADVERSARY, ROBOT, IllegalActionError
 from testbed.environment.observation import Observation, Vector
+from testbed.environment.options import read_options
 from testbed.environment.rendering import MODES, Image
 from testbed.experiment.adversaries import AdversaryError
 from testbed.experiment.record import COARSE
@@ -69,10 +70,12 @@ class _Side(gymnasium.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation | Vector, dict[str, Any]]:
-        """Begin a game; options as for `reset` of the AEC environment."""
+        """Begin a game; options, and errors, as for `reset` of the AEC environment."""
+        chosen = read_options(options)
         super().reset(seed=seed)
         self._games += 1
-        self.game.reset(self._draw(), {"trial": str(self._games), **(options or {})})
+        trial = chosen.trial or str(self._games)
+        self.game.reset(self._draw(), {"initial": chosen.initial, "trial": trial})
         self._begin(self._spec())
         return self._seen(), self.game.infos[self.agent]
 

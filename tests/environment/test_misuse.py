@@ -18,9 +18,11 @@ from testbed.environment import (
     ROBOT,
     IllegalActionError,
     NotResetError,
+    ResetOptionError,
     UnknownAgentError,
     UnknownOptionError,
 )
+from testbed.learning import RobotEnv
 from testbed.world import StateError
 
 MAKERS = [office_v0.env, office_v0.raw_env, office_v0.parallel_env]
@@ -160,6 +162,36 @@ def test_an_unknown_option_of_reset_is_told_what_was_meant(make: Callable[..., A
     with pytest.raises(UnknownOptionError, match=r"'intial'.*'initial'"):
         env.reset(seed=0, options={"intial": []})
     env.reset(seed=0, options={"options": 1})  # as PettingZoo's own tests do
+
+
+@pytest.mark.parametrize("make", [*MAKERS, RobotEnv])
+@pytest.mark.parametrize(
+    "options",
+    [
+        "initial",
+        ["initial"],
+        5,
+        {5: 3},
+        {"initial": "watered(north)"},
+        {"initial": {"watered(north)": True}},
+        {"initial": 5},
+        {"trial": 5},
+        {"trial": None},
+    ],
+)
+def test_options_of_another_type_are_refused_and_nothing_has_changed(
+    make: Callable[..., Any], options: Any, garden: dict[str, Any]
+) -> None:
+    first, second = (make(**garden) for _ in range(2))
+    first.reset(seed=4)
+    second.reset(seed=4)
+    with pytest.raises(ResetOptionError, match=r"^reset: "):
+        first.reset(seed=5, options=options)
+    for _ in range(3):
+        for env in (first, second):
+            env.reset()
+        one, other = (getattr(env, "game", env).state() for env in (first, second))
+        assert np.array_equal(one, other)
 
 
 @pytest.mark.parametrize("item", [3, None, ["watered(north)"]])
