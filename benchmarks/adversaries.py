@@ -6,7 +6,7 @@ import numpy as np
 
 from asp.language import Literal
 from benchmarks.sheets import DisagreementError, Row, Sheet, gathered
-from testbed.analysis.bootstrap import Values
+from testbed.analysis.bootstrap import Values, bootstrap, means, sample_of
 from testbed.analysis.statistics import signed_rank
 from testbed.config import load_config
 from testbed.experiment.plan import plan_trials
@@ -17,12 +17,16 @@ from testbed.link import InProcessRobot
 
 ROBOTS = ("traditional", "intentional")
 BASELINE = "random"
-STRATEGIES = (BASELINE, "meddler", "belief", "greedy", "learned", "optimal")
-OPTIONS = {
-    BASELINE: "adversary.rate=0.3",
-    "learned": "adversary.options={{policy: office-{robot}}}",
+STRATEGIES: Mapping[str, Sequence[str]] = {
+    BASELINE: ["adversary.strategy=random", "adversary.rate=0.3"],
+    "random, rate 1": ["adversary.strategy=random", "adversary.rate=1"],
+    "meddler": ["adversary.strategy=meddler"],
+    "belief": ["adversary.strategy=belief"],
+    "greedy": ["adversary.strategy=greedy"],
+    "learned": ["adversary.strategy=learned", "adversary.options={{policy: office-{robot}}}"],
+    "optimal": ["adversary.strategy=optimal"],
 }
-"""Of the others an event happens wherever it is worth anything."""
+"""Of those without a rate an event happens wherever it is worth anything."""
 Start = tuple[Literal, ...]
 TRIALS, BUDGET = {"small": 3, "full": 96}, {"small": 1, "full": 2}
 BOUNDED = {"small": 2, "full": 20}
@@ -33,8 +37,9 @@ def main(size: str) -> list[Sheet]:
     """Sheet `adversaries`. Raises DisagreementError where one costs more than the optimal one."""
     notes = (
         f"office, scenario 1 without its triggers, fair events, a budget of {BUDGET[size]};",
-        "units: those of all attempts; extra: beyond the optimum without events; p and effect:",
-        f"signed ranks of units against those of {BASELINE} from the same state, not corrected",
+        "units: those of all attempts; shared: of the trials from the states of optimal alone;",
+        f"extra: beyond the optimum without events; more: than {BASELINE} from the same state,",
+        "with its 95% bootstrap interval; p and effect: signed ranks of that, not corrected",
     )
     rows = gathered(_rows(TRIALS[size], BOUNDED[size], BUDGET[size]))
     return [Sheet("adversaries", "Execution units that adversaries cost robots", rows, notes)]
@@ -49,7 +54,9 @@ def _rows(trials: int, bounded: int, budget: int) -> Iterator[Row]:
         units = {name: _units(own) for name, own in records.items()}
         check_bound(robot, units)
         for name, own in records.items():
-            test = signed_rank(_differences(units[name], units[BASELINE]))
+            more = _differences(units[name], units[BASELINE])
+            test, mean = signed_rank(more), bootstrap(means, sample_of(more))
+            assert mean is not None, "trials were played"
             yield {
                 "robot": robot,
                 "strategy": name,
@@ -57,7 +64,11 @@ def _rows(trials: int, bounded: int, budget: int) -> Iterator[Row]:
                 "achieved": sum(record.achieved for record in own),
                 "events": float(np.mean([len(record.exogenous) for record in own])),
                 "units": float(np.mean([*units[name].values()])),
+                "shared": float(np.mean([units[name][start] for start in units["optimal"]])),
                 "extra": float(np.mean([_extra(record) for record in own])),
+                "more": mean.value,
+                "low": mean.low,
+                "high": mean.high,
                 "p": None if test is None else test.p,
                 "effect": None if test is None else test.effect,
             }
@@ -70,8 +81,7 @@ def _played(robot: str, strategy: str, trials: int, budget: int) -> list[TrialRe
         f"limit={trials}",
         f"adversary.budget={budget}",
         "adversary.fair=true",
-        f"adversary.strategy={strategy}",
-        *([OPTIONS[strategy].format(robot=robot)] if strategy in OPTIONS else []),
+        *(given.format(robot=robot) for given in STRATEGIES[strategy]),
     ]
     client = InProcessRobot(make_robot)
     return [play_trial(spec, client).record for spec in plan_trials(load_config("office", given))]
