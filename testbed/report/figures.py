@@ -96,7 +96,7 @@ def _map(chart: Chart) -> Figure:
     figure, axes = _blank(WIDTH, FRAME_HEIGHT + MAP_HEIGHT * (len(chart.places) + 1))
     draw_map(axes, chart, COLOURS["first"], INK)
     if chart.under:
-        axes.set_xlabel(fill(plain(chart.under), LETTERS), color=SOFT)
+        axes.set_xlabel(fill(plain(chart.under), LETTERS), color=SOFT, loc="right")
     return figure
 
 

@@ -125,6 +125,6 @@ def test_the_packaged_one_has_each_adversary_at_each_rate() -> None:
     config = load_config("tournament")
     adversaries, observability = config.sweep.axes
     strategies = {own["adversary.strategy"] for own in adversaries.points.values()}
-    assert strategies == {"none", "random", "meddler", "belief", "greedy"}
-    assert len(adversaries.points) == 9
+    assert strategies == {"none", "random", "meddler", "belief", "greedy", "learned"}
+    assert len(adversaries.points) == 11
     assert len(observability.points) == 2
