@@ -94,7 +94,22 @@ class Batch:
     @property
     def states(self) -> list[int]:
         """The state of each game, as the worlds of `testbed.world` have it."""
-        return [self.tables.states[number] for number in self._position >> 1]
+        return [self.tables.states[number] for number in self.numbers]
+
+    @property
+    def numbers(self) -> Numbers:
+        """The number of each game's state in the tables, (N,)."""
+        return self._position >> 1
+
+    @property
+    def steps(self) -> Numbers:
+        """The step that each game is at, (N,); the first is 1."""
+        return self._step.copy()
+
+    @property
+    def over(self) -> Flags:
+        """Whether each game has ended, and not begun anew, (N,)."""
+        return self._over.copy()
 
     def begin(self, which: ArrayLike | None = None, seed: int | None = None) -> None:
         """Begin games anew: all, or those where `which`, (N,), is true.
