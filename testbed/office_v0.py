@@ -13,8 +13,10 @@ resolution.
 
 import json
 from numbers import Integral
-from os import PathLike
+from os import PathLike, fspath
 from typing import Any, TypeAlias
+
+import numpy as np
 
 from asp import load_description
 from asp.language import suggestion
@@ -135,7 +137,25 @@ def read_config(
         lines = [f"{name}: unknown key; {suggestion(name, choices)}" for name in unknown]
         raise ConfigError([f"keyword argument: {line}" for line in lines])
     chosen = overrides if level is None else {**overrides, "levels": [level]}
-    changes = [f"{key}={json.dumps(value)}" for key, value in chosen.items()]
+    changes = [f"{key}={_written(key, value)}" for key, value in chosen.items()]
     packaged = "office" if level is None else "levels"
     source = packaged if config is None else str(config)
     return load_config(source, changes, given_in="keyword argument")
+
+
+def _written(key: str, value: Any) -> str:
+    """A value as an override has it. Raises ConfigError for one that no configuration can have."""
+    try:
+        return json.dumps(value, default=_plain)
+    except (TypeError, ValueError) as error:
+        wanted = "should be numbers, text, truth values, lists and dictionaries"
+        raise ConfigError([f"keyword argument: {key}: {wanted}; {error}"]) from None
+
+
+def _plain(value: Any) -> Any:
+    """The Python value of NumPy's scalars and arrays, the text of a path. Raises TypeError."""
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    if isinstance(value, PathLike):
+        return fspath(value)
+    raise TypeError(f"{type(value).__name__} is none of these")

@@ -156,6 +156,35 @@ def test_an_unknown_agent_is_told_the_known_ones(ask: str) -> None:
         getattr(env, ask)("nobody")
 
 
+@pytest.mark.parametrize(
+    ("given", "plain"),
+    [
+        ({"goal_feedback": np.bool_(False)}, {"goal_feedback": False}),
+        ({"seed": np.int64(3)}, {"seed": 3}),
+        ({"rewards": {"step": np.float32(0.5)}}, {"rewards": {"step": 0.5}}),
+        ({"adversary.budget": np.uint8(2)}, {"adversary.budget": 2}),
+        ({"initial": np.array(["watered(south)"])}, {"initial": ["watered(south)"]}),
+    ],
+)
+def test_values_of_numpy_are_those_of_python(
+    given: dict[str, Any], plain: dict[str, Any], garden: dict[str, Any]
+) -> None:
+    one, other = (office_v0.read_config(**garden, **own) for own in (given, plain))
+    assert one == other
+    assert one.model_dump_json() == other.model_dump_json()
+
+
+def test_a_path_is_its_text(garden: dict[str, Any]) -> None:
+    path = Path(garden["domain"])
+    assert office_v0.read_config(**{**garden, "domain": path}).domain == str(path)
+
+
+@pytest.mark.parametrize("value", [object(), {"watered(south)"}, [np.datetime64(1, "s")], 3j])
+def test_what_no_configuration_can_have_is_refused(value: object, garden: dict[str, Any]) -> None:
+    with pytest.raises(ConfigError, match=r"^keyword argument: initial: "):
+        office_v0.env(**garden, initial=value)
+
+
 @pytest.mark.parametrize("make", MAKERS)
 def test_an_unknown_option_of_reset_is_told_what_was_meant(make: Callable[..., Any]) -> None:
     env = make()
