@@ -10,6 +10,7 @@ from testbed.experiment.adversaries import AdversaryError
 from testbed.experiment.robots import make_robot
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial import adversary_view
+from testbed.learning.checks import check_adversary, check_robot
 from testbed.learning.remembered import Remembered
 from testbed.learning.sides import Form, Side, check_choice
 from testbed.learning.table_robots import Table, is_table, table_of
@@ -31,7 +32,8 @@ class AdversaryEnv(Side):
     the adversary sees. Configuration and options are those of `office_v0.env`.
 
     Raises:
-        ConfigError: for a bad configuration, and for one of the fine resolution.
+        ConfigError: for a bad configuration, for one of the fine resolution, and for a robot that
+            there is not.
         RobotLost: by `reset` and `step`, where the robot fails, or its table lacks the state.
         UnlikeError: by these, where a remembered robot answers otherwise than before.
     """
@@ -54,6 +56,8 @@ class AdversaryEnv(Side):
         super().__init__(config, name, scenario, observations, render_mode, **options)
         self._table = table_of(robot, self.game.core) if by_table else None
         check_choice("link", link, ("inprocess",) if by_table else get_args(Link))
+        if self._table is None:
+            check_robot(self.config, robot)
         self._link, self._remembers = link, remember
         self._client: RobotClient | None = None
         self._memory: Remembered | None = None
@@ -115,7 +119,8 @@ class RobotEnv(Side):
     the scenario. Configuration and options are those of `office_v0.env`.
 
     Raises:
-        ConfigError: for a bad configuration, and for one of the fine resolution.
+        ConfigError: for a bad configuration, for one of the fine resolution, and for an adversary
+            that cannot be made.
         AdversaryError: by `reset` and `step`, where the adversary fails.
     """
 
@@ -131,6 +136,7 @@ class RobotEnv(Side):
     ) -> None:
         super().__init__(config, "learner", scenario, observations, render_mode, **options)
         self._adversary: Adversary | None = None
+        check_adversary(self.config, lambda: self._setup.adversary(self._trial))
 
     def _begin(self, spec: TrialSpec) -> None:
         self._adversary = self._setup.adversary(spec)

@@ -6,6 +6,7 @@ from typing import Any, ClassVar, SupportsInt, TypeAlias, get_args
 from typing import Literal as Choice
 
 import gymnasium
+import msgspec
 import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
@@ -45,17 +46,28 @@ class Side(gymnasium.Env[Any, Any]):
         render_mode: str | None,
         **options: Any,
     ) -> None:
-        self.config, self._scenario = of_scenario(config, scenario, **options)
+        self.config, played = of_scenario(config, scenario, **options)
         self.game = raw_env(self.config, render_mode)
         self.render_mode = render_mode
         check_choice("observations", observations, get_args(Form))
-        self._robot, self._flat = robot, observations == "flat"
+        self._flat = observations == "flat"
         known = self.game.observation_space(self.agent)
         assert isinstance(known, spaces.Dict)
         self.observation_space = known["observation"] if self._flat else known
         self.action_space = self.game.action_space(self.agent)
-        self._setting = setting_of(self.config, self._scenario)
-        self._setup = setup_of(self._setting)
+        setting = setting_of(self.config, played)
+        self._setup = setup_of(setting)
+        self._trial = TrialSpec(
+            trial="",
+            pair="",
+            scenario=played,
+            level=COARSE,
+            seed=0,
+            robot=robot,
+            initial=(),
+            domain=self.game.core.world.description.name,
+            setting=setting,
+        )
         self._games = 0
 
     def reset(
@@ -111,17 +123,9 @@ class Side(gymnasium.Env[Any, Any]):
 
     def _spec(self) -> TrialSpec:
         core = self.game.core
-        return TrialSpec(
-            trial=core.situation.trial,
-            pair=core.situation.trial,
-            scenario=self._scenario,
-            level=COARSE,
-            seed=self._draw(),
-            robot=self._robot,
-            initial=core.world.true_atoms(core.situation.state),
-            domain=core.world.description.name,
-            setting=self._setting,
-        )
+        name, begun = core.situation.trial, core.world.true_atoms(core.situation.state)
+        changed = {"trial": name, "pair": name, "seed": self._draw(), "initial": begun}
+        return msgspec.structs.replace(self._trial, **changed)
 
     def _draw(self) -> int:
         return int(self.np_random.integers(SEEDS))

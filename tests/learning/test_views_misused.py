@@ -1,5 +1,6 @@
 """The sides of a game after errors inside, and what is wrong with their parameters."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -83,6 +84,31 @@ def test_after_the_end_nothing_is_played() -> None:
 def test_a_wrong_parameter_is_said_when_it_is_given(make: Any, part: str) -> None:
     with pytest.raises(ConfigError, match=part):
         make()
+
+
+@pytest.mark.parametrize("robot", ["nobody", "os:path", "human", 5])
+@pytest.mark.parametrize("link", ["inprocess", "zenoh"])
+def test_a_robot_that_cannot_play_is_refused_when_it_is_named(link: Any, robot: Any) -> None:
+    with pytest.raises(ConfigError, match="robot"):
+        AdversaryEnv("office", robot, link=link)
+
+
+@pytest.mark.parametrize(
+    ("adversary", "key"),
+    [
+        ({"strategy": "rndom"}, "adversary.strategy"),
+        ({"strategy": "human"}, "adversary.strategy"),
+        ({"strategy": "random", "options": {"bursd": 2}}, "adversary.options.bursd"),
+        ({"strategy": "optimal"}, "adversary.budget"),
+        ({"strategy": "optimal", "budget": 1}, "rehearse"),
+        ({"strategy": "learned", "options": {"policy": "nowhere"}}, "nowhere"),
+    ],
+)
+def test_an_adversary_that_cannot_play_is_refused_when_it_is_named(
+    adversary: dict[str, Any], key: str
+) -> None:
+    with pytest.raises(ConfigError, match=re.escape(key)):
+        RobotEnv("office", adversary=adversary)
 
 
 def test_a_batch_takes_masks_and_modes_alone() -> None:
