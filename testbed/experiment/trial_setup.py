@@ -2,6 +2,7 @@
 
 from functools import lru_cache, partial
 from math import inf
+from typing import Any
 
 import msgspec
 
@@ -39,6 +40,10 @@ class TrialSetup:
     def robot(self) -> str:
         """The constant that is the robot."""
         return self._world.description.robots[0]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A copy begins without what is remembered."""
+        return type(self), (self._world,)
 
     def core(self, setting: Setting) -> Core:
         """A new game."""
@@ -103,6 +108,9 @@ class FineTrialSetup(TrialSetup):
         self.judge = Judge(partial(coarse_problem, refinement), self.costs)
         inertial = self._fine.description.inertial
         self._about_robot = [fluent for fluent in inertial if self.robot in fluent.arguments]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._refinement,)
 
     def core(self, setting: Setting) -> Core:
         """A new game, with the setting's statistics and pace."""

@@ -73,6 +73,15 @@ class AdversaryEnv(Side):
         self._client = self._memory = None
         super().close()
 
+    def __getstate__(self) -> dict[str, Any]:
+        """The mind of a robot cannot be copied: a copy has another robot, and no game yet."""
+        return {**vars(self), "_client": None, "_memory": None, "_open": ExitStack()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        if self._table is None:
+            self.game.agents = []
+
     def _begin(self, spec: TrialSpec) -> None:
         if self._table is None:
             self._tell(spec)

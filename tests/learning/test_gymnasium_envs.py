@@ -1,5 +1,8 @@
 """One side of a game as a Gymnasium environment, against trials and PettingZoo's environment."""
 
+import pickle
+from collections.abc import Callable
+from copy import deepcopy
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -129,6 +132,56 @@ def test_an_illegal_event_is_what_the_conventions_say(kind: str) -> None:
     else:
         _, reward, terminated, *_ = env.step(illegal)
         assert (reward, terminated) == (-1, True)
+
+
+STRATEGIES: list[dict[str, Any]] = [
+    {"strategy": "random", "rate": 0.6, "options": {"burst": 3.0}},
+    {"strategy": "meddler"},
+    {"strategy": "belief"},
+    {"strategy": "greedy"},
+]
+
+
+@pytest.mark.parametrize("copied", [deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
+@pytest.mark.parametrize("adversary", STRATEGIES)
+def test_a_copy_of_the_robots_side_plays_on_as_the_original(
+    config: str, adversary: dict[str, Any], copied: Callable[[Any], Any]
+) -> None:
+    keys = {"adversary": adversary, "exogenous_while_thinking": True, "max_cycles": 5}
+    env, random = RobotEnv(config, **keys), np.random.default_rng(2)
+    copies = [copied(env)]
+    env.reset(seed=3)
+    copies[0].reset(seed=3)
+    over = False
+    for step in range(8):
+        answer = random.choice(np.flatnonzero(env.action_masks()))
+        own = env.reset() if over else env.step(answer)
+        others = [copy.reset() if over else copy.step(answer) for copy in copies]
+        assert all(data_equivalence(other, own) for other in others)
+        over = not over and any(own[2:4])
+        if step in (1, 4):
+            copies.append(copied(env))
+
+
+def test_a_copy_of_the_adversarys_side_has_another_robot_and_no_game() -> None:
+    env = AdversaryEnv("office", "traditional", max_cycles=8)
+    env.reset(seed=3)
+    copy = pickle.loads(pickle.dumps(env))
+    with pytest.raises(IllegalActionError, match="reset"):
+        copy.step(0)
+    one, other = (_finished(own, 4, np.random.default_rng(1)) for own in (env, copy))
+    assert data_equivalence(one, other)
+
+
+def test_a_copy_of_the_adversarys_side_with_a_table_robot_plays_on(config: str) -> None:
+    env, random = AdversaryEnv(config, "cheapest", max_cycles=8), np.random.default_rng(2)
+    env.reset(seed=3)
+    copy, over = pickle.loads(pickle.dumps(env)), False
+    while not over:
+        answer = random.choice(np.flatnonzero(env.action_masks()))
+        own = env.step(answer)
+        assert data_equivalence(copy.step(answer), own)
+        over = any(own[2:4])
 
 
 def _robots(of: psutil.Process) -> list[int]:
