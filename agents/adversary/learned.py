@@ -1,6 +1,6 @@
 """An adversary that plays a policy which was learned, from a file of plain arrays."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +11,8 @@ import numpy as np
 from agents.adversary.base import AdversaryView, Game, Sight
 from agents.adversary.policy import Policy, load_policy
 from asp.language import Action
-from testbed.protocol import NONE
+from testbed.protocol import FINISH, NONE, WAIT
+from testbed.world import World
 
 PACKAGED = Path(__file__).parent / "policies"
 DOES, LEFT = "does ", "left "
@@ -47,22 +48,24 @@ class Learned:
             is_packaged = Path(self.policy).name == self.policy and packaged.is_file()
             return load_policy(packaged if is_packaged else Path(self.policy))
 
-        @property
-        def named_events(self) -> Mapping[str, Collection[str]]:
-            """The names of exogenous actions that the policy knows, by option."""
-            names = (own.partition("(")[0] for own in self.network.actions if own != NONE)
-            return {"policy": [*dict.fromkeys(names)]}
+        def misfits(self, world: World) -> Iterator[tuple[str, str]]:
+            """What the policy has that is not of a world, by option."""
+            known = {*map(str, world.exogenous_actions), NONE}
+            unknown = [own for own in self.network.actions if own not in known]
+            inputs = _input_names(world)
+            unknown += [own for own in self.network.inputs if own not in inputs]
+            if unknown:
+                yield "policy", f"{self.policy}: was learned in another domain, with {unknown[0]}"
 
     sees: Sequence[Sight] = ("state", "robot_action")
 
     def __init__(self, game: Game, options: Options) -> None:
-        """Raises ValueError for a policy that has an input which is not of this game."""
+        """Raises ValueError for a policy of another domain."""
         self._policy, self._sample = options.network, options.sample
         assert game.world is not None
+        for _, why in options.misfits(game.world):
+            raise ValueError(why)
         self._fluents = frozenset(map(str, game.world.fluents))
-        for name in self._policy.inputs:
-            if not (name in self._fluents or name.startswith((DOES, LEFT))):
-                raise ValueError(f"{options.policy}: was learned in another domain, with {name}")
         self.reset(0)
 
     def reset(self, seed: int) -> None:
@@ -83,6 +86,15 @@ class Learned:
             shares = np.exp(preferences - preferences.max(), dtype=np.float64)
             chosen = int(self._random.choice(len(known), p=shares / shares.sum()))
         return Action.parse(self._policy.actions[known[chosen]])
+
+
+def _input_names(world: World) -> frozenset[str]:
+    """The names that inputs may have in games of a world, whatever their rules."""
+    answers = (WAIT, FINISH, *world.agent_actions)
+    sorts = world.description.sorts.items()
+    objects = (f"{sort} {own}" for sort, constants in sorts for own in constants)
+    left = (f"{LEFT}{own}" for own in ("budget", "cooldown", *objects))
+    return frozenset((*map(str, world.fluents), *(f"{DOES}{own}" for own in answers), *left))
 
 
 def _inputs(view: AdversaryView) -> Iterator[tuple[str, float]]:

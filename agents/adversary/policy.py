@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 MOST_BYTES = 50_000_000
 MOST_LAYERS = 16
+LARGEST = 1e6
+"""The largest weight: sums of so many inputs as a file can have remain finite in float32."""
 
 Array = NDArray[np.float32]
 
@@ -82,13 +84,11 @@ def _policy(path: Path, arrays: dict[str, NDArray[np.generic]]) -> Policy:
     width, layers = len(names["inputs"]), list[tuple[Array, Array]]()
     while arrays and len(layers) < MOST_LAYERS:
         number = len(layers)
-        weights, bias = (arrays.pop(f"{own}_{number}", None) for own in ("weights", "bias"))
-        _check(path, f"weights_{number}", weights, (width, None))
-        assert weights is not None
+        given = {own: arrays.pop(own, None) for own in (f"weights_{number}", f"bias_{number}")}
+        (name, own), (offset, bias) = given.items()
+        weights = _numbers(path, name, own, (width, None))
         width = weights.shape[1]
-        _check(path, f"bias_{number}", bias, (width,))
-        assert bias is not None
-        layers.append((weights.astype(np.float32), bias.astype(np.float32)))
+        layers.append((weights, _numbers(path, offset, bias, (width,))))
     if arrays or width != len(names["actions"]) or not layers:
         what = (
             f"{sorted(arrays)[0]} is unknown" if arrays else "the last layer does not fit actions"
@@ -97,17 +97,20 @@ def _policy(path: Path, arrays: dict[str, NDArray[np.generic]]) -> Policy:
     return Policy(names["inputs"], names["actions"], tuple(layers), made)
 
 
-def _check(
+def _numbers(
     path: Path, name: str, own: NDArray[np.generic] | None, shape: Sequence[int | None]
-) -> None:
-    """Raise PolicyError unless an array has this shape, of finite numbers."""
-    fits = (
+) -> Array:
+    """An array of this shape as float32. Raises PolicyError for another one, and large numbers."""
+    if (
         own is not None
         and own.dtype.kind == "f"
         and own.ndim == len(shape)
         and all(n in (None, m) for n, m in zip(shape, own.shape, strict=True))
-        and bool(np.isfinite(own.astype(np.float64)).all())
-    )
-    if not fits:
-        wanted = ", ".join("any" if n is None else str(n) for n in shape)
-        raise PolicyError(f"{path}: {name} should be finite numbers of shape ({wanted})")
+    ):
+        with np.errstate(over="ignore"):
+            cast = own.astype(np.float32)
+        if bool((np.abs(cast) <= LARGEST).all()):  # which nan is not
+            return cast
+    wanted = ", ".join("any" if n is None else str(n) for n in shape)
+    least = f"numbers from -{LARGEST:,.0f} to {LARGEST:,.0f}"
+    raise PolicyError(f"{path}: {name} should be of shape ({wanted}), with {least}")

@@ -17,7 +17,7 @@ from testbed.experiment.robots import HUMAN
 from testbed.experiment.specs import Setting, default_strategy
 from testbed.protocol import in_one_line, shortened
 from testbed.registry import PATH_VARIABLE, Registry, RegistryError, class_fault
-from testbed.world import load_world, world_of
+from testbed.world import World, load_world, world_of
 
 SIGHTS = get_args(Sight)
 RATE = "rate"
@@ -170,6 +170,8 @@ def adversary_findings(config: ExperimentConfig) -> Iterator[Finding]:
         for option, names in getattr(options, "named_events", {}).items():
             for why in _unknown(names, config):
                 raise OptionError(option, why)
+        for option, why in _misfits(options, config):
+            raise OptionError(option, why)
     except RegistryError as error:
         yield ("adversary", "strategy"), str(error)
     except OptionError as error:
@@ -181,11 +183,21 @@ def _unknown(names: Collection[str], config: ExperimentConfig) -> Iterator[str]:
     """What is wrong with the names that no exogenous action has."""
     if not names:
         return
-    if config.is_fine:
-        worlds = [world_of(refinement) for _, refinement in refinements(config)]
-    else:
-        worlds = [load_world(config.domain)]
-    known = {event.name for world in worlds for event in world.exogenous_actions}
+    known = {event.name for world in _worlds(config) for event in world.exogenous_actions}
     for name in names:
         if name not in known:
             yield f"'{name}' is no exogenous action; {suggestion(name, sorted(known))}"
+
+
+def _misfits(options: object, config: ExperimentConfig) -> Iterator[tuple[str, str]]:
+    """What options have that is not of the worlds that are played in, by option."""
+    if hasattr(options, "misfits"):
+        for world in _worlds(config):
+            yield from options.misfits(world)
+
+
+def _worlds(config: ExperimentConfig) -> Sequence[World]:
+    """The worlds in which a configuration is played."""
+    if config.is_fine:
+        return [world_of(refinement) for _, refinement in refinements(config)]
+    return [load_world(config.domain)]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from agents.adversary.learned import DOES, LEFT
-from agents.adversary.policy import Policy
+from agents.adversary.policy import LARGEST, Policy
 from testbed.learning.gymnasium_envs import AdversaryEnv
 
 
@@ -25,7 +25,8 @@ def save_policy(
         last m actions.
     made : a line that says how, such as the command.
 
-    Raises ValueError for layers that do not fit, OSError where the file cannot be written.
+    Raises ValueError for layers that do not fit, or have larger numbers than a file may, OSError
+    where the file cannot be written.
     """
     core = env.game.core
     arrays = tuple((np.asarray(w, np.float32), np.asarray(b, np.float32)) for w, b in layers)
@@ -36,6 +37,8 @@ def save_policy(
     if shapes != wanted or widths[-1] != len(actions):
         wide = f"from {len(inputs)} entries to {len(actions)} actions"
         raise ValueError(f"layers of shapes {shapes} do not lead {wide}")
+    if not all((np.abs(own) <= LARGEST).all() for pair in arrays for own in pair):
+        raise ValueError(f"layers have numbers that do not lie within ±{LARGEST:,.0f}")
     Policy(inputs, actions, arrays, made).save(Path(path))
 
 

@@ -10,7 +10,8 @@ from typer.testing import CliRunner
 
 from agents.adversary.policy import PolicyError, load_policy
 from testbed.cli import app
-from testbed.config import load_config
+from testbed.config import ConfigError, load_config
+from testbed.experiment.checks import CHECKS
 from testbed.experiment.plan import plan_trials
 from testbed.experiment.robots import make_robot
 from testbed.experiment.trial import play_trial
@@ -79,6 +80,16 @@ def test_a_policy_is_read_as_it_was_written(tmp_path: Path) -> None:
         assert np.allclose(bias, b, atol=1e-6)
 
 
+@pytest.mark.parametrize("number", [np.nan, -np.inf, 2e6])
+def test_numbers_that_no_file_may_have_are_not_written(number: float, tmp_path: Path) -> None:
+    env = AdversaryEnv(write_search(tmp_path, "ferry"), "traditional")
+    layers = _network(env, 1)
+    layers[-1][1][0] = number
+    with pytest.raises(ValueError, match="layers"):
+        save_policy(tmp_path / "net.npz", env, layers, "diverged")
+    assert not (tmp_path / "net.npz").exists()
+
+
 def _file(path: Path, **changed: Any) -> None:
     arrays = {
         "inputs": np.array(["a", "b"]),
@@ -99,6 +110,9 @@ def _file(path: Path, **changed: Any) -> None:
         ({"actions": np.array([1.0, 2.0])}, "actions"),
         ({"weights_0": np.zeros((3, 2))}, "weights_0"),
         ({"weights_0": np.full((2, 2), np.nan)}, "weights_0"),
+        ({"weights_0": np.full((2, 2), 1e300)}, "weights_0"),
+        ({"weights_0": np.full((2, 2), -np.inf, np.float32)}, "weights_0"),
+        ({"bias_0": np.array([0.0, 2e6])}, "bias_0"),
         ({"weights_0": np.zeros((2, 2), object)}, "plain arrays"),
         ({"bias_0": np.zeros(3)}, "bias_0"),
         ({"bias_0": None}, "bias_0"),
@@ -133,6 +147,34 @@ def test_a_policy_of_another_domain_is_refused_before_a_run(tmp_path: Path) -> N
     (line,) = done.stderr.splitlines()
     assert done.exit_code == 2
     assert "options.policy" in line
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("does wait", "does loiter"),
+        ("left budget", "left bugdet"),
+        ("left cooldown", "left room kitchen"),
+        ("none", "nothing"),
+    ],
+)
+@pytest.mark.parametrize("domain", DOMAINS)
+def test_every_name_of_a_policy_has_to_be_of_the_domain(
+    domain: str, old: str, new: str, tmp_path: Path
+) -> None:
+    """Fluents alone do not tell two domains apart."""
+    path, file = write_search(tmp_path, domain), tmp_path / "net.npz"
+    env = AdversaryEnv(load_config(path, RULES), "traditional")
+    given = [*RULES, "adversary.strategy=learned", f"adversary.options={{policy: {file}}}"]
+    save_policy(file, env, _network(env, 1), "drawn")
+    load_config(path, given, CHECKS)
+    arrays = dict(np.load(file))
+    assert old in {*arrays["inputs"], *arrays["actions"]}
+    for key in ("inputs", "actions"):
+        arrays[key] = np.array([new if own == old else str(own) for own in arrays[key]])
+    np.savez(file, **arrays)
+    with pytest.raises(ConfigError, match=new):
+        load_config(path, given, CHECKS)
 
 
 def test_a_missing_file_and_a_missing_option_are_said(tmp_path: Path) -> None:
