@@ -14,7 +14,7 @@ from testbed.stress.catalogue import Kind
 from testbed.stress.progress import in_line, progress
 from testbed.stress.running import Status, search
 from testbed.stress.stories import TESTS, told, write_stories
-from testbed.text import Printer, Say
+from testbed.text import Printer, Say, counted
 
 
 def stress_session(
@@ -50,7 +50,9 @@ def _conclude(folder: Path, config: ExperimentConfig, status: Status, say: Say) 
     if paths:
         say(f"tests of these stories: python -m pytest {shlex.quote(str(folder / TESTS))}")
     elif not status.interrupted:
-        say(f"nothing was found; {folder} has what was played")
+        left = status.cases - status.catalogue.cases
+        but = f", and {counted(left, 'case')} are not explored" if left else ""
+        say(f"nothing was found{but}; {folder} has what was played")
 
 
 def _told(kind: Kind, path: Path, status: Status) -> Iterator[str]:

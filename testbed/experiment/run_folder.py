@@ -18,6 +18,7 @@ SUMMARY, REPORT, ERRORS = "summary.json", "report.html", "errors"
 ANY_RESULT = (
     *("link", "limits.answer_s", "runner", "scheduler", "tls.ca", "tls.cert", "tls.key"),
     *("infos", "illegal", "padded"),  # of environments, in which no trial is played
+    "stress.minutes",
 )
 MOST_CHANGES = 8
 OWN_FILES = ("domain", "refinement")

@@ -33,7 +33,7 @@ class BudgetError(RuntimeError):
 
 def cheapest_plan(
     problem: Problem, costs: Mapping[str, int] | None = None, most_states: int | None = None
-) -> tuple[str, ...] | None:
+) -> tuple[Action, ...] | None:
     """Of the cheapest plans of robot actions to a state of the goal the first; None if none.
 
     What has no cost costs 0; without costs the plan is one with the fewest actions. Raises
@@ -70,7 +70,7 @@ def cheapest_plan(
     return None
 
 
-def _path(came_from: Mapping[int, tuple[int, Action] | None], state: int) -> tuple[str, ...]:
+def _path(came_from: Mapping[int, tuple[int, Action] | None], state: int) -> tuple[Action, ...]:
     actions: list[Action] = []
     while (step := came_from[state]) is not None:
         state, action = step

@@ -13,7 +13,7 @@ from testbed.config import ExperimentConfig, Observability, ScriptEntry, conditi
 from testbed.experiment.plan import trials_of
 from testbed.experiment.record import COARSE
 from testbed.experiment.seeds import short_hash, trial_seed
-from testbed.experiment.specs import TrialSpec, without_paths
+from testbed.experiment.specs import Setting, TrialSpec, without_paths
 from testbed.experiment.trial_setup import refinement_of, setup_of
 from testbed.world import World
 
@@ -41,11 +41,20 @@ def cases_of(config: ExperimentConfig) -> list[TrialSpec]:
             script_skips=True,
             strategy=None,
             options=None,
+            rate=_rate(spec.setting),
             fair=fair,
         )
         case = case_of(config.seed, spec, setting=setting)
         found.setdefault(case.trial, case)
     return list(found.values())
+
+
+def _rate(setting: Setting) -> float | None:
+    """How likely events are per step, where these are drawn by nothing but a rate."""
+    is_drawn = setting.strategy == "random" or (
+        setting.strategy is None and setting.fine is not None
+    )
+    return setting.rate if is_drawn and not setting.options else None
 
 
 def case_of(root: int, spec: TrialSpec, **changes: object) -> TrialSpec:

@@ -62,6 +62,11 @@ class Catalogue:
     kinds: dict[Kind, Example] = field(default_factory=dict)
     greatest: dict[str, float] = field(default_factory=dict)
 
+    @property
+    def most_events(self) -> int:
+        """The most events of an episode that was played."""
+        return max((own.events for own in self.episodes), default=0)
+
     def hear(self, unit: Unit, result: Result) -> list[Kind]:
         """Take in the result of a unit; the kinds that are new."""
         robot, known = unit.case.robot, len(self.kinds)

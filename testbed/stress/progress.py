@@ -68,11 +68,10 @@ class Lines:
 
 
 def in_line(status: Status) -> str:
-    """Cases that were explored with one event, episodes and their rate, kinds of findings."""
+    """Cases that were explored with one event, episodes and most events, their rate, findings."""
     found = status.catalogue
-    episodes = sum(found.episodes.values())
-    rate = f", {episodes / status.seconds:.0f}/s" if status.seconds else ""
+    number = sum(found.episodes.values())
+    episodes = f"{counted(number, 'episode')} with up to {counted(found.most_events, 'event')}"
+    rate = f", {number / status.seconds:.0f}/s" if status.seconds else ""
     cases = f"{found.cases} of {counted(status.cases, 'case')}"
-    return (
-        f"{cases}, {counted(episodes, 'episode')}{rate}, {counted(len(found.kinds), 'kind')} found"
-    )
+    return f"{cases}, {episodes}{rate}, {counted(len(found.kinds), 'kind')} found"

@@ -49,7 +49,8 @@ Notify = Callable[[Status], None]
 def search(config: ExperimentConfig, folder: Path, workers: int, notify: Notify) -> Status:
     """Search for `stress.minutes`, or until all is explored; go on from the folder's journal.
 
-    An interrupt ends it early; what was played is kept. `notify` is called after every unit.
+    What the journal has takes none of these minutes. An interrupt ends it early; what was played is
+    kept. `notify` is called after every unit.
 
     Raises:
         StoreError: for a journal that is none.
@@ -57,8 +58,9 @@ def search(config: ExperimentConfig, folder: Path, workers: int, notify: Notify)
             process that plays a unit is lost.
     """
     cases, journal = cases_of(config), Journal(folder)
-    status, began = Status(len(cases)), time.monotonic()
+    status = Status(len(cases))
     with executor_of(config, workers) as executor:
+        began = time.monotonic()
         try:
             notify(status)
             _play(config, cases, executor, journal, status, notify, began)
@@ -70,6 +72,9 @@ def search(config: ExperimentConfig, folder: Path, workers: int, notify: Notify)
         except BrokenProcessPool:
             told = "a process that played an episode was ended from outside; --resume goes on"
             raise WorkerError(told) from None
+    if not (status.catalogue.units or status.interrupted):
+        minutes = f"stress.minutes: {config.stress.minutes:g}"
+        raise WorkerError(f"{minutes} is over before any episode was played; give more")
     status.seconds = time.monotonic() - began
     status.stories = status.stories or _as_found(status.catalogue)
     replace_text(folder / SUMMARY, json.dumps(summary(status), indent=2) + "\n")
@@ -133,6 +138,7 @@ def summary(status: Status) -> dict[str, object]:
     return {
         "cases": status.cases,
         "cases_explored": found.cases,
+        "most_events": found.most_events,
         "units": found.units,
         "events_left_out": found.left_out,
         "seconds": round(status.seconds, 3),

@@ -15,6 +15,7 @@ from testbed.environment import Observability
 from testbed.experiment.episodes import Episode, Player
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.trial_setup import setup_of
+from testbed.search import BudgetError, as_it_is, cheapest_plan
 from testbed.stress.cases import case_of
 from testbed.stress.objectives import judged
 from testbed.stress.verdicts import Finding
@@ -22,8 +23,6 @@ from testbed.world import World
 
 MOST_EPISODES = 400
 """That are played to shrink one finding."""
-MOST_STARTS = 12
-"""Other initial states that are tried in turn, the nearest to the goal first."""
 
 Size = tuple[int, int, int, int, int, str]
 Simpler = tuple[TrialSpec, Events]
@@ -124,18 +123,23 @@ def _simpler_settings(case: TrialSpec) -> Iterator[dict[str, object]]:
 
 
 def _nearer(case: TrialSpec) -> Iterator[tuple[object, ...]]:
-    """Initial states from which the goal takes fewer actions, the fewest first."""
-    setup, setting = setup_of(case.setting), case.setting
-    world = setup.world
+    """The initial states that a shortest plan passes, the nearest to the goal first.
 
-    def away(state: int) -> int | None:
-        return setup.judge.minimal(state, setting.goal, setting.judge_states).actions
-
-    here = away(world.state(case.initial))
-    others = ((away(state), state) for state in world.initial_states())
-    nearer = sorted((far, own) for far, own in others if far and here and far < here)
-    for _, state in nearer[:MOST_STARTS]:
-        yield _atoms(world, state)
+    None where it takes more than `limits.judge_states` states to find one.
+    """
+    world, setting = setup_of(case.setting).world, case.setting
+    state, passed = world.state(case.initial), list[int]()
+    try:
+        plan = cheapest_plan(as_it_is(world, state, setting.goal), None, setting.judge_states)
+    except BudgetError:
+        return
+    for action in list(plan or ())[:-1]:
+        reached = world.successors(state, (action,))
+        if len(reached) != 1:
+            break
+        (state,) = reached
+        passed.append(state)
+    yield from (_atoms(world, own) for own in reversed(passed) if world.is_initial(own))
 
 
 def _atoms(world: World, state: int) -> tuple[object, ...]:

@@ -120,7 +120,11 @@ class World(ABC):
         return tuple(self._initial())
 
     def _initial(self) -> Iterator[int]:
-        return (s for s in self.states() if all(s & mask for mask, _ in self._needed))
+        return filter(self.is_initial, self.states())
+
+    def is_initial(self, state: int) -> bool:
+        """Whether a state has all that the description asks of an initial one."""
+        return all(state & mask for mask, _ in self._needed)
 
     def bare(self) -> int:
         """A state in which nothing is true but what must be. Raises StateError if there is none."""

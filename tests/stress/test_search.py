@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from testbed.config import ExperimentConfig
+from testbed.experiment.errors import WorkerError
 from testbed.stress.cases import cases_of
 from testbed.stress.executors import Here
 from testbed.stress.journal import JOURNAL
@@ -19,6 +20,7 @@ from testbed.stress.running import Status, search
 from testbed.stress.search import Search, results
 from testbed.stress.shrinking import Shrunk, shrunk
 from testbed.stress.units import Branching, Drawing, Result, Unit
+from testbed.world.compiled import CompiledWorld
 from tests.stress.domains import DOMAINS, search_in, write_search
 
 UNITS = 40
@@ -36,19 +38,28 @@ def _silent(_: Status) -> None:
 
 
 @pytest.mark.parametrize("domain", DOMAINS)
-def test_every_case_is_explored_first_and_then_what_is_most_promising(
+def test_every_case_is_explored_beside_what_is_promising_and_draws(
     domain: str, tmp_path: Path
 ) -> None:
     config = search_in(tmp_path, domain, "stress.events=2", "exogenous_while_thinking=true")
     cases, played = cases_of(config), _units(config)
-    first, rest = played[: len(cases)], played[len(cases) :]
-    assert {unit.case.trial for unit, _ in first} == {case.trial for case in cases}
-    assert all(isinstance(unit, Branching) and not unit.events for unit, _ in first)
-    behind = {own.events for _, result in first for own in result.judged[1:] if not own.findings}
-    tried = [unit for unit, _ in rest if isinstance(unit, Branching)]
+    explored = [unit for unit, _ in played if isinstance(unit, Branching) and not unit.events]
+    assert sorted(own.case.trial for own in explored) == sorted(own.trial for own in cases)
+    behind = {own.events for _, result in played for own in result.judged[1:] if not own.findings}
+    tried = [unit for unit, _ in played if isinstance(unit, Branching) and unit.events]
     assert tried or not behind
     assert {unit.events for unit in tried} <= behind
-    assert any(isinstance(unit, Drawing) for unit, _ in rest) or not behind
+    assert any(isinstance(unit, Drawing) for unit, _ in played)
+
+
+def test_more_events_are_tried_before_all_cases_are_explored(tmp_path: Path) -> None:
+    config = search_in(tmp_path, "ferry", "limit=null", "stress.events=3")
+    assert len(cases_of(config)) > 30
+    played = _units(config, 24)
+    drawn = [unit for unit, _ in played if isinstance(unit, Drawing)]
+    tried = [unit for unit, _ in played if isinstance(unit, Branching) and unit.events]
+    assert len(drawn) >= 3
+    assert len(tried) >= 3
 
 
 def test_where_events_have_a_rate_the_likeliest_are_tried_first(tmp_path: Path) -> None:
@@ -60,8 +71,7 @@ def test_where_events_have_a_rate_the_likeliest_are_tried_first(tmp_path: Path) 
         for unit, result in played
         for own in result.judged
     }
-    cases = len(cases_of(config))
-    behind = [unit for unit, _ in played[cases:] if isinstance(unit, Branching)]
+    behind = [unit for unit, _ in played if isinstance(unit, Branching) and unit.events]
     tried = [chances[unit.case.trial, unit.events] for unit in behind]
     assert len(tried) > 3
     assert tried == sorted(tried, key=lambda own: -(own or 0.0))
@@ -71,6 +81,43 @@ def test_with_one_event_at_most_and_nothing_drawn_it_ends_by_itself(tmp_path: Pa
     config = search_in(tmp_path, "garden", "stress.events=1", "stress.minutes=1000")
     status = search(config, tmp_path, 1, _silent)
     assert status.catalogue.units == status.catalogue.cases == status.cases
+
+
+def test_what_was_played_is_found_again_in_no_time(tmp_path: Path) -> None:
+    """With more workers and other minutes, of which nothing is left for anything new."""
+    config = search_in(tmp_path, "greenhouse", "stress.events=1", "limit=null")
+    whole = search(config, tmp_path, 1, _silent)
+    no_time = config.model_copy(
+        update={"stress": config.stress.model_copy(update={"minutes": 1e-9})}
+    )
+    again = search(no_time, tmp_path, 2, _silent)
+    assert whole.catalogue.kinds
+    assert again.catalogue == whole.catalogue
+    assert again.exit_code == 1
+
+
+def test_a_search_in_which_nothing_is_played_is_no_success(tmp_path: Path) -> None:
+    config = search_in(tmp_path, "greenhouse", "stress.minutes=1e-9")
+    with pytest.raises(WorkerError, match=r"stress\.minutes"):
+        search(config, tmp_path, 1, _silent)
+
+
+@pytest.mark.parametrize(
+    ("strategy", "options", "is_known"),
+    [
+        ("random", "{}", True),
+        ("random", "{delay: 5}", False),
+        ("meddler", "{}", False),
+        ("null", "{}", False),
+    ],
+)
+def test_probabilities_are_told_of_what_is_drawn_by_a_rate_alone(
+    strategy: str, options: str, is_known: bool, tmp_path: Path
+) -> None:
+    given = [f"adversary.strategy={strategy}", f"adversary.options={options}"]
+    config = search_in(tmp_path, "ferry", *given, "adversary.rate=0.2", "stress.events=1")
+    chances = {own.chance is not None for _, result in _units(config, 2) for own in result.judged}
+    assert chances == {is_known}
 
 
 def test_what_is_drawn_is_drawn(tmp_path: Path) -> None:
@@ -124,8 +171,13 @@ def _lines(folder: Path) -> Sequence[bytes]:
 
 
 @pytest.mark.parametrize("domain", ["ferry", "greenhouse"])
-def test_a_story_is_shrunk_to_one_with_the_same_finding(domain: str, tmp_path: Path) -> None:
+def test_a_story_is_shrunk_to_one_with_the_same_finding(
+    domain: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without a list of all states, of which there may be too many."""
     config = search_in(tmp_path, domain, "limit=null", "robots=[traditional]")
+    cases_of(config)
+    monkeypatch.delattr(CompiledWorld, "states")
     found = 0
     for unit, result in _units(config):
         for own in result.judged:

@@ -59,6 +59,9 @@ def test_nothing_found_is_a_success(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["stress", str(config), *given])
     assert done.exit_code == 0, done.output
     assert not list(folder.glob("story-*"))
+    longer = [*given, "--minutes", "11", "--resume"]
+    done = CliRunner().invoke(app, ["stress", str(config), *longer])
+    assert done.exit_code == 0, done.output
 
 
 @pytest.mark.parametrize(
