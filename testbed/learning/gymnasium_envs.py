@@ -16,7 +16,7 @@ from testbed.learning.sides import Form, Side, check_choice
 from testbed.learning.table_robots import Table, is_table, table_of
 from testbed.link import connect
 from testbed.office_v0 import Config
-from testbed.protocol import WAIT, Decision, RobotClient, RobotLost, Trace
+from testbed.protocol import Decision, RobotClient, RobotLost, Trace
 
 Link: TypeAlias = Choice["inprocess", "zenoh"]
 
@@ -157,11 +157,12 @@ class RobotEnv(Side):
         self.game.step(action)
         if self._is_over:  # by an illegal answer
             return
-        is_action = action < len(core.robot_actions)
+        chosen = self.game._chosen
+        assert chosen is not None
         decision = Decision(
             trial=core.situation.trial,
             step=core.situation.step,
-            action=core.robot_actions[action] if is_action else WAIT,
+            action=chosen,
             believes_goal=False,
             trace=Trace(),
         )

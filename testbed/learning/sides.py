@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import Any, ClassVar, SupportsInt, TypeAlias, get_args
+from typing import Any, ClassVar, TypeAlias, get_args
 from typing import Literal as Choice
 
 import gymnasium
@@ -82,19 +82,18 @@ class Side(gymnasium.Env[Any, Any]):
         self._begin(self._spec())
         return self._seen(), self.game.infos[self.agent]
 
-    def step(
-        self, action: SupportsInt
-    ) -> tuple[Observation | Vector, float, bool, bool, dict[str, Any]]:
+    def step(self, action: int) -> tuple[Observation | Vector, float, bool, bool, dict[str, Any]]:
         """Play until it is this side's turn again, or the game is over.
 
-        Raises IllegalActionError after the end, and after an error of what plays inside.
+        Raises IllegalActionError, and changes nothing, for an answer that the AEC environment
+        refuses, after the end, and after an error of what plays inside.
         """
         game, own = self.game, self.agent
         if not game.agents or self._is_over:
             raise IllegalActionError("the game is over: reset the environment")
         if game.agent_selection != own:  # what plays inside has failed to answer
             raise IllegalActionError("the game cannot go on: reset the environment")
-        self._play(int(action))
+        self._play(action)
         ends = game.terminations[own], game.truncations[own]
         # Since its last answer: the other side's answer comes between.
         earned = float(game._cumulative_rewards[own])

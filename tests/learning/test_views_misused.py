@@ -1,10 +1,12 @@
 """The sides of a game after errors inside, and what is wrong with their parameters."""
 
 import re
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
+from gymnasium.utils.env_checker import data_equivalence
 from gymnasium.vector import AutoresetMode
 
 from testbed import office_v0
@@ -61,6 +63,34 @@ def test_an_event_that_is_impossible_is_the_inner_adversarys_error() -> None:
         env.step(0)
     with pytest.raises(IllegalActionError, match="reset"):
         env.step(2)
+
+
+@pytest.mark.parametrize("illegal", ["error", "noop"])
+@pytest.mark.parametrize("bad", [-1, 99, None, 0.9, "0", [0], np.array([0]), True])
+def test_an_answer_that_is_no_action_of_a_side(bad: object, illegal: str) -> None:
+    """As in the environment of both agents, whose action spaces take True for an integer."""
+    for env in (AdversaryEnv("office", "cheapest", illegal=illegal), RobotEnv("office")):
+        env.reset(seed=1)
+        before = env.game.snapshot()
+        tolerated = bad is True and env.game.conventions.illegal == "noop"
+        if tolerated:
+            env.step(bad)  # type: ignore[arg-type]
+            assert env.game.core.situation.event == "none"
+            continue
+        with pytest.raises(IllegalActionError, match=r"_0: .* is not an action; there are 0 "):
+            env.step(bad)  # type: ignore[arg-type]
+        assert env.game.core.snapshot() == before[0]
+        assert data_equivalence(env.game.snapshot()[1], before[1])
+        env.step(0)
+
+
+@pytest.mark.parametrize("make", [partial(AdversaryEnv, robot="cheapest"), RobotEnv])
+def test_an_integer_of_any_type_is_an_action(make: Any) -> None:
+    for answer in (0, np.int8(0), np.uint64(0), np.array(0)):
+        env = make("office")
+        env.reset(seed=1)
+        env.step(answer)
+        assert env.game.core.situation.step == 2
 
 
 def test_after_the_end_nothing_is_played() -> None:
