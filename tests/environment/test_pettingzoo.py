@@ -1,13 +1,22 @@
 """The environment against PettingZoo's own tests, and what those do not look at."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import data_equivalence
 from pettingzoo import AECEnv, ParallelEnv
-from pettingzoo.test import api_test, parallel_api_test, render_test
+from pettingzoo.test import (
+    api_test,
+    max_cycles_test,
+    parallel_api_test,
+    parallel_seed_test,
+    render_test,
+    seed_test,
+    state_test,
+)
 from pettingzoo.utils.conversions import aec_to_parallel
 
 from asp.language import Literal
@@ -33,6 +42,38 @@ def test_api(make: Callable[..., AECEnv]) -> None:
 @pytest.mark.usefixtures("strict")
 def test_parallel_api() -> None:
     parallel_api_test(office_v0.parallel_env(), num_cycles=300)
+
+
+@pytest.mark.usefixtures("strict")
+@pytest.mark.parametrize("make", [office_v0.env, office_v0.raw_env])
+def test_seeds(make: Callable[..., AECEnv]) -> None:
+    seed_test(make, num_cycles=50)
+
+
+@pytest.mark.usefixtures("strict")
+def test_parallel_seeds() -> None:
+    parallel_seed_test(office_v0.parallel_env, num_cycles=50)
+
+
+@pytest.mark.usefixtures("strict")
+def test_the_number_of_cycles_and_the_state() -> None:
+    """These tests of PettingZoo answer at random, without looking at masks.
+
+    A game may end before its last cycle, by `finish`: with these seeds none does.
+    """
+
+    def drawing(make: Callable[..., Any], **options: Any) -> Any:
+        env = make(illegal="noop", **options)
+        for seed, agent in enumerate(env.possible_agents):
+            env.action_space(agent).seed(seed)
+        return env
+
+    class Module:
+        env = partial(drawing, office_v0.env)
+        parallel_env = partial(drawing, office_v0.parallel_env)
+
+    max_cycles_test(Module)
+    state_test(Module.env(), Module.parallel_env(), num_cycles=100)
 
 
 def test_the_conversion_that_would_show_a_stale_mask_is_refused() -> None:
