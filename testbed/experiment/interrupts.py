@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import active_children, resource_tracker
 from multiprocessing.process import BaseProcess
-from threading import Thread, current_thread, main_thread
+from threading import Lock, Thread, current_thread, main_thread
 from types import FrameType
 
 from testbed.text import mute
@@ -21,16 +21,19 @@ ENDING_S = 60.0
 HURRY_S = 2.0
 SAME_S = 0.5
 """Interrupts so close to the first are the same one: `timeout` sends two, a held key many."""
+AGAIN, AGAIN_S = 255, 0.1
+"""Tells the guard that an interrupt was lost, and how often it is sent until one arrives."""
 
 
 @contextmanager
 def stoppable(hint: str, quiet: bool = False) -> Iterator[None]:
     """Let the first signal that comes in this block raise KeyboardInterrupt; those after it do not.
 
-    It is answered at once, whatever this process is busy with. Where the block does not end
-    within `ENDING_S`, or within `HURRY_S` of another interrupt, the process ends, its children
-    first, with `hint` as its last line. Signals that are ignored when the block begins stay so
-    (`nohup`).
+    It is answered at once, whatever this process is busy with. Where it comes in a destructor, or
+    in another callback of which Python loses what is raised, it is raised again. Where the block
+    does not end within `ENDING_S`, or within `HURRY_S` of another interrupt, the process ends, its
+    children first, with `hint` as its last line. Signals that are ignored when the block begins
+    stay so (`nohup`).
     """
     if current_thread() is not main_thread():
         yield
@@ -40,9 +43,14 @@ def stoppable(hint: str, quiet: bool = False) -> Iterator[None]:
     handlers = {number: signal.signal(number, guard.stop) for number in mine}
     before = signal.set_wakeup_fd(guard.woken, warn_on_full_buffer=False)
     guard.start()
+    hook, sys.unraisablehook = sys.unraisablehook, guard.ignored
     try:
-        yield
+        try:
+            yield
+        finally:
+            guard.settle()
     finally:
+        sys.unraisablehook = hook
         signal.set_wakeup_fd(before)
         for number, handler in handlers.items():
             signal.signal(number, handler)
@@ -55,7 +63,9 @@ class _Guard(Thread):
     def __init__(self, hint: str, quiet: bool) -> None:
         super().__init__(daemon=True)
         self._hint, self._quiet = hint, quiet
-        self._stopped = False
+        self._stopped = self._lost = False
+        self._number, self._sending = signal.SIGINT, Lock()
+        self._told_before = sys.unraisablehook
         self._pipe, self.woken = os.pipe()
         os.set_blocking(self.woken, False)
 
@@ -64,21 +74,54 @@ class _Guard(Thread):
         if number == signal.SIGHUP:
             _leave_terminal()
         if not self._stopped:
-            self._stopped = True
+            self._number, self._stopped, self._lost = signal.Signals(number), True, False
             raise KeyboardInterrupt
+
+    def ignored(self, unraisable: "sys.UnraisableHookArgs") -> None:
+        """Have an interrupt sent again that Python has lost; other exceptions are told as before.
+
+        What is raised here would be lost, too: only the last statement lets `stop` raise.
+        """
+        is_mine = issubclass(unraisable.exc_type, KeyboardInterrupt) and self._stopped
+        if not is_mine or current_thread() is not main_thread():
+            self._told_before(unraisable)
+            return
+        self._lost = True
+        os.write(self.woken, bytes([AGAIN]))
+        self._stopped = False
+
+    def settle(self) -> None:
+        """Send nothing from now on."""
+        with self._sending:
+            self._stopped, self._lost = self._stopped or self._lost, False
+
+    def _send_again(self) -> bool:
+        """Send the lost interrupt; False: it has arrived."""
+        with self._sending:
+            if self._lost:
+                signal.pthread_kill(main_thread().ident or 0, self._number)
+            return self._lost
 
     def run(self) -> None:
         """Wait for signals, then for the end."""
-        first = deadline = float("inf")
+        first = deadline = again = float("inf")
         while True:
-            left = max(0.0, deadline - time.monotonic()) if deadline < float("inf") else None
-            if not select.select([self._pipe], [], [], left)[0]:
-                _end(self._hint)
+            until = min(deadline, again)
+            left = max(0.0, until - time.monotonic()) if until < float("inf") else None
+            is_told = select.select([self._pipe], [], [], left)[0]
             now = time.monotonic()
+            if not is_told:
+                if deadline <= now:
+                    _end(self._hint)
+                # One that is sent again is the first: it is no other interrupt.
+                first, again = now, now + AGAIN_S if self._send_again() else float("inf")
+                continue
             for number in os.read(self._pipe, 1024):
                 if number == 0:
                     return
-                if number in SIGNALS and first > now:
+                if number == AGAIN:
+                    again = now
+                elif number in SIGNALS and first > now:
                     first, deadline = now, now + ENDING_S
                     if not self._quiet:
                         _write("stopping...")
