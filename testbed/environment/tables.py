@@ -6,6 +6,7 @@ world, and whether a wrong `finish` has just been answered. Of state number s th
 """
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,9 +36,9 @@ class Tables:
 
     With F fluents, R actions of the robot and E of the adversary, as the core lists them:
 
-    - `following`, (2 S, R, E) of int64: by position and both actions the position that follows, -1
-      where the event is illegal; where several may follow, which are in `several` by the place in
-      the flat table, the first of them.
+    - `following`, (2 S, R, E), of the smallest integers that hold positions: by position and both
+      actions the position that follows, -1 where the event is illegal; where several may follow,
+      which are in `several` by the place in the flat table, the first of them.
     - `ending`, (2 S, R) of int8: the number of the ending, 0 where the answer ends nothing.
     - `legal`, (S, R, E) of int8: 1 where the event is legal beside the robot's action.
     - `robot_sees`, (S, F) of int8, and `adversary_sees`, (S, R, F + R): their observations, the
@@ -73,7 +74,7 @@ class Tables:
         self.adversary_sees = np.zeros((FIRST, robot, _width(fluents + robot)), np.int8)
         self.legal = np.zeros((FIRST, robot, _width(events)), np.int8)
         self.ending = np.zeros((2 * FIRST, robot), np.int8)
-        self.following = np.full((2 * FIRST, robot, events), -1, np.int64)
+        self.following = np.full((2 * FIRST, robot, events), -1, _kind(2 * FIRST))
         starts = () if callable(core.initial) else core.initial
         self.starts_at = 2 * np.array([*map(self.number, starts)], np.int64)
 
@@ -138,6 +139,7 @@ class Tables:
             own = getattr(self, name)
             empty = np.full_like(own, -1 if name == "following" else 0)
             setattr(self, name, np.concatenate([own, empty]))
+        self.following = self.following.astype(_kind(len(self.following)), copy=False)
 
     def _show(self, number: int, state: int) -> None:
         world = self.core.world
@@ -191,3 +193,8 @@ class Tables:
 def _width(entries: int) -> int:
     """How many bytes a row of so many entries has."""
     return next((width for width in COPIED_AT_ONCE if width >= entries), entries)
+
+
+def _kind(positions: int) -> np.dtype[Any]:
+    """The smallest integers that hold so many positions, and -1: small tables stay in the cache."""
+    return np.min_scalar_type(-positions)

@@ -16,9 +16,9 @@ from testbed.office_v0 import Config, make_game, whole
 Numbers = NDArray[np.int64]
 Bytes = NDArray[np.int8]
 Flags = NDArray[np.bool_]
+HOW = (Ending.STEP_LIMIT, *ENDINGS.values())
+"""How a game that has ended did, by the number of the ending by the robot's answer."""
 NOBODY = np.empty(0, np.int64)
-LATE = 4
-"""Added to the number of an ending where the limit of steps is reached."""
 
 
 class Sight(NamedTuple):
@@ -79,14 +79,11 @@ class Batch:
         self.robot_actions, self.adversary_actions = core.robot_actions, core.adversary_actions
         self.fluents = core.world.fluents
         self.tables = Tables(core)
-        self._limit = core.rules.steps
-        self._rewards = {
-            agent: np.array([rewards(_ending(number))[agent] for number in range(8)], np.float32)
-            for agent in (ROBOT, ADVERSARY)
-        }
-        self._random = np.random.default_rng(seed)
+        self._limit, self._clock = core.rules.steps, 0
+        self._worth = np.array([rewards(how)[ROBOT] for how in HOW], np.float32)
+        self._random, self._drawn = np.random.default_rng(seed), NOBODY
         self._position = np.zeros(games, np.int64)
-        self._step = np.ones(games, np.int64)
+        self._last = np.zeros(games, np.int64)  # what the clock shows at the last step of a game
         self._over = np.zeros(games, np.bool_)
         self._may_be_over = self.autoreset_mode is not AutoresetMode.SAME_STEP
         self.begin()
@@ -104,7 +101,7 @@ class Batch:
     @property
     def steps(self) -> Numbers:
         """The step that each game is at, (N,); the first is 1."""
-        return self._step.copy()
+        return self._clock - self._last + self._limit
 
     @property
     def over(self) -> Flags:
@@ -122,7 +119,7 @@ class Batch:
             wanted = f"give {self.games} truth values, one per game"
             raise IllegalActionError(f"begin: {mask.dtype} of shape {mask.shape}; {wanted}")
         if seed is not None:
-            self._random = np.random.default_rng(seed)
+            self._random, self._drawn = np.random.default_rng(seed), NOBODY
         self._begin(np.flatnonzero(mask))
 
     def robot_sight(self) -> Sight:
@@ -161,49 +158,62 @@ class Batch:
         if len(anew):
             robot, event = self._without(anew, robot, event)
         following, ending = self._played(robot, event)
-        ending[anew] = 0
+        late = self._last <= self._clock
         self._position = following
-        self._step += 1
-        self._begin(anew)
-        ended = np.flatnonzero(ending != 0)  # of bytes it takes longer
-        moves = self._moves(ending, ended)
+        self._clock += 1
+        if len(anew):
+            ending[anew], late[anew] = 0, False
+            self._begin(anew)
+        terminated = ending != 0
+        over = terminated | late
+        ended = over.nonzero()[0]
+        earned = self._earned(ended, ending.take(ended))
+        moves = Moves(earned, terminated, late > terminated, ended, self._final(ended))
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             self._begin(ended)
         else:
-            self._over = ending > 0
+            self._over = over
         return moves
 
     def _played(self, robot: Numbers, event: Numbers) -> tuple[Numbers, Bytes]:
-        """The positions that follow, and the numbers of the endings."""
+        """The positions that follow, and the numbers of the endings by the robots' answers."""
         tables = self._prepared()
         beside = self._position * len(self.robot_actions)
         beside += robot
         places = beside * len(self.adversary_actions)
         places += event
-        following = tables.following.reshape(-1).take(places)
-        if following.min() < 0:
-            illegal = np.flatnonzero(following < 0)
+        follow = tables.following.reshape(-1)
+        found = follow.take(places)
+        if np.minimum.reduce(found) < 0:
+            illegal = np.flatnonzero(found < 0)
             if not self._tolerates:
                 game = int(illegal[0])
                 raise IllegalActionError(f"game {game}: {tables.why_not(int(places[game]))}")
             places[illegal] -= event[illegal]
-            following[illegal] = tables.following.reshape(-1).take(places[illegal])
+            found[illegal] = follow.take(places[illegal])
+        following = found.astype(np.int64)
         tables.decide(places, following, self._random)
-        late = (self._step >= self._limit).view(np.int8)
-        return following, tables.ending.reshape(-1).take(beside) + LATE * late
+        return following, tables.ending.reshape(-1).take(beside)
 
-    def _moves(self, ending: Bytes, ended: Numbers) -> Moves:
-        earned = {agent: np.zeros(self.games, np.float32) for agent in self._rewards}
-        for agent, own in self._rewards.items():
-            earned[agent][ended] = own[ending[ended]]
-        late = ending == LATE
-        return Moves(earned, (ending > 0) & ~late, late, ended, self._final(ended))
+    def _earned(self, ended: Numbers, endings: Bytes) -> dict[str, NDArray[np.float32]]:
+        """The rewards of a step after which these games ended like this: zero-sum, as in tables."""
+        robot = np.zeros(self.games, np.float32)
+        robot[ended] = self._worth.take(endings)
+        return {ROBOT: robot, ADVERSARY: 0 - robot}
 
     def _begin(self, games: Numbers) -> None:
         if len(games):
-            self._position[games] = self.tables.starts(self._random, len(games))
-            self._step[games] = 1
-            self._over[games] = False
+            self._position[games] = self._starts(len(games))
+            self._last[games] = self._clock + self._limit - 1
+            if self._may_be_over:
+                self._over[games] = False
+
+    def _starts(self, number: int) -> Numbers:
+        """So many positions to begin in; many are drawn at once, which takes hardly longer."""
+        if number > len(self._drawn):
+            self._drawn = self.tables.starts(self._random, self.games)
+        first, self._drawn = self._drawn[:number], self._drawn[number:]
+        return first
 
     def _without(self, games: Numbers, robot: Numbers, event: Numbers) -> tuple[Numbers, Numbers]:
         """The answers, but of these games those that do nothing."""
@@ -221,7 +231,8 @@ class Batch:
             wanted = f"give {self.games} integers, one per game"
             raise IllegalActionError(f"{agent}: {given.dtype} of shape {given.shape}; {wanted}")
         answers = given.astype(np.int64, copy=False)
-        if answers.view(np.uint64).max() >= len(actions):  # a negative one is a large one here
+        # As an unsigned number a negative one is large. `reduce`, as `max` comes with a wrapper.
+        if np.maximum.reduce(answers.view(np.uint64)) >= len(actions):
             game = int(np.argmax((answers < 0) | (answers >= len(actions))))
             name_of(f"game {game}: {agent}", int(answers[game]), actions)
         return answers
@@ -234,11 +245,12 @@ class Batch:
 
     def _final(self, games: Numbers) -> dict[str, Bytes]:
         """What both see of games that have ended; the robot has no answer there any more."""
-        number, tables = self._position[games] >> 1, self.tables
+        number, tables = self._position.take(games) >> 1, self.tables
         end, robot = len(self.fluents), len(self.robot_actions)
-        everything = tables.adversary_sees[number, 0, : end + robot]
+        seen = tables.robot_sees.take(number, axis=0)
+        everything = _rows(tables.adversary_sees).take(number * robot, axis=0)[:, : end + robot]
         everything[:, end:] = 0
-        return {ROBOT: tables.robot_sees[number, :end], ADVERSARY: everything}
+        return {ROBOT: seen[:, :end], ADVERSARY: everything}
 
 
 def _check(conventions: Conventions) -> None:
@@ -256,7 +268,3 @@ def _check(conventions: Conventions) -> None:
 def _rows(table: Bytes) -> Bytes:
     """A table by state and robot's action, (S, R, n), with one row for both, (S R, n)."""
     return table.reshape(-1, table.shape[-1])
-
-
-def _ending(number: int) -> Ending | None:
-    return Ending.STEP_LIMIT if number == LATE else ENDINGS.get(number % LATE)

@@ -1,5 +1,6 @@
 """The adversary's side of many games at once, as a Gymnasium vector environment."""
 
+from collections.abc import Mapping
 from functools import partial
 from typing import Any, get_args
 
@@ -11,7 +12,14 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
 from testbed.config import ConfigError
-from testbed.environment import ADVERSARY, ROBOT, Ending, IllegalActionError, UnknownOptionError
+from testbed.environment import (
+    ADVERSARY,
+    ROBOT,
+    Ending,
+    IllegalActionError,
+    ResetOptionError,
+    UnknownOptionError,
+)
 from testbed.environment.conventions import OUTCOMES
 from testbed.environment.observation import Observation, Vector, vector
 from testbed.learning.batch import Batch, Flags, Moves, Numbers
@@ -98,15 +106,17 @@ class AdversaryVectorEnv(VectorEnv[Any, Any, Any]):
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation | Vector, dict[str, Any]]:
         """Begin all games, or those of `reset_mask`; the infos are of these."""
-        super().reset(seed=seed)
-        chosen = options or {}
+        chosen = {} if options is None else options
+        if not isinstance(chosen, Mapping):
+            raise ResetOptionError(f"reset: options should be a dictionary, not {options!r}")
         if unknown := [key for key in chosen if key != RESET_MASK]:
             raise UnknownOptionError(f"reset: {unknown[0]!r} is not an option; give '{RESET_MASK}'")
+        super().reset(seed=seed)
         which = np.asarray(chosen.get(RESET_MASK, np.ones(self.num_envs, np.bool_)))
         self._batch.begin(which, seed)
         self._look()
         nothing = np.zeros(self.num_envs, np.int64)
-        return self._seen(), _told(self._infos(nothing, nothing), which)
+        return self._seen(), _told(self._infos(nothing, nothing.copy()), which)
 
     def step(
         self, actions: ArrayLike

@@ -234,6 +234,17 @@ def test_conventions_that_a_batch_does_not_have_are_refused(options: dict[str, o
         Batch(games=2, **options)
 
 
+def test_tables_that_grow_hold_the_same_games(monkeypatch: pytest.MonkeyPatch) -> None:
+    wanted = _batch("office")
+    monkeypatch.setattr("testbed.environment.tables.FIRST", 1)
+    grown = _batch("office")
+    assert grown.tables.following.dtype.itemsize > 1
+    for seed in range(STEPS):
+        played = [_played(batch, 1, seed)[0].rewards[ROBOT].tolist() for batch in (wanted, grown)]
+        assert played[0] == played[1]
+        assert wanted.states == grown.states
+
+
 def test_a_fine_game_is_refused() -> None:
     with pytest.raises(TableError):
         Batch(level="L1", games=2)

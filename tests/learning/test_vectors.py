@@ -13,7 +13,7 @@ from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
 from testbed import office_v0
 from testbed.config import ConfigError
-from testbed.environment import Core, IllegalActionError
+from testbed.environment import Core, IllegalActionError, ResetOptionError, UnknownOptionError
 from testbed.environment.tables import TableError, Tables
 from testbed.learning import CHEAPEST, AdversaryEnv, AdversaryVectorEnv, Table
 from testbed.protocol import RobotLost
@@ -175,3 +175,7 @@ def test_what_tables_do_not_have_is_refused() -> None:
     env = AdversaryVectorEnv(2)
     with pytest.raises(IllegalActionError):
         env.step([0, 0])
+    with pytest.raises(UnknownOptionError):
+        env.reset(options={"inital": []})
+    with pytest.raises(ResetOptionError):
+        env.reset(options=[])  # type: ignore[arg-type]
