@@ -24,7 +24,12 @@ from testbed.config.levels import map_findings, refinements, settings_findings
 from testbed.config.models import GOAL, ExperimentConfig
 from testbed.config.places import ConfigError, Diction, Finding, Key, Places, dotted, unfit_literals
 from testbed.config.running import runner_findings
-from testbed.config.scenarios import scenario_findings, scenarios_of, script_findings
+from testbed.config.scenarios import (
+    refused_script_findings,
+    scenario_findings,
+    scenarios_of,
+    script_findings,
+)
 from testbed.config.sections import Drawing, ScenarioSettings
 from testbed.config.values import NONE
 from testbed.world import StateError, World, world_of
@@ -149,6 +154,7 @@ def _domain_findings(
     goals, states = goals_of(world, signature), Diction(signature, world.state)
     yield from _said((), config, goals, states)
     played = scenarios_of(config, known)
+    yield from refused_script_findings(config, played)
     for scenario, own in config.scenario_settings.items():
         if scenario in played:  # what is said of others is left alone
             yield from _said(("scenario_settings", scenario), own, goals, states)
@@ -183,6 +189,7 @@ def _level_findings(config: ExperimentConfig, refinement: Refinement) -> Iterato
     goals = Diction(coarse, lambda given: world_of(refinement.description).check_together(given))
     states = Diction(weak, lambda given: world_of(refinement).state(given))
     yield from _said((), config, goals, states)
+    yield from refused_script_findings(config, ())
 
 
 def _drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:

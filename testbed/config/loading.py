@@ -53,7 +53,7 @@ def load_config(
     if config.is_sweep:
         _refuse_without_effect(config, overrides, given_in)
         for name, keys in config.sweep.cells.items():
-            own = Places(path, text, list(keys), f"{places.of(('sweep',))}: {name}")
+            own = Places(path, text, list(keys), f"{places.of(('sweep',))}: {name}", places)
             validated(_varied(config, keys, own), path, own, checks)
     return config
 

@@ -1,5 +1,7 @@
 """Where a key stands, what is wrong with its value, and the lines that say so."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -40,10 +42,20 @@ def parsed(text: str) -> Key:
 
 
 class Places:
-    """Says where the value of a key came from; `elsewhere` names what gave the overridden ones."""
+    """Says where the value of a key came from; `elsewhere` names what gave the overridden ones.
 
-    def __init__(self, file: Path, text: str, overridden: Sequence[str], elsewhere: str) -> None:
-        self.file = str(file)
+    Of the others `beneath` knows it: the places of what was overridden, if that is not a file.
+    """
+
+    def __init__(
+        self,
+        file: Path,
+        text: str,
+        overridden: Sequence[str],
+        elsewhere: str,
+        beneath: Places | None = None,
+    ) -> None:
+        self.file, self._beneath = str(file), beneath
         self.elsewhere = elsewhere
         self._text = text
         self._overridden = [tuple(map(str, parsed(key))) for key in overridden]
@@ -52,6 +64,8 @@ class Places:
         """`FILE:LINE: KEY`, or as in `command line: KEY` for an overridden one."""
         if self.is_overridden(key):
             return f"{self.elsewhere}: {dotted(key)}"
+        if self._beneath is not None:
+            return self._beneath.of(key)
         parts = tuple(map(str, key))
         known = (self._number_of.get(parts[:number]) for number in range(len(parts), 0, -1))
         line = next(filter(None, known), "")

@@ -1,12 +1,13 @@
 """Check which scenarios a configuration plays, and its scripts: what they name, and when."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from asp.language import Signature, suggestion, unknown_atom
 from testbed.config.models import ExperimentConfig
 from testbed.config.places import Finding, Key
 from testbed.config.sections import ScenarioSettings, ScriptEntry
 from testbed.config.values import NONE
+from testbed.environment import EventRules
 
 SCRIPT = "script"
 """Name of the one scenario of a run without scenarios that has a script."""
@@ -90,6 +91,30 @@ def script_findings(
             if any(getattr(earlier, name) == number for earlier in entries[:index]):
                 what = f"{MOMENTS[name]} {number} has an action already; one a {MOMENTS[name]}"
                 yield (*key, index, name), what
+
+
+def refused_script_findings(
+    config: ExperimentConfig, scenarios: Iterable[str]
+) -> Iterator[Finding]:
+    """Entries that the rules for the adversary never allow: where due, they end a trial in error.
+
+    Looked at are the script of all scenarios, and those of the ones that are played.
+    """
+    if config.script_policy == "skip":
+        return
+    rules = EventRules(**config.adversary.bounds())
+    own = {name: config.scenario_settings.get(name) for name in scenarios}
+    scripts: dict[Key, tuple[ScriptEntry, ...]] = {("script",): config.script or ()}
+    scripts |= {
+        ("scenario_settings", name, "script"): settings.script or ()
+        for name, settings in own.items()
+        if settings is not None
+    }
+    for key, entries in scripts.items():
+        for index, entry in enumerate(entries):
+            if not rules.permits(entry.action):
+                why = f"'{entry.action}' is none of adversary.events"
+                yield (*key, index, "action"), f"{why}; list it there, or leave it out"
 
 
 def early_script_findings(

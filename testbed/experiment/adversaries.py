@@ -6,13 +6,14 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
-from typing import Any, Protocol, get_args
+from typing import Any, Protocol, get_args, get_type_hints
 
 import msgspec
 
 from agents.adversary import Adversary, AdversaryView, Game, Script, Sight
 from asp.language import Action, Literal, suggestion
 from testbed.config import NO_EVENTS, ExperimentConfig, Finding, refinements
+from testbed.environment import EventRules
 from testbed.experiment.robots import HUMAN
 from testbed.experiment.specs import Setting, default_strategy
 from testbed.protocol import in_one_line, shortened
@@ -20,6 +21,7 @@ from testbed.registry import PATH_VARIABLE, Registry, RegistryError, class_fault
 from testbed.world import World, load_world, world_of
 
 SIGHTS = get_args(Sight)
+STRATEGY = "adversary.strategy"
 RATE = "rate"
 """The option that is a key of its own in configurations."""
 
@@ -112,7 +114,11 @@ def options_of(found: AdversaryClass, given: Mapping[str, object]) -> object:
         return msgspec.convert({**given, **files}, declared)
     except msgspec.ValidationError as error:
         why, _, place = str(error).replace("`", "").partition(" - at $")
-        raise OptionError(re.split(r"[.\[]", place.lstrip("."))[0] or None, why) from None
+        wrong = re.split(r"[.\[]", place.lstrip("."))[0]
+        if wrong in given and why.startswith("Invalid enum value"):
+            choices = get_args(get_type_hints(declared)[wrong])
+            why = f"should be {' or '.join(map(repr, choices))}, not {given[wrong]!r}"
+        raise OptionError(wrong or None, why) from None
 
 
 def _located(file: object) -> object:
@@ -156,6 +162,8 @@ class _Named:
 def adversary_findings(config: ExperimentConfig) -> Iterator[Finding]:
     """A strategy that there is not, and options that it does not take."""
     own = config.adversary
+    if any(key.startswith(STRATEGY) for keys in config.sweep.cells.values() for key in keys):
+        return  # it is checked under each condition
     strategy = own.strategy or default_strategy(config.is_fine)
     given = dict(own.options)
     if RATE in given:
@@ -180,13 +188,18 @@ def adversary_findings(config: ExperimentConfig) -> Iterator[Finding]:
 
 
 def _unknown(names: Collection[str], config: ExperimentConfig) -> Iterator[str]:
-    """What is wrong with the names that no exogenous action has."""
+    """What is wrong with names that no exogenous action has, or none that may be used."""
     if not names:
         return
-    known = {event.name for world in _worlds(config) for event in world.exogenous_actions}
+    events = {event for world in _worlds(config) for event in world.exogenous_actions}
+    known = {event.name for event in events}
+    permits = EventRules(**config.adversary.bounds()).permits
+    permitted = {event.name for event in events if permits(event)}
     for name in names:
         if name not in known:
             yield f"'{name}' is no exogenous action; {suggestion(name, sorted(known))}"
+        elif name not in permitted:
+            yield f"'{name}' is none of adversary.events; list it there, or leave it out"
 
 
 def _misfits(options: object, config: ExperimentConfig) -> Iterator[tuple[str, str]]:

@@ -252,6 +252,11 @@ def test_trials_without_rules_are_the_same_trials_as_ever(tmp_path: Path) -> Non
         ("adversary.events=['drift(silk,mate)']", "adversary.events[0]", "mate"),
         ("adversary.events=['-silt(west)']", "adversary.events[0]", "silt"),
         ("adversary.events=[silt, silt]", "adversary.events[1]", "silt"),
+        (
+            "adversary={strategy: random, events: [drift], options: {mix: {drift: 1, silt: 1}}}",
+            "adversary.options.mix",
+            "silt",
+        ),
         ("adversary.fair=yes", "adversary.fair", "true or false"),
         ("rewards.adversary=wast", "rewards.adversary", "waste"),
         ("rewards.robot=goals", "rewards.robot", "goal"),
@@ -267,3 +272,24 @@ def test_what_cannot_be_is_refused(override: str, key: str, told: str, tmp_path:
     (line,) = done.stderr.splitlines()
     assert line.startswith(f"command line: {key}: ")
     assert told in line.partition(f"{key}: ")[2]
+
+
+SCRIPT = "[{step: 3, action: silt(west)}, {at_action: 2, action: 'drift(silk,dock)'}]"
+
+
+@pytest.mark.parametrize(
+    ("rules", "key"),
+    [("{events: [drift]}", "[0].action"), ("{events: [silt, 'drift(silk,east)']}", "[1].action")],
+)
+@pytest.mark.parametrize("place", ["script", "scenario_settings.told.script"])
+def test_a_script_that_the_rules_never_allow_is_refused(
+    place: str, rules: str, key: str, tmp_path: Path
+) -> None:
+    file, given = config_of(tmp_path, "harbour", scenarios=["told"]), f"{place}={SCRIPT}"
+    allowed = ("adversary={events: [drift, silt], budget: 2}", f"adversary={rules}")
+    assert _call("check", file, given, "script=[]", allowed[0]).exit_code == 0
+    assert _call("check", file, given, allowed[1], "script_policy=skip").exit_code == 0
+    done = _call("check", file, given, allowed[1])
+    (line,) = done.stderr.splitlines()
+    assert done.exit_code == 2
+    assert line.startswith(f"command line: {place}{key}: ")

@@ -274,7 +274,8 @@ def test_each_condition_of_a_sweep_has_its_own_strategy(tmp_path: Path) -> None:
         ("random", "{burst: 0.5}", ["burst", "0.5"]),
         ("random", "{delay: -1}", ["delay", "-1"]),
         ("greedy", "{gain: 0}", ["gain"]),
-        ("greedy", "{measure: metres}", ["options.measure", "metres"]),
+        ("greedy", "{measure: metres}", ["options.measure", "metres", "'actions'", "'units'"]),
+        ("greedy", "{measure: 5}", ["options.measure"]),
         ("meddler", "{gain: 1}", ["options.gain", "meddler"]),
     ],
 )
@@ -288,6 +289,30 @@ def test_a_wrong_option_is_answered_by_one_line(
     (line,) = done.stderr.splitlines()
     assert done.exit_code == 2
     assert all(part in line for part in parts), line
+
+
+@pytest.mark.parametrize(
+    ("strategies", "options", "refused"),
+    [
+        ("[random]", "{burst: 2}", None),
+        ("[greedy, optimal]", "{measure: units}", None),
+        ("[random, greedy]", "{burst: 2}", "greedy"),
+        ("[greedy, meddler]", "{measure: units}", "meddler"),
+    ],
+)
+def test_options_of_a_swept_strategy_are_those_of_each_condition(
+    strategies: str, options: str, refused: str | None, tmp_path: Path
+) -> None:
+    """And not those of the strategy that is played where nothing is swept."""
+    spec_in(tmp_path, "ferry")
+    sweep = f"sweep.grid={{adversary.strategy: {strategies}}}"
+    given = ["goal=['lies(oats,north)']", "adversary.budget=1", f"adversary.options={options}"]
+    done = CliRunner().invoke(app, ["check", str(tmp_path / "ferry.yaml"), *given, sweep])
+    lines = done.stderr.splitlines()
+    assert len(lines) == (refused is not None)
+    for line in lines:
+        assert line.startswith(f"command line: adversary.options.{options[1:].partition(':')[0]}: ")
+        assert f"(of {refused})" in line
 
 
 @everywhere
