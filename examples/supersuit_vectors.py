@@ -8,7 +8,6 @@ Spaces have to be equal, so that observations are padded; an illegal answer coun
 import argparse
 
 import numpy as np
-import supersuit
 
 from testbed import office_v0
 
@@ -19,6 +18,10 @@ def main() -> None:
     parser.add_argument("--games", type=int, default=4)
     parser.add_argument("--steps", type=int, default=100)
     given = parser.parse_args()
+    try:
+        import supersuit
+    except ModuleNotFoundError:
+        raise SystemExit("needs `pip install 'intention-testbed[train]'`") from None
     env = office_v0.parallel_env("office", padded=True, illegal="noop", max_cycles=30)
     vector = supersuit.concat_vec_envs_v1(
         supersuit.pettingzoo_env_to_vec_env_v1(env), given.games, base_class="gymnasium"

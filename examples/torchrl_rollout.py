@@ -7,8 +7,6 @@ needs `pip install 'intention-testbed[train]'`.
 
 import argparse
 
-from torchrl.envs import PettingZooWrapper
-
 from testbed import office_v0
 
 
@@ -17,6 +15,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--steps", type=int, default=20)
     given = parser.parse_args()
+    try:
+        from torchrl.envs import PettingZooWrapper
+    except ModuleNotFoundError:
+        raise SystemExit("needs `pip install 'intention-testbed[train]'`") from None
     env = PettingZooWrapper(
         office_v0.parallel_env("office", max_cycles=30), use_mask=True, categorical_actions=True
     )

@@ -1,4 +1,4 @@
-"""Train an adversary against a robot, with MaskablePPO, and write it as a policy file.
+r"""Train an adversary against a robot, with MaskablePPO, and write it as a policy file.
 
     python examples/train_adversary.py --robot intentional --steps 200000 --out trained.npz
 
@@ -6,17 +6,20 @@ needs `pip install 'intention-testbed[train]'`. The adversary has two fair event
 office, and is rewarded with the execution units that the robot wastes. The robot's answers are
 remembered by history. `testbed run` then plays the file:
 
-    testbed run office adversary.strategy=learned adversary.options={policy: trained.npz} \\
+    testbed run office adversary.strategy=learned adversary.options.policy=trained.npz \
         adversary.budget=2 adversary.fair=true
 """
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gymnasium.wrappers import TransformReward
-from sb3_contrib import MaskablePPO
 
 from testbed.learning import AdversaryEnv, save_policy
+
+if TYPE_CHECKING:
+    from sb3_contrib import MaskablePPO
 
 RULES = {"budget": 2, "fair": True}
 UNITS = 100.0
@@ -31,6 +34,10 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=Path("trained.npz"))
     given = parser.parse_args()
+    try:
+        from sb3_contrib import MaskablePPO
+    except ModuleNotFoundError:
+        raise SystemExit("needs `pip install 'intention-testbed[train]'`") from None
     env = AdversaryEnv(
         "office",
         given.robot,
@@ -57,7 +64,7 @@ def main() -> None:
     env.close()
 
 
-def layers_of(learner: MaskablePPO) -> list[tuple[object, object]]:
+def layers_of(learner: "MaskablePPO") -> list[tuple[object, object]]:
     """Weights and biases of the network that prefers actions."""
     policy = learner.policy
     linear = [*policy.mlp_extractor.policy_net, policy.action_net]

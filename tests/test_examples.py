@@ -1,11 +1,14 @@
 """The examples run as a user would run them: from elsewhere, by their paths."""
 
 import json
+import runpy
 import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+
+import pytest
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -40,6 +43,30 @@ def test_the_adversary_spoils_as_often_as_its_options_say(tmp_path: Path) -> Non
     events = record["exogenous"]
     assert len(events) == 2
     assert all(event["step"] >= 2 and event["action"].startswith("haul(") for event in events)
+
+
+@pytest.mark.parametrize(
+    ("name", "lacks"),
+    [
+        ("train_adversary.py", "sb3_contrib"),
+        ("supersuit_vectors.py", "supersuit"),
+        ("torchrl_rollout.py", "torchrl"),
+    ],
+)
+def test_an_example_without_its_extra_says_so(
+    name: str, lacks: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for module in (lacks, "torchrl.envs"):
+        monkeypatch.setitem(sys.modules, module, None)
+    codes = []
+    for argument in ("--help", "--steps=1"):
+        monkeypatch.setattr(sys, "argv", [name, argument])
+        with pytest.raises(SystemExit) as ended:
+            runpy.run_path(str(EXAMPLES / name), run_name="__main__")
+        codes.append(ended.value.code)
+    assert codes[0] == 0
+    assert "intention-testbed[train]" in str(codes[1])
+    assert capsys.readouterr().err == ""
 
 
 def test_games_of_supersuit_are_played() -> None:
