@@ -1,6 +1,8 @@
 """One side of a game as a Gymnasium environment, against trials and PettingZoo's environment."""
 
 import pickle
+import subprocess
+import sys
 from collections.abc import Callable
 from copy import deepcopy
 from functools import partial
@@ -211,3 +213,14 @@ def test_each_worker_of_a_vector_has_a_robot_of_its_own() -> None:
 def test_what_cannot_be_played_is_refused(options: dict[str, Any]) -> None:
     with pytest.raises(ConfigError):
         AdversaryEnv(**options)
+
+
+def test_gymnasium_imports_what_the_name_says() -> None:
+    code = """
+import gymnasium
+env = gymnasium.make("testbed.learning:testbed/Adversary-v0", robot="cheapest")
+env.reset(seed=1)
+print(type(env.unwrapped).__name__)
+"""
+    done = subprocess.run([sys.executable, "-c", code], check=False, capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("AdversaryEnv\n", "")
