@@ -127,15 +127,17 @@ def _distinct(names: tuple[Objective, ...]) -> tuple[Objective, ...]:
 class StressSettings(Section):
     """What a search for failures looks for, and how far it goes (docs/stress.md).
 
-    `objectives` judge each episode. `events`: the most exogenous actions of an episode; `minutes`
-    that the search takes; `branches`: of a case with given events, the most that are tried as the
-    next one. `vary`: what episodes draw that are not of the plan of trials. More than `waste`, or
-    `regret`, execution units, or `reasoning_s` seconds of process time, are a finding; null: none
-    is, and the greatest are told.
+    `objectives` judge each episode. `events`: the most exogenous actions of an episode; `fair`:
+    only those after which the goal can still be achieved; `minutes` that the search takes;
+    `branches`: of a case with given events, the most that are tried as the next one. `vary`: what
+    episodes draw that are not of the plan of trials. More than `waste`, or `regret`, execution
+    units, or `reasoning_s` seconds of process time, are a finding; null: none is, and the greatest
+    are told.
     """
 
     objectives: Annotated[tuple[Objective, ...], AfterValidator(_distinct)] = ("fail",)
     events: Count = 2
+    fair: Flag = True
     minutes: Annotated[float, Field(strict=True, gt=0.0, le=1e6)] = 10.0
     branches: Count = 1_000
     vary: tuple[Varied, ...] = ()

@@ -29,9 +29,9 @@ LONGEST_WALK, MOST_LITERALS = 12, 3
 def cases_of(config: ExperimentConfig) -> list[TrialSpec]:
     """The trials of a configuration that differ in more than what others do, each once.
 
-    Events are to be fair unless the configuration gives `adversary.fair: false`.
+    Events are fair where `stress.fair` or `adversary.fair` says so.
     """
-    fair = config.adversary.fair or "fair" not in config.adversary.model_fields_set
+    fair = config.stress.fair or config.adversary.fair
     found: dict[str, TrialSpec] = {}
     for spec in trials_of(config):
         setting = msgspec.structs.replace(

@@ -46,7 +46,7 @@ def _first_branches(cases: Sequence[TrialSpec]) -> list[Episode]:
 
 @pytest.mark.parametrize("domain", DOMAINS)
 def test_every_branch_is_the_trial_with_this_script(domain: str, tmp_path: Path) -> None:
-    config = search_in(tmp_path, domain, THINKING, "adversary.fair=false")
+    config = search_in(tmp_path, domain, THINKING, "stress.fair=false")
     for case in cases_of(config):
         player = Player(case)
         added = list(player.additions(()))

@@ -13,6 +13,7 @@ import pytest
 
 from testbed.config import ExperimentConfig
 from testbed.experiment.errors import WorkerError
+from testbed.experiment.run_folder import read_config, write_config
 from testbed.stress.cases import cases_of
 from testbed.stress.executors import Here
 from testbed.stress.journal import JOURNAL
@@ -94,6 +95,17 @@ def test_what_was_played_is_found_again_in_no_time(tmp_path: Path) -> None:
     assert whole.catalogue.kinds
     assert again.catalogue == whole.catalogue
     assert again.exit_code == 1
+
+
+@pytest.mark.parametrize("domain", DOMAINS)
+def test_what_a_folder_stores_has_the_same_cases(domain: str, tmp_path: Path) -> None:
+    config = search_in(tmp_path, domain, "sweep.grid={goal_feedback: [true, false]}")
+    (tmp_path / "found").mkdir()
+    write_config(tmp_path / "found", config)
+    stored = cases_of(read_config(tmp_path / "found"))
+    assert [(own.trial, own.seed) for own in stored] == [
+        (own.trial, own.seed) for own in cases_of(config)
+    ]
 
 
 def test_a_search_in_which_nothing_is_played_is_no_success(tmp_path: Path) -> None:
