@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from agents.shared import reasoning
 from agents.shared.reasoning import MOST_DOMAINS
+from asp.solving import Recent
 from benchmarks import (
     decisions,
     driver,
@@ -40,6 +42,7 @@ def column(rows: list[Row], name: str) -> list[object]:
     return [row[name] for row in rows]
 
 
+@pytest.mark.usefixtures("own_heap")
 def test_decisions_of_all_scenarios_are_those_of_the_reference(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -52,6 +55,7 @@ def test_decisions_of_all_scenarios_are_those_of_the_reference(
         return trials.play(spec, side)
 
     monkeypatch.setattr(decisions, "play", play)
+    monkeypatch.setattr(reasoning, "_SESSIONS", Recent(MOST_DOMAINS))  # whose answers are forgotten
     sheets = rows_of(decisions.main("small"))
     for name in ("trials", "decisions"):
         assert column(sheets[name], "scenario") == list(SCENARIOS)
@@ -133,25 +137,23 @@ def test_commands_about_a_made_run_end_well_and_are_measured() -> None:
     assert all(float(str(row["peak_mb"])) > 0 for row in rows)
 
 
-def test_a_sample_of_mutants_is_killed() -> None:
-    sheets = rows_of(mutation.main("small"))
+def test_a_sample_of_mutants_is_killed_and_the_results_are_written_and_shown(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    main(["mutation", "--size", "small", "--out", str(tmp_path)])
+    written = json.loads((tmp_path / "mutation.json").read_text(encoding="utf-8"))
+    assert written["size"] == "small"
+    sheets = {sheet["name"]: sheet["rows"] for sheet in written["sheets"]}
+    assert list(sheets) == ["mutation", "redundant", "survivors", "killed"]
     assert len(sheets["mutation"]) == mutation.SAMPLE + len(mutation.QUICK)
     assert sheets["survivors"] == []
+    assert "Each rule and each axiom left out" in capsys.readouterr().out
 
 
 def test_there_are_mutants_of_every_paragraph_with_a_number_or_a_letter() -> None:
     left_out = {number for number, _ in mutation.all_mutants()}
     assert left_out >= set(range(1, 54))
     assert left_out >= {"defaults.a", "defaults.e", "diagnosis.b", "fine_planning.h"}
-
-
-def test_results_are_written_and_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    main(["mutation", "--size", "small", "--out", str(tmp_path)])
-    written = json.loads((tmp_path / "mutation.json").read_text(encoding="utf-8"))
-    assert written["size"] == "small"
-    names = ["mutation", "redundant", "survivors", "killed"]
-    assert [sheet["name"] for sheet in written["sheets"]] == names
-    assert "Each rule and each axiom left out" in capsys.readouterr().out
 
 
 def test_an_unknown_benchmark_is_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
@@ -167,6 +169,7 @@ def test_worlds_have_a_row_a_level() -> None:
     assert column(rows, "events") == [1 * 4, 9 * 16]
 
 
+@pytest.mark.usefixtures("own_heap")
 def test_hostile_lives_are_explained_within_their_budgets_as_the_reference_does() -> None:
     sheets = rows_of(hostile.main("small"))
     rows = sheets["hostile"]

@@ -12,6 +12,7 @@ from benchmarks.vanished import Vanished
 from tests.benchmarks.late import takes_too_long
 
 
+@pytest.mark.usefixtures("own_heap")
 def test_all_sides_answer_every_question_and_are_drawn(tmp_path: Path) -> None:
     sheets = measure((3, 4), (3,), (1,))
     assert [sheet.name for sheet in sheets] == ["history", "rooms", "plan"]

@@ -10,6 +10,7 @@ from benchmarks.fine_problems import drawn, refined
 from tests.benchmarks.late import takes_too_long
 
 
+@pytest.mark.usefixtures("own_heap")
 def test_every_point_is_measured_on_all_sides(tmp_path: Path) -> None:
     levels, cells, objects = zooming.main("small")
     assert [row["level"] for row in levels.rows] == list(zooming.NAMES["small"])
