@@ -24,11 +24,11 @@ FAST_SHARE = 2  # all problems of a point, of which the reference has one
 STEPS = {"small": (3, 6), "full": (5, 10, 20, 50, 100, 200, 500, 1000)}
 WINDOW = {"small": 4, "full": 40}
 BOOKS = {"small": (2, 3), "full": (2, 4, 8, 16)}
-ROOMS = {"small": (4, 5), "full": (4, 8, 16, 32)}
+ROOMS = {"small": (4,), "full": (4, 8, 16, 32)}
 CARRIED = {"small": (1,), "full": (1, 2, 3, 4, 5)}
 CORRIDORS = {"small": (4,), "full": (4, 8, 12, 16, 20)}
 DRAWN = {"small": 2, "full": 6}
-LIVES = 5
+LIVES = {"small": 1, "full": 5}
 
 
 def main(size: str) -> list[Sheet]:
@@ -166,17 +166,17 @@ def _history(size: str) -> Sheet:
         "ordinary: the robot is told; contradiction: once, after the given step, it is not told;",
         "answers are forgotten before each measured decision",
     )
-    rows = gathered(_lives(STEPS[size], WINDOW[size], LIMIT_S[size]))
+    rows = gathered(_lives(STEPS[size], WINDOW[size], LIVES[size], LIMIT_S[size]))
     return Sheet("history", "A decision after a history of so many steps", rows, notes)
 
 
-def _lives(steps: Sequence[int], window: int, limit_s: float) -> Iterator[Row]:
+def _lives(steps: Sequence[int], window: int, number: int, limit_s: float) -> Iterator[Row]:
     source = office()
     initial = placed({"book1": "kitchen", "book2": "office1"}, "kitchen")
     goal = delivered(book_names(2))
     given_up: dict[str, bool] = {}
     for step in steps:
-        sieges = _long_lives(source, initial, goal, step, window)
+        sieges = _long_lives(source, initial, goal, step, window, number)
         for kind, (took, question) in _points(sieges, step).items():
             slow = None if given_up.get(kind) else _asked_again(source, goal, question, limit_s)
             given_up[kind] = slow is None
@@ -193,19 +193,25 @@ def _lives(steps: Sequence[int], window: int, limit_s: float) -> Iterator[Row]:
 
 
 def _long_lives(
-    source: str, initial: Sequence[Literal], goal: Sequence[Literal], step: int, window: int
+    source: str,
+    initial: Sequence[Literal],
+    goal: Sequence[Literal],
+    step: int,
+    window: int,
+    number: int,
 ) -> list[Siege]:
     """Lives up to a contradiction after `step`, when all they need has been grounded before."""
-    window_steps = range(max(1, step - window), step + LIVES + 25)
+    last = step + number + 25
+    window_steps = range(max(1, step - window), last)
     lives = []
-    for late in (0, *range(LIVES)):
+    for late in (0, *range(number)):
         forget()
         with no_collection():
             life = besiege(
                 source,
                 initial,
                 goal,
-                step + LIVES + 25,
+                last,
                 silent=[step + late],
                 forgetful=window_steps,
                 recorded=window_steps,
