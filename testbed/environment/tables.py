@@ -49,7 +49,8 @@ class Tables:
     out.
 
     Raises TableError for a game at the fine resolution, for one whose goal is drawn, for bounds of
-    the adversary that depend on what was played, and for rewards other than the default.
+    the adversary that depend on what was played, and for rewards other than zero-sum ones, which
+    may have costs of steps and events.
     """
 
     def __init__(self, core: Core) -> None:
@@ -60,8 +61,9 @@ class Tables:
         if core.allowance.highest:
             bounds = "adversary.budget, cooldown or per_object"
             raise TableError(f"tables know no history; drop {bounds}")
-        if core.rules.rewards != Rewards() or core.rules.adversary.cost:
-            raise TableError("tables are of the default rewards; drop rewards, and adversary.cost")
+        own = core.rules.rewards
+        if own != Rewards(step=own.step, discount=own.discount):
+            raise TableError("tables are of zero-sum rewards; drop rewards.adversary and shaping")
         self.core = core
         self.states: list[int] = []
         self.several: dict[int, tuple[int, ...]] = {}

@@ -80,6 +80,8 @@ class Batch:
         self.fluents = core.world.fluents
         self.tables = Tables(core)
         self._limit, self._clock = core.rules.steps, 0
+        self._per_step = np.float32(core.rules.rewards.step)
+        self._per_event = np.float32(core.rules.adversary.cost)
         self._worth = np.array([rewards(how)[ROBOT] for how in HOW], np.float32)
         self._random, self._drawn = np.random.default_rng(seed), NOBODY
         self._position = np.zeros(games, np.int64)
@@ -157,7 +159,7 @@ class Batch:
         anew = np.flatnonzero(self._over) if self._may_be_over else NOBODY
         if len(anew):
             robot, event = self._without(anew, robot, event)
-        following, ending = self._played(robot, event)
+        following, ending, event = self._played(robot, event)
         late = self._last <= self._clock
         self._position = following
         self._clock += 1
@@ -167,7 +169,7 @@ class Batch:
         terminated = ending != 0
         over = terminated | late
         ended = over.nonzero()[0]
-        earned = self._earned(ended, ending.take(ended))
+        earned = self._earned(ended, ending.take(ended), event, anew)
         moves = Moves(earned, terminated, late > terminated, ended, self._final(ended))
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             self._begin(ended)
@@ -175,8 +177,8 @@ class Batch:
             self._over = over
         return moves
 
-    def _played(self, robot: Numbers, event: Numbers) -> tuple[Numbers, Bytes]:
-        """The positions that follow, and the numbers of the endings by the robots' answers."""
+    def _played(self, robot: Numbers, event: Numbers) -> tuple[Numbers, Bytes, Numbers]:
+        """The positions that follow, the endings by the robots' answers, and the events played."""
         tables = self._prepared()
         beside = self._position * len(self.robot_actions)
         beside += robot
@@ -190,16 +192,26 @@ class Batch:
                 game = int(illegal[0])
                 raise IllegalActionError(f"game {game}: {tables.why_not(int(places[game]))}")
             places[illegal] -= event[illegal]
+            event = event.copy()
+            event[illegal] = 0
             found[illegal] = follow.take(places[illegal])
         following = found.astype(np.int64)
         tables.decide(places, following, self._random)
-        return following, tables.ending.reshape(-1).take(beside)
+        return following, tables.ending.reshape(-1).take(beside), event
 
-    def _earned(self, ended: Numbers, endings: Bytes) -> dict[str, NDArray[np.float32]]:
-        """The rewards of a step after which these games ended like this: zero-sum, as in tables."""
+    def _earned(
+        self, ended: Numbers, endings: Bytes, event: Numbers, unplayed: Numbers
+    ) -> dict[str, NDArray[np.float32]]:
+        """The rewards of a step after which these games ended like this: zero-sum but for costs."""
         robot = np.zeros(self.games, np.float32)
         robot[ended] = self._worth.take(endings)
-        return {ROBOT: robot, ADVERSARY: 0 - robot}
+        if self._per_step:
+            robot -= self._per_step
+            robot[unplayed] = 0
+        adversary = 0 - robot
+        if self._per_event:
+            adversary -= self._per_event * (event > 0)
+        return {ROBOT: robot, ADVERSARY: adversary}
 
     def _begin(self, games: Numbers) -> None:
         if len(games):

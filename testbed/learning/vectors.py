@@ -93,7 +93,7 @@ class AdversaryVectorEnv(VectorEnv[Any, Any, Any]):
         self._table, self._answers = table_of(robot, core), np.empty(0, np.int64)
         self._goal = vector(core.world.fluents, core.rules.goal)
         self._flat, self._tolerates = observations == "flat", read.illegal == "noop"
-        self._begun = False
+        self._per_step, self._begun = core.rules.rewards.step, False
         side = raw_env(read)
         known = side.observation_space(ADVERSARY)
         assert isinstance(known, spaces.Dict)
@@ -130,7 +130,7 @@ class AdversaryVectorEnv(VectorEnv[Any, Any, Any]):
             raise IllegalActionError("no games are under way: reset the environment")
         batch, events, steps = self._batch, np.asarray(actions), self._batch.steps
         moves = batch.step(self._robot, events)
-        illegal, outcomes = self._illegal(events), _outcomes(moves)
+        illegal, outcomes = self._illegal(events), _outcomes(moves, self._per_step)
         final = {}
         if batch.autoreset_mode is AutoresetMode.SAME_STEP and len(moves.ended):
             final = self._final(moves, steps + 1, outcomes, illegal)
@@ -206,10 +206,10 @@ class AdversaryVectorEnv(VectorEnv[Any, Any, Any]):
         return {**both, "_final_obs": ended, "_final_info": ended.copy()}
 
 
-def _outcomes(moves: Moves) -> Numbers:
-    """The outcomes by number, as numeric infos have them."""
+def _outcomes(moves: Moves, per_step: float) -> Numbers:
+    """The outcomes by number, as numeric infos have them, where a step costs the robot this."""
     ended, outcomes = moves.ended, np.zeros(len(moves.terminated), np.int64)
-    achieved = moves.rewards[ROBOT][ended] > 0
+    achieved = moves.rewards[ROBOT][ended] + per_step > 0
     by_answer = np.where(achieved, *map(OUTCOMES.index, (Ending.ACHIEVED, Ending.FALSE_FINISH)))
     limit = OUTCOMES.index(Ending.STEP_LIMIT)
     outcomes[ended] = np.where(moves.truncated[ended], limit, by_answer)

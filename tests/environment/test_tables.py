@@ -139,8 +139,7 @@ def test_they_are_made_as_they_are_needed(name: str) -> None:
         {"adversary": {"budget": 3}},
         {"adversary": {"cooldown": 3}},
         {"adversary": {"per_object": {"book": 1}}},
-        {"adversary": {"cost": 0.5}},
-        {"rewards": {"step": 0.1}},
+        {"rewards": {"shaping": 0.1}},
         {"rewards": {"adversary": "waste"}},
     ],
 )

@@ -25,6 +25,9 @@ SAME_STEP, NEXT_STEP, DISABLED = (
 )
 
 
+COSTS = {"rewards": {"step": 0.25}, "adversary": {"cost": 0.5}}
+
+
 def _config(name: str, folder: Path) -> str:
     return name if name == "office" else str(write_domain(folder, name))
 
@@ -52,7 +55,7 @@ def _put(env: AECView, state: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "options", [{}, {"goal_feedback": False}, {"exogenous_while_thinking": True}]
+    "options", [{}, {"goal_feedback": False}, {"exogenous_while_thinking": True, **COSTS}]
 )
 @pytest.mark.parametrize("name", CONFIGS)
 def test_each_game_is_the_single_one(name: str, options: dict[str, object], tmp_path: Path) -> None:
@@ -132,7 +135,7 @@ def test_a_game_begins_anew_in_the_same_step(name: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", CONFIGS)
 def test_a_game_begins_anew_in_the_next_step(name: str, tmp_path: Path) -> None:
-    batch = _batch(_config(name, tmp_path), NEXT_STEP)
+    batch = _batch(_config(name, tmp_path), NEXT_STEP, **COSTS)
     over: set[int] = set()
     begun = 0
     for seed in range(3 * LIMIT):
@@ -212,7 +215,7 @@ def test_a_game_that_is_over_and_does_not_begin_by_itself_is_not_played() -> Non
 @pytest.mark.parametrize("name", CONFIGS)
 def test_an_illegal_event_may_count_as_action_0(name: str, tmp_path: Path) -> None:
     config, random = _config(name, tmp_path), np.random.default_rng(8)
-    tolerant, strict = (_batch(config, illegal=kind) for kind in ("noop", "error"))
+    tolerant, strict = (_batch(config, illegal=kind, **COSTS) for kind in ("noop", "error"))
     illegal = 0
     for _ in range(STEPS):
         robot = random.integers(len(strict.robot_actions), size=GAMES)

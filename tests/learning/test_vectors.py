@@ -25,6 +25,10 @@ GAMES, STEPS, LIMIT = 4, 24, 7
 MODES = tuple(AutoresetMode)
 
 
+COSTS: dict[str, Any] = {"rewards": {"step": 2.0}, "adversary": {"cost": 0.5}}
+"""With these the robot earns less than nothing where it achieves its goal."""
+
+
 @pytest.fixture(params=["office", "pots", "ferry"])
 def config(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     """A domain in which nothing is drawn besides the state in which a game begins."""
@@ -64,6 +68,7 @@ def test_it_returns_what_single_environments_return(
     core = office_v0.make_core(config)
     options = _start(core, random) | {"illegal": "noop" if kind == CHEAPEST else "error"}
     options |= {"robot": _robot(kind, core, random), "max_cycles": LIMIT, "config": config}
+    options |= COSTS if kind == CHEAPEST else {}
     make = partial(gymnasium.make, ID, observations=form, **options)
     singles = SyncVectorEnv([make] * GAMES, autoreset_mode=mode)
     env = gymnasium.make_vec(ID, GAMES, autoreset_mode=mode, observations=form, **options)
