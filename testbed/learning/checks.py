@@ -5,6 +5,7 @@ from collections.abc import Callable
 from testbed.config import ConfigError, ExperimentConfig, dotted
 from testbed.experiment.adversaries import AdversaryError, adversary_findings
 from testbed.experiment.checks import person_findings, robot_findings
+from testbed.learning.table_robots import CHEAPEST
 
 
 def check_robot(config: ExperimentConfig, robot: object) -> None:
@@ -14,7 +15,8 @@ def check_robot(config: ExperimentConfig, robot: object) -> None:
     asked = config.model_copy(update={"robots": (robot,)})
     found = (*robot_findings(asked), *person_findings(asked))
     if lines := [why for key, why in found if key[0] == "robots"]:
-        raise ConfigError([f"keyword argument: robot: {why}" for why in lines])
+        of_tables = f"; of table robots there is '{CHEAPEST}'"
+        raise ConfigError([f"keyword argument: robot: {why}{of_tables}" for why in lines])
 
 
 def check_adversary(config: ExperimentConfig, make: Callable[[], object]) -> None:
