@@ -79,7 +79,8 @@ class AECView(View, AECEnv[str, Observation, int | None]):
         if told is None:
             assert self._tabled is not None
             told = self._told[agent] = self._tabled.info(agent, self._answered)
-            told["illegal"] = int(agent in self._illegal)
+            if self._illegal:
+                told["illegal"] = int(agent in self._illegal)
         return told
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:

@@ -30,20 +30,21 @@ class Beside:
 
     `sees` and `legal` are the adversary's, `happens` says whether the answer takes effect (1, -1;
     0: it is none that could), `ending` how it ends the game. `following` has, by the number of the
-    event, the positions of which one follows.
+    event, the rows of the positions of which one follows.
     """
 
     sees: Vector
     legal: Int8s
     happens: int
     ending: Ending | None
-    following: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    following: "dict[int, tuple[Row, ...]]" = field(default_factory=dict)
 
 
 @dataclass(slots=True)
 class Row:
     """What there is at a position: the state, and what is beside the robot's answers."""
 
+    position: int
     state: int
     is_answered: bool
     robot_sees: Vector
@@ -62,7 +63,8 @@ class TabledGame:
     def __init__(self, core: Core) -> None:
         self._core = core
         self._rows: dict[int, Row] = {}
-        self._goal = vector(core.world.fluents, core.rules.goal)
+        self._goal, self._most_steps = vector(core.world.fluents, core.rules.goal), core.rules.steps
+        self._goal.flags.writeable = False  # all infos share it
         self.answers, self.events = len(core.robot_actions), len(core.adversary_actions)
         self._chosen = np.eye(self.answers, dtype=np.int8)
         self._every_answer = np.ones(self.answers, np.int8)
@@ -86,23 +88,21 @@ class TabledGame:
         row = self._row
         assert row is not None
         beside = row.beside.get(own) or self._beside(row, own)
-        positions = beside.following.get(other)
-        if positions is None:
+        following = beside.following.get(other)
+        if following is None:
             if not beside.legal[other]:
                 return False
-            positions = self._follow(row, beside, own, other)
-        position = positions[0]
-        if len(positions) > 1:
-            if self._random is None:
-                self._random = self._core.random_state
-            position = self._core.draw(positions)
+            following = self._follow(row, beside, own, other)
+        if len(following) == 1:
+            self._row = following[0]
+        else:
+            self._row = self._drawn(following)
         self._since.append((own, other))
         self._core.catch_up = self._play_on
         self._happened, self.ending = beside.happens, beside.ending
-        if self.ending is None and self._step >= self._core.rules.steps:
+        if self._step >= self._most_steps and self.ending is None:
             self.ending = Ending.STEP_LIMIT
         self._step += 1
-        self._row = self._rows.get(position) or self._found(position)
         return True
 
     def observe(self, agent: str, own: int | None) -> Observation | None:
@@ -128,18 +128,23 @@ class TabledGame:
         """The numeric infos of an agent, as `testbed.environment.conventions` has them."""
         row = self._row
         assert row is not None
-        step, outcome, goal = self._step, _NUMBERS[self.ending], self._goal.copy()
+        outcome = 0 if self.ending is None else _NUMBERS[self.ending]
         if agent == ROBOT:
-            holds = -1 if row.is_answered else 0
             return {
-                "step": step,
+                "step": self._step,
                 "outcome": outcome,
-                "goal": goal,
+                "goal": self._goal,
                 "happened": self._happened,
-                "goal_holds": holds,
+                "goal_holds": -1 if row.is_answered else 0,
+                "illegal": 0,
             }
-        chosen = -1 if own is None else own
-        return {"step": step, "outcome": outcome, "goal": goal, "robot_action": chosen}
+        return {
+            "step": self._step,
+            "outcome": outcome,
+            "goal": self._goal,
+            "robot_action": -1 if own is None else own,
+            "illegal": 0,
+        }
 
     def _arrive(self) -> None:
         """Go on from where somebody else has led the core."""
@@ -149,7 +154,7 @@ class TabledGame:
             self._step, self.ending = now.step, None
             self._happened = 0 if now.happened is None else 1 if now.happened else -1
             position = 2 * now.state + (now.goal_holds is False)
-            self._row = self._rows.get(position) or self._found(position)
+            self._row = self._at(position)
 
     def _catch_up(self) -> None:
         """Bring the core to the present moment."""
@@ -162,9 +167,12 @@ class TabledGame:
 
     def _found(self, position: int) -> Row:
         if len(self._rows) >= MOST_ROWS:
+            for known in self._rows.values():
+                known.beside.clear()  # rows lead to each other
             self._rows.clear()
         core, state = self._core, position >> 1
         row = self._rows[position] = Row(
+            position=position,
             state=state,
             is_answered=bool(position & 1),
             robot_sees=vector(core.world.fluents, core.execution.visible(state)),
@@ -192,16 +200,25 @@ class TabledGame:
             return Ending.ACHIEVED
         return None if rules.goal_feedback and not row.is_answered else Ending.FALSE_FINISH
 
-    def _follow(self, row: Row, beside: Beside, own: int, other: int) -> tuple[int, ...]:
+    def _follow(self, row: Row, beside: Beside, own: int, other: int) -> tuple[Row, ...]:
         core, action = self._core, self._core.robot_actions[own]
         event = core.adversary_actions[other]
         effective = core.execution.physical(action) if beside.happens > 0 else ()
         compound = effective if event == NONE else (*effective, event)
         is_answered = action == FINISH and beside.ending is None
         states = core.world.successors(row.state, compound)
-        positions = tuple(2 * state + is_answered for state in states)
-        beside.following[other] = positions
-        return positions
+        found = tuple(self._at(2 * state + is_answered) for state in states)
+        beside.following[other] = found
+        return found
+
+    def _drawn(self, rows: tuple[Row, ...]) -> Row:
+        """One of several, drawn as the core draws it."""
+        if self._random is None:
+            self._random = self._core.random_state
+        return self._at(self._core.draw(tuple(row.position for row in rows)))
+
+    def _at(self, position: int) -> Row:
+        return self._rows.get(position) or self._found(position)
 
 
 def has_tables(core: Core) -> bool:
