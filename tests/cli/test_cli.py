@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import asp
 from benchmarks import killing
 
 COMMAND = [sys.executable, "-m", "testbed"]
+PAIR = ["run", "quickstart", "scenarios=[2]", "link=inprocess", "--quiet", "--out", "run"]
 HELD = [sys.executable, "-m", "tests.held"]
 KEPT = [
     "config.yaml",
@@ -39,6 +41,21 @@ def _elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def _testbed(*arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([*COMMAND, *arguments], check=False, capture_output=True, text=True)
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A finished run of one pair; tests change copies of it."""
+    folder = tmp_path_factory.mktemp("finished")
+    done = subprocess.run([*COMMAND, *PAIR], check=False, capture_output=True, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return folder / "run"
+
+
+@pytest.fixture
+def run(finished: Path, tmp_path: Path) -> Path:
+    """A copy of it in the folder in which commands run."""
+    return shutil.copytree(finished, tmp_path / "run")
 
 
 def _refused(*arguments: str) -> str:
@@ -170,12 +187,10 @@ def test_a_killed_driver_takes_its_processes_along_and_the_run_goes_on() -> None
 
 
 @pytest.mark.load
-def test_resuming_another_configuration_is_refused_with_the_difference() -> None:
-    arguments = ["run", "quickstart", "scenarios=[1]", "link=inprocess", "--quiet", "--out", "run"]
-    assert _testbed(*arguments).returncode == 0
-    assert "--resume" in _refused(*arguments)
-    assert "seed: 1 -> 9" in _refused(*arguments, "seed=9", "--resume")
-    assert len(_trials("run")) == 2
+def test_resuming_another_configuration_is_refused_with_the_difference(run: Path) -> None:
+    assert "--resume" in _refused(*PAIR)
+    assert "seed: 1 -> 9" in _refused(*PAIR, "seed=9", "--resume")
+    assert len(_trials(run)) == 2
 
 
 def test_a_trial_in_error_gives_exit_code_1_and_keeps_the_rest() -> None:
@@ -252,20 +267,18 @@ def test_a_mistake_in_a_description_is_placed() -> None:
     assert _refused("translate", "bad.al").startswith("bad.al:4:")
 
 
-def test_report_makes_everything_again_from_the_trials() -> None:
-    _testbed("run", "quickstart", "scenarios=[1]", "link=inprocess", "--out", "run")
-    before = {name: Path("run", name).read_bytes() for name in KEPT}
-    Path("run/report.html").unlink()
-    Path("run/summary.json").unlink()
+def test_report_makes_everything_again_from_the_trials(run: Path) -> None:
+    before = {name: (run / name).read_bytes() for name in KEPT}
+    (run / "report.html").unlink()
+    (run / "summary.json").unlink()
     done = _testbed("report", "run")
     assert done.returncode == 0
     assert "intentional" in done.stdout
-    assert {name: Path("run", name).read_bytes() for name in KEPT} == before
+    assert {name: (run / name).read_bytes() for name in KEPT} == before
 
 
-def test_replay_tells_the_trial_and_whether_it_is_as_recorded() -> None:
-    _testbed("run", "quickstart", "scenarios=[2]", "link=inprocess", "--out", "run")
-    trial = next(str(t["trial"]) for t in _trials("run") if t["robot"] == "intentional")
+def test_replay_tells_the_trial_and_whether_it_is_as_recorded(run: Path) -> None:
+    trial = next(str(t["trial"]) for t in _trials(run) if t["robot"] == "intentional")
     done = _testbed("replay", "run", "--trial", trial[:6])
     assert done.returncode == 0, done.stderr
     for word in (
@@ -283,25 +296,23 @@ def test_replay_tells_the_trial_and_whether_it_is_as_recorded() -> None:
     assert "not one of the run's 2 trials" in _refused("replay", "run", "--trial", "zzz")
 
 
-def test_replay_without_a_trial_lists_them() -> None:
-    _testbed("run", "quickstart", "scenarios=[2]", "link=inprocess", "--out", "run")
+def test_replay_without_a_trial_lists_them(run: Path) -> None:
     done = _testbed("replay", "run")
     assert done.returncode == 0, done.stderr
     assert [line.split()[0] for line in done.stdout.splitlines()[1:3]] == [
-        trial["trial"] for trial in _trials("run")
+        trial["trial"] for trial in _trials(run)
     ]
 
 
-def test_replay_says_where_it_differs_from_the_record() -> None:
-    _testbed("run", "quickstart", "scenarios=[1]", "link=inprocess", "--out", "run")
-    path = Path("run/trials.jsonl")
-    records = [{**trial, "action_count": 7} for trial in _trials("run")]
+def test_replay_says_where_it_differs_from_the_record(run: Path) -> None:
+    path = run / "trials.jsonl"
+    records = [{**trial, "action_count": 7} for trial in _trials(run)]
     for record in records:
         del record["version"], record["crc32"]  # as lines were before they had a checksum
     path.write_text("".join(json.dumps(record) + "\n" for record in records), encoding="utf-8")
-    done = _testbed("replay", "run", "--trial", str(_trials("run")[0]["trial"]))
+    done = _testbed("replay", "run", "--trial", str(_trials(run)[0]["trial"]))
     assert done.returncode == 1
-    assert "differs from the record: action_count was 7, is 6" in done.stdout
+    assert "differs from the record: action_count was 7, is 9" in done.stdout
 
 
 def test_help_shows_an_example_a_line() -> None:

@@ -21,7 +21,7 @@ from testbed.studies.table1.pairs import pairs_in
 from testbed.world import load_world
 from tests.papers.prose import says
 
-SMALL = ["limit=4", "repeats=2", "scenario_settings={}"]
+SMALL = ["limit=3", "repeats=2", "scenario_settings={}"]
 
 
 def _config(*overrides: str) -> ExperimentConfig:
@@ -44,7 +44,7 @@ def here(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_the_intentional_robot_never_fails_with_feedback(here: Path) -> None:
     records = [r for r in read_records(here) if r.robot == "intentional"]
-    assert len(records) == 6 * 4
+    assert len(records) == 6 * 3
     assert [r.trial for r in records if not r.correct] == []
 
 
@@ -52,7 +52,7 @@ def test_the_traditional_robot_fails_where_the_goal_was_undone(here: Path) -> No
     trials = load_run(here).trials
     robots = Compared("traditional", "intentional")
     pairs = list(each(pairs_in(trials, load_world("office"), robots, ())))
-    assert len(pairs) == 6 * 4
+    assert len(pairs) == 6 * 3
     assert any(pair.baseline.undone for pair in pairs)
     for pair in pairs:
         assert pair.baseline.correct != pair.baseline.undone
@@ -85,8 +85,8 @@ def test_a_driver_killed_in_the_middle_goes_on_to_the_same_results(
 def test_the_page_is_made_from_a_run(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([str(here), "--unaided", str(here), "--later", str(here)]) == 0
     page = capsys.readouterr().out
-    assert says(page, 0, 24)
-    assert "testbed run table1 repeats=2 limit=4" in page
+    assert says(page, 0, 18)
+    assert "testbed run table1 repeats=2 limit=3" in page
     for heading in ("## Triggered scenarios", "## Row by row", "## Without goal feedback"):
         assert heading in page
 
