@@ -64,7 +64,6 @@ class TabledGame:
         self._core = core
         self._rows: dict[int, Row] = {}
         self._goal, self._most_steps = vector(core.world.fluents, core.rules.goal), core.rules.steps
-        self._goal.flags.writeable = False  # all infos share it
         self.answers, self.events = len(core.robot_actions), len(core.adversary_actions)
         self._chosen = np.eye(self.answers, dtype=np.int8)
         self._every_answer = np.ones(self.answers, np.int8)
@@ -133,7 +132,7 @@ class TabledGame:
             return {
                 "step": self._step,
                 "outcome": outcome,
-                "goal": self._goal,
+                "goal": self._goal.copy(),
                 "happened": self._happened,
                 "goal_holds": -1 if row.is_answered else 0,
                 "illegal": 0,
@@ -141,7 +140,7 @@ class TabledGame:
         return {
             "step": self._step,
             "outcome": outcome,
-            "goal": self._goal,
+            "goal": self._goal.copy(),
             "robot_action": -1 if own is None else own,
             "illegal": 0,
         }

@@ -21,7 +21,8 @@ from testbed.experiment.snapshots import SnapshotError, going_back, restorable_r
 from testbed.experiment.specs import TrialSpec
 from testbed.experiment.storyteller import Moment
 from testbed.experiment.trial_setup import TrialSetup, setup_of
-from testbed.protocol import NONE, Decision, Restorable, in_one_line
+from testbed.link import understood
+from testbed.protocol import NONE, Decision, Restorable, RobotLost, encode, in_one_line
 
 IMPOSSIBLE = -1e6
 """In place of the logarithm of 0, finite so that JSON has it."""
@@ -156,19 +157,23 @@ class Player:
         """What the robot answers now; None where the episode is over, or the robot fails."""
         if self._fault is not None or self._core.situation.ending is not None:
             return None
-        decision = self._asked(lambda: self._robot.act(self._core.percept))
-        if decision is None:
-            return None
-        if decision.stopped is not None:
-            self._fault = decision.stopped
-        elif decision.action not in self._core.robot_actions:
+        decision = self._asked(self._answer)
+        if decision is not None and decision.action not in self._core.robot_actions:
             self._fault = f"answered '{decision.action}', which is not an action"
         return decision if self._fault is None else None
+
+    def _answer(self) -> Decision:
+        """What the robot answers, as a driver understands it: by its bytes."""
+        percept = self._core.percept
+        return understood(encode(self._robot.act(percept)), percept)
 
     def _asked(self, question: Callable[[], Any]) -> Any:
         """What the robot says; None where it raises an error, which is a finding about it."""
         try:
             return question()
+        except RobotLost as loss:
+            self._fault = loss.reason
+            return None
         except SnapshotError:  # of the search, which needs a robot that decides alike again
             raise
         except (Exception, SystemExit) as error:

@@ -18,7 +18,7 @@ Table: TypeAlias = Mapping[int, int]
 
 def is_table(robot: str | Table) -> bool:
     """Whether this is a robot that plays from a table."""
-    return robot == CHEAPEST or isinstance(robot, Mapping)
+    return isinstance(robot, Mapping) or (isinstance(robot, str) and robot == CHEAPEST)
 
 
 def table_of(robot: str | Table, core: Core) -> Table:

@@ -44,7 +44,7 @@ def make_vector(
     An `AdversaryVectorEnv` of a table robot; of a robot that reasons Gymnasium's `SyncVectorEnv`,
     whose games are played one after another. Options as for `AdversaryEnv`.
     """
-    mode = AutoresetMode(autoreset_mode)
+    mode, num_envs = AutoresetMode(autoreset_mode), whole("num_envs", num_envs)
     if is_table(robot):
         return AdversaryVectorEnv(num_envs, robot, mode, **options)
     make = partial(gymnasium.make, "testbed/Adversary-v0", robot=robot, **options)
@@ -141,7 +141,9 @@ class AdversaryVectorEnv(VectorEnv[Any, Any, Any]):
         return self._seen(), earned, moves.terminated, moves.truncated, {**final, **infos}
 
     def action_masks(self) -> Flags:
-        """The legal actions, (N, A) of bool."""
+        """The legal actions, (N, A) of bool. Raises IllegalActionError before `reset`."""
+        if not self._begun:
+            raise IllegalActionError("no games are under way: reset the environment")
         return self._legal.astype(np.bool_)
 
     def _look(self) -> None:

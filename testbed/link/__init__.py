@@ -1,6 +1,7 @@
 """The link between a driver and its robots: in process, or over zenoh between processes."""
 
 from testbed.link.exchange import InProcessRobot as InProcessRobot
+from testbed.link.exchange import understood as understood
 from testbed.link.process import SpawnedRobot as SpawnedRobot
 from testbed.link.process import connect as connect
 from testbed.link.process import spawned_robot as spawned_robot

@@ -84,19 +84,7 @@ class Client(RobotClient):
         """
         question = encode(Question(percept=percept, task=self._task))
         self._task = None
-        payload = self._answer(percept.trial, question)
-        if len(payload) > MOST_BYTES:
-            raise RobotLost(f"{NOT_UNDERSTOOD}: {len(payload)} bytes; {MOST_BYTES} are the most")
-        try:
-            decision = decode(payload, Decision)
-        except LinkError as error:
-            raise RobotLost(f"{NOT_UNDERSTOOD}: {error}") from error
-        given, asked = (f"step {own.step} of trial {own.trial}" for own in (decision, percept))
-        if given != asked:
-            raise RobotLost(f"answer is for {given}, the question was for {asked}")
-        if decision.stopped is not None:
-            raise RobotStopped(decision.stopped)
-        return decision
+        return understood(self._answer(percept.trial, question), percept)
 
     @abstractmethod
     def _answer(self, trial: str, question: bytes) -> bytes:
@@ -121,6 +109,26 @@ class InProcessRobot(Client):
             return self._desk.answer(question)
         except Exception as error:
             raise failed(in_one_line(error), traceback.format_exc()) from error
+
+
+def understood(payload: bytes, percept: Percept) -> Decision:
+    """The decision on a percept that these bytes are.
+
+    Raises RobotLost for what is not understood, too long, or for another trial or step, and
+    RobotStopped when the robot does not go on.
+    """
+    if len(payload) > MOST_BYTES:
+        raise RobotLost(f"{NOT_UNDERSTOOD}: {len(payload)} bytes; {MOST_BYTES} are the most")
+    try:
+        decision = decode(payload, Decision)
+    except LinkError as error:
+        raise RobotLost(f"{NOT_UNDERSTOOD}: {error}") from error
+    given, asked = (f"step {own.step} of trial {own.trial}" for own in (decision, percept))
+    if given != asked:
+        raise RobotLost(f"answer is for {given}, the question was for {asked}")
+    if decision.stopped is not None:
+        raise RobotStopped(decision.stopped)
+    return decision
 
 
 def failed(text: str, details: str = "") -> RobotLost:

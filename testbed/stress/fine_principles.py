@@ -17,7 +17,10 @@ def teleports(episode: Episode) -> Broken:
     for moment in episode.moments:
         fine = moment.decision.trace.fine
         for literal in fine.committed if fine else ():
-            if robot in literal.arguments and not world.holds(moment.before, literal):
+            is_fluent = literal.atom in world.fluents
+            if robot in literal.arguments and not (
+                is_fluent and world.holds(moment.before, literal)
+            ):
                 told = f"it takes {literal} for certain, and that does not hold"
                 yield "teleport", moment.percept.step, told
 
@@ -37,6 +40,8 @@ def _misfit(episode: Episode, state: int, plan: Sequence[Action]) -> Action | No
     """The first action that cannot be done here, however it is with the things."""
     world, robot = episode.setup.world, episode.setup.robot
     for action in plan:
+        if action not in world.agent_actions:
+            return action
         bodies = [body for _, body in world.forbidding(state, (action,))]
         if any(all(robot in own.arguments for own in body) for body in bodies):
             return action

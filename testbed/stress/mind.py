@@ -47,6 +47,8 @@ class Believed:
     def reaches_goal(self, plan: Sequence[Action]) -> bool:
         """Whether some outcomes of a plan lead from here to a state of the goal."""
         world, states = self.episode.setup.world, {self.state}
+        if not set(plan).issubset(world.agent_actions):
+            return False
         for action in plan:
             states = {
                 after

@@ -6,10 +6,12 @@ episodes are worth more events.
 
 from collections.abc import Callable, Mapping
 
+import msgspec
+
 from testbed.config import StressSettings
 from testbed.experiment.episodes import Episode
 from testbed.stress.principles import principles
-from testbed.stress.verdicts import Finding, Verdict
+from testbed.stress.verdicts import Finding, Verdict, in_a_line
 
 Objective = Callable[[Episode, StressSettings], Verdict]
 
@@ -70,9 +72,13 @@ def judged(episode: Episode, settings: StressSettings) -> Verdict:
     """The verdict of all objectives of the settings; a robot that fails to answer is a finding."""
     if episode.fault is not None:
         step = len(episode.moments) + 1
-        return Verdict(1.0, (Finding("fault", "no answer", step, episode.fault),))
+        return Verdict(1.0, (Finding("fault", "no answer", step, in_a_line(episode.fault)),))
     verdicts = [OBJECTIVES[name](episode, settings) for name in settings.objectives]
-    findings = tuple(found for own in verdicts for found in own.findings)
+    findings = tuple(
+        msgspec.structs.replace(found, detail=in_a_line(found.detail))
+        for own in verdicts
+        for found in own.findings
+    )
     return Verdict(sum(own.score for own in verdicts), findings)
 
 

@@ -22,7 +22,7 @@ from testbed.stress.shrinking import Shrunk
 from testbed.stress.verdicts import Finding
 from testbed.text import columns, counted
 
-PREFIX, TESTS = "story-", "test_stories.py"
+PREFIX, TESTS, STORIES = "story-", "test_stories.py", "stories.txt"
 MOST_OF_NAME = 120
 TEST = '''"""Stories in which a stress search found something: each fails as long as that is so."""
 
@@ -61,8 +61,10 @@ def write_stories(
 ) -> dict[Kind, Path]:
     """Write a configuration per story into a folder, and tests of all; their paths.
 
-    Raises OSError.
+    Stories that an earlier part of the search wrote are gone then. Raises OSError.
     """
+    for earlier in earlier_stories(folder):
+        (folder / earlier).unlink(missing_ok=True)
     paths: dict[Kind, Path] = {}
     for kind, story in stories.items():
         path = _unused(folder, kind, paths.values())
@@ -71,7 +73,15 @@ def write_stories(
         paths[kind] = path
     if paths:
         replace_text(folder / TESTS, TEST)
+    replace_text(folder / STORIES, "".join(f"{own.name}\n" for own in paths.values()))
     return paths
+
+
+def earlier_stories(folder: Path) -> list[str]:
+    """The names of the stories that a search wrote into its folder, by its list of them."""
+    listed = folder / STORIES
+    names = listed.read_text(encoding="utf-8").splitlines() if listed.is_file() else []
+    return [name for name in names if re.fullmatch(rf"{PREFIX}[A-Za-z0-9-]+\.yaml", name)]
 
 
 def _unused(folder: Path, kind: Kind, used: Collection[Path]) -> Path:

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 import msgspec
 
+from testbed.protocol import shortened
+from testbed.text import plain
+
 
 class Finding(msgspec.Struct, frozen=True, order=True):
     """What an objective found in an episode: the `rule` that is broken, where, and in words.
@@ -17,6 +20,12 @@ class Finding(msgspec.Struct, frozen=True, order=True):
     step: int | None
     detail: str
     amount: float | None = None
+
+
+def in_a_line(text: str) -> str:
+    """Text, also of a robot, as a file and a screen may have it: a line of bounded length."""
+    written = text.encode(errors="backslashreplace").decode()
+    return shortened(plain(" ".join(written.split())))
 
 
 @dataclass(frozen=True)

@@ -207,8 +207,11 @@ class World(ABC):
         return self._if(f"impossible {', '.join(sorted(law[0]))}", law[1])
 
     def forbidding(self, state: int, actions: Iterable[Action]) -> Iterator[Law]:
-        """The laws that make a compound action impossible in a state, as they are declared."""
-        return self._forbidding(state, frozenset(actions))
+        """The laws that make a compound action impossible in a state, as they are declared.
+
+        Raises UnknownActionError.
+        """
+        return self._forbidding(state, self._known(actions))
 
     def visible(self, state: int, robot: str) -> tuple[Literal, ...]:
         """The literals that the robot sees in the state, in the order of the fluents."""
@@ -236,11 +239,16 @@ class World(ABC):
         """The fluents of which the robot sees whether they hold, one bit each."""
 
     def _successors(self, state: int, compound: frozenset[Action]) -> tuple[int, ...]:
+        return self._transitions(state, self._known(compound))
+
+    def _known(self, actions: Iterable[Action]) -> frozenset[Action]:
+        """The compound action. Raises UnknownActionError."""
+        compound = frozenset(actions)
         unknown = sorted(compound - self._actions)
         if unknown:
             name = self.description.name
             raise UnknownActionError(f"{unknown[0]} is not an action of the domain {name}")
-        return self._transitions(state, compound)
+        return compound
 
     def _numbered(self, literal: Literal) -> tuple[int, bool]:
         """The number of a literal's fluent, and its sign. Raises UnknownFluentError."""

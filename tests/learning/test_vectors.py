@@ -157,6 +157,7 @@ def test_a_state_that_a_table_lacks_is_told_and_the_games_begin_anew() -> None:
     "options",
     [
         {"robot": {0: 99}},
+        {"robot": np.zeros(5, int)},
         {"robot": {"kitchen": 1}},
         {"robot": CHEAPEST, "link": "zenoh"},
         {"robot": CHEAPEST, "observations": "long"},
@@ -177,9 +178,13 @@ def test_what_tables_do_not_have_is_refused() -> None:
             AdversaryVectorEnv(2, **options)
     with pytest.raises(ConfigError, match="num_envs"):
         AdversaryVectorEnv(0)
+    with pytest.raises(ConfigError, match="num_envs"):
+        gymnasium.make_vec(ID, 0, robot="traditional")
     env = AdversaryVectorEnv(2)
     with pytest.raises(IllegalActionError):
         env.step([0, 0])
+    with pytest.raises(IllegalActionError):
+        env.action_masks()
     with pytest.raises(UnknownOptionError):
         env.reset(options={"inital": []})
     with pytest.raises(ResetOptionError):

@@ -9,8 +9,13 @@ from typer.testing import CliRunner
 
 from testbed.cli import app
 from testbed.stress import findings
+from testbed.stress.cases import cases_of
+from testbed.stress.catalogue import Kind
 from testbed.stress.journal import JOURNAL
-from tests.stress.domains import write_search
+from testbed.stress.shrinking import Shrunk
+from testbed.stress.stories import write_stories
+from testbed.stress.verdicts import Finding
+from tests.stress.domains import search_in, write_search
 
 ONE = ["--events", "1"]
 
@@ -115,6 +120,38 @@ def test_a_robot_that_cannot_go_back_is_refused_in_one_line(tmp_path: Path, robo
     assert (done.exit_code, robot in line) == (2, True)
 
 
+@pytest.mark.parametrize(
+    "robot", ["Plain", "NoTrace", "NoBelief", "Elsewhere", "Flies", "Breaks", "Surrogate", "Never"]
+)
+def test_whatever_a_robot_says_is_told_and_replays(tmp_path: Path, robot: str) -> None:
+    config = write_search(tmp_path, "greenhouse")
+    (tmp_path / "robots_that_talk.py").write_text(TALKS, encoding="utf-8")
+    folder = tmp_path / "found"
+    given = [f"robots=[robots_that_talk:{robot}]", "limit=1", "--events", "1"]
+    objectives = "stress.objectives=[fail, principles, reasoning]"
+    command = ["stress", str(config), *given, objectives, "--out", str(folder)]
+    done = CliRunner().invoke(app, command)
+    assert (done.exit_code, done.exception) == (1, None) or isinstance(done.exception, SystemExit)
+    stories = [*folder.glob("story-*.yaml")]
+    assert stories
+    for story in stories:
+        assert findings(story)
+    again = CliRunner().invoke(app, [*command, "--resume"])
+    assert again.exit_code == 1
+
+
+def test_stories_of_an_earlier_part_are_replaced_and_no_other_file(tmp_path: Path) -> None:
+    config = search_in(tmp_path, "greenhouse")
+    (tmp_path / "story-mine.yaml").write_text("mine", encoding="utf-8")
+    case = cases_of(config)[0]
+    finding = Finding("fail", "gave_up", None, "nothing")
+    told = Shrunk(case, (), 1, None, finding)
+    for rule in ("gave_up", "step_limit"):
+        write_stories(tmp_path, config, {Kind(case.robot, "fail", rule, ()): told})
+    left = {own.name for own in tmp_path.glob("story-*")}
+    assert left == {"story-mine.yaml", f"story-{case.robot}-fail-step-limit.yaml"}
+
+
 def test_a_finding_that_is_not_there_again_is_told_as_such(tmp_path: Path) -> None:
     config = write_search(tmp_path, "greenhouse")
     (tmp_path / "robots_that_trip_once.py").write_text(STRAYS, encoding="utf-8")
@@ -140,6 +177,52 @@ class Trips:
         raise RuntimeError("tripped over a pot")
 """
 
+TALKS = """\
+from asp.language import Literal
+from testbed.protocol import FINISH, WAIT, Capabilities, Decision, Trace
+
+
+class Plain:
+    capabilities = Capabilities()
+    action, named, trace, stopped = "finish", None, Trace(), None
+
+    def begin(self, task):
+        pass
+
+    def act(self, percept):
+        return Decision(trial=self.named or percept.trial, step=percept.step, action=self.action,
+                        believes_goal=False, trace=self.trace, stopped=self.stopped)
+
+
+class NoTrace(Plain):
+    trace = None
+
+
+class NoBelief(Plain):
+    trace = Trace(belief=[5])
+
+
+class Elsewhere(Plain):
+    named = "another"
+
+
+class Flies(Plain):
+    action = WAIT
+    trace = Trace(belief=["stands(fern,bench)", "stands(rose,bench)"], plan=["fly(moon)"],
+                  mental="stop(1)", intention="stop(1)")
+
+
+class Breaks(Plain):
+    trace = Trace(reason="a\\nb: [c \\x1b[31m")
+
+
+class Surrogate(Plain):
+    stopped = "\\udce9 caf\\ny: ["
+
+
+class Never(Plain):
+    trace = Trace(planning_cpu_s=float("nan"))
+"""
 STRAYS = """\
 from itertools import count
 

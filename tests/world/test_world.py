@@ -156,6 +156,8 @@ def test_what_is_no_initial_state(world: World, literals: list[str], message: st
 def test_an_unknown_action_is_named(world: World) -> None:
     with pytest.raises(UnknownActionError, match=r"fly\(rob1,kitchen\) is not an action"):
         world.successors(world.state(SCENARIO_1), ["fly(rob1,kitchen)"])
+    with pytest.raises(UnknownActionError):
+        world.forbidding(world.state(SCENARIO_1), ["fly(rob1,kitchen)"])
 
 
 def test_several_outcomes_are_all_found_and_none_is_taken_for_the_one() -> None:
