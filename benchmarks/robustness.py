@@ -58,7 +58,13 @@ HUNTS: Mapping[str, Hunt] = {
         24,
         3,
         "relevance: [definition, published]",
-        ["levels=[L1, L2, L3]", "limit=4", "adversary.rate=0", "statistics={}"],
+        [
+            "levels=[L1, L2, L3]",
+            "limit=2",
+            "stress.branches=100",
+            "adversary.rate=0",
+            "statistics={}",
+        ],
     ),
     "joint": Hunt("stress", ["intentional-joint-staged"], 12, 2, more=["limit=1"]),
 }
