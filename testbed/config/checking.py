@@ -150,11 +150,13 @@ def _domain_findings(
             yield ("domain",), str(error)
     if not config.goal:
         yield ("goal",), f"should not be empty; for example {GOAL}"
-    yield from event_findings(config.adversary, signature)
+    wrong_events = [*event_findings(config.adversary, signature)]
+    yield from wrong_events
     goals, states = goals_of(world, signature), Diction(signature, world.state)
     yield from _said((), config, goals, states)
     played = scenarios_of(config, known)
-    yield from refused_script_findings(config, played)
+    if not wrong_events:  # else scripts are not what is wrong
+        yield from refused_script_findings(config, played)
     for scenario, own in config.scenario_settings.items():
         if scenario in played:  # what is said of others is left alone
             yield from _said(("scenario_settings", scenario), own, goals, states)
@@ -185,11 +187,13 @@ def _level_findings(config: ExperimentConfig, refinement: Refinement) -> Iterato
     why = "no such action at this resolution"
     yield from _names(("observability",), config.observability, weak, "exogenous", why)
     yield from _names(("statistics",), config.statistics, refinement.strong_signature, "agent", why)
-    yield from event_findings(config.adversary, weak)
+    wrong_events = [*event_findings(config.adversary, weak)]
+    yield from wrong_events
     goals = Diction(coarse, lambda given: world_of(refinement.description).check_together(given))
     states = Diction(weak, lambda given: world_of(refinement).state(given))
     yield from _said((), config, goals, states)
-    yield from refused_script_findings(config, ())
+    if not wrong_events:  # else scripts are not what is wrong
+        yield from refused_script_findings(config, ())
 
 
 def _drawn_findings(draw: Drawing, signature: Signature) -> Iterator[Finding]:
