@@ -15,13 +15,8 @@ from testbed.experiment.storyteller import Moment, Storyteller
 from testbed.experiment.trial import play_trial
 from testbed.link import InProcessRobot
 from testbed.protocol import Decision, Percept, Trace
-from testbed.world import World, load_world
+from testbed.world import World
 from tests.experiment.samples import Configure
-
-
-@pytest.fixture(scope="module")
-def world() -> World:
-    return load_world("office")
 
 
 def _run(folder: Path, configure: Configure) -> list[TrialRecord]:

@@ -1,0 +1,1 @@
+"""What tests of robots, adversaries and domains use: fixtures (`testbed.testing.plugin`)."""
