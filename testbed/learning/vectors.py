@@ -54,7 +54,7 @@ def make_vector(
 class AdversaryVectorEnv(VectorEnv[Any, Any, Any]):
     """The adversary's side of N games against a table robot, of which a step is a `Batch`'s.
 
-    What is returned is what a `SyncVectorEnv` of N environments `AdversaryEnv` returns; draws are
+    It returns the same as a `SyncVectorEnv` of N environments `AdversaryEnv`; draws are
     those of a batch. `reset` takes one seed, and of the options `reset_mask`, (N,) of bool: the
     games that begin anew.
 

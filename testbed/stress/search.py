@@ -25,10 +25,10 @@ TURNS = 6
 class Search:
     """Gives out units, and hears what came of them.
 
-    Of three units one is a draw, where `stress.vary` lists what is drawn or several events may
-    happen, and one is what is behind an episode in which nothing was found, up to `stress.events`:
+    Of six turns one is for a draw, where `stress.vary` lists what is drawn or several events may
+    happen, and one for what is behind an episode in which nothing was found, up to `stress.events`:
     where events have a rate the likeliest of all cases (uniform-cost search), for which all have to
-    be explored; else of each case in turn that of the greatest score. The others explore: every
+    be explored; else of each case in turn that of the greatest score. Four explore: every
     case with no and with one event, in an order drawn with the seed of the configuration.
     """
 
